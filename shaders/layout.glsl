@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Bindings, sentinels and packed layouts that C++ and GLSL share (src/shader/layout.h includes this file).
 
-// Scene buffers: each is read through one function (src/shader/reads_text.cpp).
+// Scene buffers: each is read through one function (src/shader/assemble.cpp).
 const uint kNodesBinding = 0u;         // kNodeRows uvec4 a node; behind them kInstanceRows an instance
 const uint kLeavesBinding = 1u;        // 5 uvec4 a leaf: two primitives, structure of arrays
 // kFaceRows uvec4 a leaf slot (leaf * 2 + side): what shading needs of a primitive; behind them 1 a slot: kCreases

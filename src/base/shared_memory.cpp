@@ -10,7 +10,6 @@
 #include <cstring>
 #include <new>
 #include <stdexcept>
-#include <string>
 #include <system_error>
 
 namespace fragtrace {

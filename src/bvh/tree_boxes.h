@@ -2,7 +2,6 @@
 // The boxes of a level of the tree, and their edges as lines in a picture.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 

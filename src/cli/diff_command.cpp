@@ -8,7 +8,6 @@
 #include "cli/commands.h"
 #include "image/compare/difference.h"
 #include "image/compare/flip.h"
-#include "image/format.h"
 #include "image/image.h"
 #include "options/choose.h"
 #include "options/numbers.h"

@@ -3,8 +3,6 @@
 // them as laid over white: linear R, G and B, each + 1 - A.
 #pragma once
 
-#include <optional>
-
 #include "image/image.h"
 
 namespace fragtrace {

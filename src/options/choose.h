@@ -2,9 +2,7 @@
 // Options whose value is one of some names.
 #pragma once
 
-#include <span>
 #include <string>
-#include <vector>
 
 #include "base/errors.h"
 #include "scene/parts.h"

@@ -5,7 +5,6 @@
 
 #include <functional>
 #include <initializer_list>
-#include <span>
 #include <string>
 #include <variant>
 #include <vector>

@@ -3,7 +3,6 @@
 
 #include <cctype>
 #include <cstdio>
-#include <cstdlib>
 
 #include "base/errors.h"
 

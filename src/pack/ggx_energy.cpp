@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "pack/ggx_energy.h"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <utility>
 
+#include "pack/energy_tables.h"
 #include "pack/visible_normals.h"
 
 namespace fragtrace {
@@ -25,47 +25,43 @@ double albedo(double cosine, double alpha) {
 }
 
 GgxEnergyTable makeTable() {
-  constexpr int kNodes = GgxEnergyTable::kNodes;
-  GgxEnergyTable table;
-  for (int j = 0; j < kNodes; ++j) {
-    const double y = double(j) / kGgxEnergyCells;
-    for (int i = 0; i < kNodes; ++i) {
-      const double x = double(i) / kGgxEnergyCells;
-      table.loss.push_back(float(1.0 - albedo(x * x, y * y)));
-    }
-  }
+  GgxEnergyTable table{energyTableOf([](double cosine, double alpha) { return 1.0 - albedo(cosine, alpha); }),
+                       {}};
   // 2 * integral of loss(mu) mu dmu, by the same interpolation as in the shader, so that interpolation gains
   // or loses no light.
-  for (int j = 0; j < kNodes; ++j) {
-    const double y = double(j) / kGgxEnergyCells;
+  for (int j = 0; j < EnergyTable::kNodes; ++j) {
+    const double y = double(j) / EnergyTable::kCells;
     constexpr int kSteps = 1024;
     double sum = 0.0;
     for (int k = 0; k < kSteps; ++k) {
       const double mu = (k + 0.5) / kSteps;
-      sum += 2.0 * mu * ggxLoss(table, float(mu), float(y * y)) / kSteps;
+      sum += 2.0 * mu * table.loss.at(float(mu), float(y * y)) / kSteps;
     }
     table.averageLoss.push_back(float(sum));
   }
   return table;
 }
 
-}  // namespace
-
-float ggxLoss(const GgxEnergyTable& table, float cosine, float alpha) {
-  const float x = std::sqrt(std::clamp(cosine, 0.0f, 1.0f)) * kGgxEnergyCells;
-  const float y = std::sqrt(std::clamp(alpha, 0.0f, 1.0f)) * kGgxEnergyCells;
-  const int i = std::min(int(x), kGgxEnergyCells - 1);
-  const int j = std::min(int(y), kGgxEnergyCells - 1);
-  const float* row = table.loss.data() + size_t(j) * GgxEnergyTable::kNodes + size_t(i);
-  const float low = glm::mix(row[0], row[1], x - float(i));
-  const float high = glm::mix(row[GgxEnergyTable::kNodes], row[GgxEnergyTable::kNodes + 1], x - float(i));
-  return glm::mix(low, high, y - float(j));
+/// The cell in which a cosine or an alpha lies, and how far along it, 0 to 1.
+std::pair<size_t, float> placeOf(float value) {
+  const float place = std::sqrt(std::clamp(value, 0.0f, 1.0f)) * EnergyTable::kCells;
+  const int cell = std::min(int(place), EnergyTable::kCells - 1);
+  return {size_t(cell), place - float(cell)};
 }
 
-float ggxAverageLoss(const GgxEnergyTable& table, float alpha) {
-  const float y = std::sqrt(std::clamp(alpha, 0.0f, 1.0f)) * kGgxEnergyCells;
-  const int j = std::min(int(y), kGgxEnergyCells - 1);
-  return glm::mix(table.averageLoss[size_t(j)], table.averageLoss[size_t(j) + 1], y - float(j));
+}  // namespace
+
+float EnergyTable::at(float cosine, float alpha) const {
+  const auto [i, x] = placeOf(cosine);
+  const auto [j, y] = placeOf(alpha);
+  const float* low = nodes.data() + j * kNodes + i;
+  const float* high = low + kNodes;
+  return glm::mix(glm::mix(low[0], low[1], x), glm::mix(high[0], high[1], x), y);
+}
+
+float GgxEnergyTable::averageAt(float alpha) const {
+  const auto [j, y] = placeOf(alpha);
+  return glm::mix(averageLoss[j], averageLoss[j + 1], y);
 }
 
 const GgxEnergyTable& ggxEnergyTable() {

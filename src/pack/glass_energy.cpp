@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "pack/glass_energy.h"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <map>
 #include <mutex>
 
-#include "pack/ggx_energy.h"
+#include "pack/energy_tables.h"
 #include "pack/visible_normals.h"
 
 namespace fragtrace {
@@ -48,17 +46,8 @@ double glassAlbedo(double cosine, double alpha, double eta) {
       });
 }
 
-std::vector<float> makeSide(double eta) {
-  std::vector<float> nodes;
-  nodes.reserve(size_t(GgxEnergyTable::kNodes) * GgxEnergyTable::kNodes);
-  for (int j = 0; j < GgxEnergyTable::kNodes; ++j) {
-    const double y = double(j) / kGgxEnergyCells;
-    for (int i = 0; i < GgxEnergyTable::kNodes; ++i) {
-      const double x = double(i) / kGgxEnergyCells;
-      nodes.push_back(float(glassAlbedo(x * x, y * y, eta)));
-    }
-  }
-  return nodes;
+EnergyTable sideOf(double eta) {
+  return energyTableOf([eta](double cosine, double alpha) { return glassAlbedo(cosine, alpha, eta); });
 }
 
 }  // namespace
@@ -68,7 +57,7 @@ const GlassAlbedoTable& glassAlbedoTable(double ior) {
   static std::map<double, GlassAlbedoTable> tables;
   const std::scoped_lock lock(mutex);
   const auto [place, isNew] = tables.try_emplace(ior);
-  if (isNew) place->second = {makeSide(ior), makeSide(1.0 / ior)};
+  if (isNew) place->second = {sideOf(ior), sideOf(1.0 / ior)};
   return place->second;
 }
 

@@ -13,7 +13,6 @@
 #include "base/parallel.h"
 #include "pack/environment_light.h"
 #include "pack/inversion_table.h"
-#include "pack/pack_lights.h"
 #include "pack/words.h"
 
 namespace fragtrace {

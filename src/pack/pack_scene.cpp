@@ -4,9 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "pack/energy_tables.h"
 #include "pack/environment_light.h"
-#include "pack/ggx_energy.h"
-#include "pack/glass_energy.h"
 #include "pack/gpu_scene.h"
 #include "pack/kept_arrays.h"
 #include "pack/pack_environment.h"
@@ -16,7 +15,6 @@
 #include "pack/pack_lights.h"
 #include "pack/pack_textures.h"
 #include "pack/pack_tree.h"
-#include "pack/sheen_albedo.h"
 #include "pack/words.h"
 #include "scene/casters.h"
 #include "shader/glass_tables.h"
@@ -142,12 +140,11 @@ void appendMaterial(Words& words, const Material& m, double unit, double emitter
 }
 
 /// One row a cell of a table with the values at its four corners (shaders/energy.glsl).
-void appendCells(Words& words, const std::vector<float>& nodes) {
-  constexpr size_t kCells = layout::kEnergyCells;
-  constexpr size_t kNodes = kCells + 1;
-  for (size_t j = 0; j < kCells; ++j) {
-    for (size_t i = 0; i < kCells; ++i) {
-      const float* corner = nodes.data() + j * kNodes + i;
+void appendCells(Words& words, const EnergyTable& table) {
+  constexpr size_t kNodes = EnergyTable::kNodes;
+  for (size_t j = 0; j < EnergyTable::kCells; ++j) {
+    for (size_t i = 0; i < EnergyTable::kCells; ++i) {
+      const float* corner = table.nodes.data() + j * kNodes + i;
       appendRow(words, {corner[0], corner[1], corner[kNodes], corner[kNodes + 1]});
     }
   }
@@ -155,10 +152,9 @@ void appendCells(Words& words, const std::vector<float>& nodes) {
 
 /// The cells of the loss, then one row a cell of the average loss.
 void appendEnergyTable(Words& words) {
-  static_assert(kGgxEnergyCells == layout::kEnergyCells);
   const GgxEnergyTable& table = ggxEnergyTable();
   appendCells(words, table.loss);
-  for (size_t j = 0; j < kGgxEnergyCells; ++j) {
+  for (size_t j = 0; j < EnergyTable::kCells; ++j) {
     appendRow(words, {table.averageLoss[j], table.averageLoss[j + 1], 0.0f, 0.0f});
   }
 }
@@ -282,8 +278,7 @@ void packMaterials(const Scene& scene, const Bvh& bvh, const ShaderVariant& vari
                    tableOf(glass, scene.materials[i]), traits, textures);
   }
   textures.appendTransforms(materials);
-  static_assert(SheenAlbedoTable::kCells == layout::kEnergyCells);
-  if (has(traits, Trait::Sheen)) appendCells(materials, sheenAlbedoTable().albedo);
+  if (has(traits, Trait::Sheen)) appendCells(materials, sheenAlbedoTable());
   packed.energyTableRow = uint32_t(materials.size() / 4);
   if (has(variant.stages, Stage::EnergyCompensation)) appendEnergyTable(materials);
   for (const float ior : glass) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "pack/sheen_albedo.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <glm/gtc/constants.hpp>
+
+#include "pack/energy_tables.h"
 
 namespace fragtrace {
 
@@ -46,11 +46,14 @@ std::array<Height, kHeights> heightsOf(double alpha) {
   return heights;
 }
 
-double albedo(double cosine, double alpha, const std::array<Height, kHeights>& heights) {
+/// Cosine and alpha are kept away from 0, alpha below what shaders use.
+double albedo(double cosine, double alpha) {
+  cosine = std::max(cosine, 1e-4);
+  alpha = std::max(alpha, 0.03 * 0.03);
   const double sine = std::sqrt(1.0 - cosine * cosine);
   const double lambdaOut = lambda(cosine, alpha);
   double sum = 0.0;
-  for (const Height& in : heights) {
+  for (const Height& in : heightsOf(alpha)) {
     double around = 0.0;
     for (int j = 0; j < kTurns; ++j) {
       // The integrand is even in phi, so half of the circle is enough.
@@ -64,40 +67,11 @@ double albedo(double cosine, double alpha, const std::array<Height, kHeights>& h
   return (2.0 + 1.0 / alpha) * sum / (4.0 * cosine);
 }
 
-SheenAlbedoTable makeTable() {
-  constexpr int kNodes = SheenAlbedoTable::kNodes;
-  constexpr double kLeastRoughness = 0.03;  // below what shaders use
-  constexpr double kLeastCosine = 1e-4;
-  SheenAlbedoTable table;
-  for (int j = 0; j < kNodes; ++j) {
-    const double roughness = std::max(double(j) / SheenAlbedoTable::kCells, kLeastRoughness);
-    const auto heights = heightsOf(roughness * roughness);
-    for (int i = 0; i < kNodes; ++i) {
-      const double root = double(i) / SheenAlbedoTable::kCells;
-      table.albedo.push_back(
-          float(albedo(std::max(root * root, kLeastCosine), roughness * roughness, heights)));
-    }
-  }
-  return table;
-}
-
 }  // namespace
 
-const SheenAlbedoTable& sheenAlbedoTable() {
-  static const SheenAlbedoTable table = makeTable();
+const EnergyTable& sheenAlbedoTable() {
+  static const EnergyTable table = energyTableOf(albedo);
   return table;
-}
-
-float sheenAlbedo(const SheenAlbedoTable& table, float cosine, float alpha) {
-  constexpr int kCells = SheenAlbedoTable::kCells;
-  const float x = std::sqrt(std::clamp(cosine, 0.0f, 1.0f)) * kCells;
-  const float y = std::sqrt(std::clamp(alpha, 0.0f, 1.0f)) * kCells;
-  const int i = std::min(int(x), kCells - 1);
-  const int j = std::min(int(y), kCells - 1);
-  const float* row = table.albedo.data() + size_t(j) * SheenAlbedoTable::kNodes + size_t(i);
-  const float* above = row + SheenAlbedoTable::kNodes;
-  return glm::mix(glm::mix(row[0], row[1], x - float(i)), glm::mix(above[0], above[1], x - float(i)),
-                  y - float(j));
 }
 
 }  // namespace fragtrace

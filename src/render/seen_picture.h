@@ -6,7 +6,6 @@
 #include "render/film.h"
 #include "render/noisy_textures.h"
 #include "render/picture_passes.h"
-#include "scene/camera.h"
 
 namespace fragtrace {
 

@@ -9,7 +9,6 @@
 #include <limits>
 
 #include "base/bounds.h"
-#include "scene/projection.h"
 
 namespace fragtrace {
 namespace {

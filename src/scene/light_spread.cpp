@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scene/light_spread.h"
 
-#include <cmath>
 #include <vector>
 
 #include "base/luminance.h"

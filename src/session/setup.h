@@ -3,9 +3,7 @@
 #pragma once
 
 #include <chrono>
-#include <functional>
 #include <memory>
-#include <span>
 
 #include "bvh/refit.h"
 #include "gltf/gltf.h"

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "bvh/bvh.h"
-#include "gl/context.h"
 #include "render/film/film_pixels.h"
 #include "render/renderer.h"
 #include "scene/describe.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "session/tracer.h"
 
-#include <algorithm>
 #include <future>
 #include <iomanip>
 #include <sstream>

@@ -1,20 +1,83 @@
 // SPDX-License-Identifier: MIT
 #include "shader/assemble.h"
 
+#include <array>
 #include <fstream>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 #include "base/errors.h"
 #include "shader/embedded.h"
 #include "shader/glass_tables.h"
+#include "shader/layout.h"
 #include "shader/live_text.h"
-#include "shader/reads_text.h"
 #include "shader/stack_text.h"
 
 namespace fragtrace {
 
 namespace {
+
+/// Scene buffers by binding; layout.glsl has k...Binding of each.
+constexpr std::array<std::string_view, layout::kSceneBufferCount> kSceneBuffers{
+    "Nodes",  "Leaves",   "Faces",  "Normals",     "Texcoords",           "Tangents", "Colors", "Materials",
+    "Texels", "Emitters", "Lights", "Environment", "EnvironmentInversion"};
+
+/// "Nodes": "nodesBuffer".
+std::string variableOf(std::string_view name) {
+  std::string variable = std::string(name) + "Buffer";
+  variable[0] += 'a' - 'A';
+  return variable;
+}
+
+/// The function that reads a buffer, readNodes() and so on, for the kind of buffer that the variant names.
+std::string readOf(std::string_view name, BufferReads reads) {
+  const bool two = name == "Texels";  // words
+  const std::string type = two ? "uvec2" : "uvec4";
+  const std::string variable = variableOf(name);
+  const std::string binding = "k" + std::string(name) + "Binding";
+  std::string declared;
+  std::string value;
+  switch (reads) {
+    case BufferReads::Image:
+      declared = "layout(" + std::string(two ? "rg32ui" : "rgba32ui") + ", binding = kSceneImageBase + " +
+                 binding + ") uniform readonly restrict uimageBuffer " + variable;
+      value = "imageLoad(" + variable + ", index)";
+      break;
+    case BufferReads::Texel:
+      declared = "layout(binding = " + binding + ") uniform usamplerBuffer " + variable;
+      value = "texelFetch(" + variable + ", index)";
+      break;
+    default:
+      declared = "layout(std430, binding = " + binding + ") readonly restrict buffer " + std::string(name) +
+                 "Block { " + type + " " + variable + "[]; }";
+      value = variable + "[index]";
+  }
+  if (two && reads != BufferReads::Ssbo) value += ".xy";
+  return declared + ";\n" + type + " read" + std::string(name) + "(int index) { return " + value + "; }\n";
+}
+
+/// The scene buffers and their functions.
+std::string readsText(BufferReads reads) {
+  std::string text;
+  for (const std::string_view name : kSceneBuffers) text += readOf(name, reads);
+  return text;
+}
+
+/// The buffer of path states, which the tracer writes as pathStates[], and readPathStates(). imageUnit:
+/// through which it is read, since llvmpipe reads images five times as fast; -1: through the buffer itself.
+std::string pathStatesText(int imageUnit) {
+  // Neither is `restrict`: image and buffer are the same memory.
+  std::string text =
+      "layout(std430, binding = kPathStatesBinding) buffer PathStatesBlock { uvec4 pathStates[]; };\n";
+  std::string value = "pathStates[index]";
+  if (imageUnit >= 0) {
+    text += "layout(rgba32ui, binding = " + std::to_string(imageUnit) +
+            ") uniform readonly uimageBuffer pathStatesImage;\n";
+    value = "imageLoad(pathStatesImage, index)";
+  }
+  return text + "uvec4 readPathStates(int index) { return " + value + "; }\n";
+}
 
 std::string shaderText(const ShaderSource& source, const std::string& name, const std::string& includedFrom) {
   const std::string where = includedFrom.empty() ? "" : " (included from " + includedFrom + ")";

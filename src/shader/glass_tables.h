@@ -6,7 +6,7 @@
 
 namespace fragtrace {
 
-/// Returns true if the tables of src/pack/glass_energy.h hold for the loss. No table knows the facets that
+/// Returns true if the tables of src/pack/glass_energy.cpp hold for the loss. No table knows the facets that
 /// these traits change, and samples would not follow their density.
 inline bool usesGlassTables(const ShaderVariant& v) {
   if (!has(v.traits, Trait::RoughGlass) || !has(v.stages, Stage::EnergyCompensation)) return false;

@@ -1,10 +1,327 @@
 // SPDX-License-Identifier: MIT
 #include "shader/live_text.h"
 
-#include "shader/settled.h"
-#include "shader/unused.h"
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <map>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "shader/tokens.h"
 
 namespace fragtrace {
+namespace {
+
+/// The values of `const bool` and `const int` at the top of a shader, as far as they are known.
+using ShaderConstants = std::map<std::string_view, int>;
+
+using Tokens = std::span<const Token>;
+
+/// The index of an operator that stands in no bracket, or the number of tokens.
+size_t findOutside(Tokens tokens, std::string_view wanted) {
+  int depth = 0;
+  for (size_t i = 0; i < tokens.size(); ++i) {
+    const char c = tokens[i].text[0];
+    depth += c == '(' || c == '[' || c == '{';
+    depth -= c == ')' || c == ']' || c == '}';
+    if (depth == 0 && tokens[i].text == wanted) return i;
+  }
+  return tokens.size();
+}
+
+/// As a whole.
+bool isInBrackets(Tokens tokens) {
+  return !tokens.empty() && tokens[0].text == "(" && findOutside(tokens, ")") == tokens.size() - 1;
+}
+
+std::optional<int> numberOf(const Token& token, const ShaderConstants& constants) {
+  const auto found = constants.find(token.text);
+  if (found != constants.end()) return found->second;
+  if (token.text == "true") return 1;
+  if (token.text == "false") return 0;
+  int value = 0;
+  const char* end = token.text.data() + token.text.size();
+  const auto read = std::from_chars(token.text.data(), end, value);
+  if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
+  return value;
+}
+
+std::optional<bool> compare(int a, std::string_view comparison, int b) {
+  if (comparison == "==") return a == b;
+  if (comparison == "!=") return a != b;
+  if (comparison == "<") return a < b;
+  if (comparison == ">") return a > b;
+  if (comparison == "<=") return a <= b;
+  if (comparison == ">=") return a >= b;
+  return std::nullopt;
+}
+
+/// A call or an assignment, which may do more than have a value.
+bool mayAct(Tokens tokens) {
+  return std::ranges::any_of(tokens, [](const Token& token) {
+    return token.text == "(" || token.text.ends_with('=') || token.text == "++" || token.text == "--";
+  });
+}
+
+/// The value of a condition; nothing if constants alone do not decide it.
+std::optional<bool> conditionValue(Tokens condition, const ShaderConstants& constants);
+
+/// `decisive` on either side settles the whole.
+std::optional<bool> joined(Tokens left, Tokens right, bool decisive, const ShaderConstants& constants) {
+  const auto a = conditionValue(left, constants);
+  const auto b = conditionValue(right, constants);
+  if (a == decisive || (b == decisive && (a || !mayAct(left)))) return decisive;
+  return a && b ? std::optional(!decisive) : std::nullopt;
+}
+
+std::optional<bool> conditionValue(Tokens condition, const ShaderConstants& constants) {
+  if (condition.empty() || findOutside(condition, "?") < condition.size()) return std::nullopt;
+  for (const auto& [text, decisive] : {std::pair("||", true), std::pair("&&", false)}) {
+    const size_t at = findOutside(condition, text);
+    if (at < condition.size())
+      return joined(condition.first(at), condition.subspan(at + 1), decisive, constants);
+  }
+  const std::string_view first = condition[0].text;
+  const Tokens rest = condition.subspan(1);
+  if (first == "!" && (rest.size() == 1 || isInBrackets(rest))) {
+    const auto value = conditionValue(rest, constants);
+    return value ? std::optional(!*value) : std::nullopt;
+  }
+  if (isInBrackets(condition)) return conditionValue(rest.first(rest.size() - 1), constants);
+  if (condition.size() == 1) {
+    const auto value = numberOf(condition[0], constants);
+    return value ? std::optional(*value != 0) : std::nullopt;
+  }
+  if (condition.size() != 3) return std::nullopt;
+  const auto a = numberOf(condition[0], constants);
+  const auto b = numberOf(condition[2], constants);
+  return a && b ? compare(*a, condition[1].text, *b) : std::nullopt;
+}
+
+/// The constants of a whole text.
+ShaderConstants constantsOf(Tokens tokens) {
+  constexpr size_t kHead = 4;  // const bool name =
+  ShaderConstants constants;
+  for (size_t i = 0; i + kHead < tokens.size(); ++i) {
+    if (tokens[i].text == "{") i = tokens[i].partner;
+    if (i + kHead >= tokens.size()) break;
+    if (tokens[i].text != "const" || tokens[i + 3].text != "=") continue;
+    const std::string_view type = tokens[i + 1].text;
+    const Tokens rest = tokens.subspan(i + kHead);
+    const Tokens value = rest.first(findOutside(rest, ";"));
+    std::optional<int> known;
+    if (type == "bool") known = conditionValue(value, constants);
+    if (type == "int" && value.size() == 1) known = numberOf(value[0], constants);
+    if (known) constants[tokens[i + 2].text] = *known;
+  }
+  return constants;
+}
+
+constexpr size_t kNowhere = size_t(-1);
+
+/// Indices of tokens: [first, last).
+struct TokenRange {
+  size_t first = 0;
+  size_t last = 0;
+};
+
+class Settler {
+ public:
+  Settler(std::vector<Token>& tokens, const ShaderConstants& constants)
+      : tokens_(tokens), constants_(constants) {}
+
+  void settle() {
+    for (size_t i = 0; i < tokens_.size(); ++i) {
+      if (is(i, "if") || is(i, "while")) settleBranch(i);
+      if (is(i, "?")) settleChoice(i);
+    }
+  }
+
+ private:
+  bool is(size_t i, std::string_view text) const { return i < tokens_.size() && tokens_[i].text == text; }
+  bool isOneOf(size_t i, std::string_view letters) const {
+    return tokens_[i].text.size() == 1 && letters.find(tokens_[i].text[0]) != std::string_view::npos;
+  }
+
+  void drop(TokenRange range) {
+    for (size_t i = range.first; i < range.last; ++i) tokens_[i].live = false;
+  }
+
+  std::optional<bool> valueOf(TokenRange range) const {
+    return conditionValue(std::span(tokens_).subspan(range.first, range.last - range.first), constants_);
+  }
+
+  /// Behind the statement that begins at i, or kNowhere.
+  size_t endOfStatement(size_t i) const {
+    if (is(i, "{")) return tokens_[i].partner + 1;
+    if ((is(i, "if") || is(i, "while") || is(i, "for")) && is(i + 1, "(")) {
+      const size_t end = endOfStatement(tokens_[i + 1].partner + 1);
+      return is(i, "if") && end != kNowhere && is(end, "else") ? endOfStatement(end + 1) : end;
+    }
+    if (is(i, "do") || is(i, "switch") || is(i, "else")) return kNowhere;
+    for (; i < tokens_.size() && !is(i, ";"); ++i) {
+      if (isOneOf(i, "([{")) i = tokens_[i].partner;
+      if (isOneOf(i, "}#")) return kNowhere;
+    }
+    return i < tokens_.size() ? i + 1 : kNowhere;
+  }
+
+  /// Leaves of a statement what is one that does nothing.
+  void empty(TokenRange statement) {
+    const size_t last = statement.last - 1;
+    const size_t first = is(last, "}") ? tokens_[last].partner : last;
+    drop({statement.first, first});
+    drop({first + 1, last});
+  }
+
+  /// if and while whose condition the constants settle.
+  void settleBranch(size_t i) {
+    if (!tokens_[i].live || !is(i + 1, "(")) return;
+    const size_t close = tokens_[i + 1].partner;
+    const auto holds = valueOf({i + 2, close});
+    if (!holds || (*holds && is(i, "while"))) return;
+    const size_t end = endOfStatement(close + 1);
+    if (end == kNowhere) return;
+    const bool otherwise = is(i, "if") && is(end, "else");
+    const size_t last = otherwise ? endOfStatement(end + 1) : end;
+    if (last == kNowhere) return;
+    drop({i, close + 1});
+    if (*holds) {
+      drop({end, last});
+    } else if (otherwise) {
+      drop({close + 1, end + 1});
+    } else {
+      empty({close + 1, end});
+    }
+  }
+
+  /// a ? b : c whose condition the constants settle. It stands alone, so what is left needs no brackets.
+  void settleChoice(size_t i) {
+    if (!tokens_[i].live) return;
+    size_t first = i;
+    while (first > 0 && !isOneOf(first - 1, "([{,;?:=") && !is(first - 1, "return")) {
+      const bool closes = isOneOf(first - 1, ")]");
+      if (!closes && !isName(tokens_[first - 1]) && !isPartOfCondition(first - 1)) return;
+      first = closes ? tokens_[first - 1].partner : first - 1;
+    }
+    const auto holds = valueOf({first, i});
+    if (!holds) return;
+    const size_t colon = endOfChoice(i + 1, ":");
+    const size_t end = colon == kNowhere ? kNowhere : endOfChoice(colon + 1, ":,;)]}");
+    if (end == kNowhere) return;
+    drop(*holds ? TokenRange{first, i + 1} : TokenRange{first, colon + 1});
+    if (*holds) drop({colon, end});
+  }
+
+  bool isPartOfCondition(size_t i) const {
+    static constexpr std::array<std::string_view, 9> kParts{"!",  "==", "!=", "<", ">",
+                                                            "<=", ">=", "&&", "||"};
+    return std::ranges::find(kParts, tokens_[i].text) != kParts.end() ||
+           std::isdigit(static_cast<unsigned char>(tokens_[i].text[0])) != 0;
+  }
+
+  /// The first of the ends that belongs to no bracket and no choice within.
+  size_t endOfChoice(size_t i, std::string_view ends) const {
+    int choices = 0;
+    for (; i < tokens_.size(); ++i) {
+      if (isOneOf(i, "([{"))
+        i = tokens_[i].partner;
+      else if (choices == 0 && isOneOf(i, ends))
+        return i;
+      else if (isOneOf(i, ",;)]}"))
+        return kNowhere;
+      else if (is(i, "?"))
+        ++choices;
+      else if (is(i, ":"))
+        --choices;
+    }
+    return kNowhere;
+  }
+
+  std::vector<Token>& tokens_;
+  const ShaderConstants& constants_;
+};
+
+/// Takes out the branches that are never taken, and the conditions of those that always are.
+void dropSettled(std::vector<Token>& tokens, const ShaderConstants& constants) {
+  Settler(tokens, constants).settle();
+}
+
+using Names = std::unordered_set<std::string_view>;
+
+/// A function; indices of tokens, the last one behind its end.
+struct Definition {
+  std::string_view name;
+  size_t first = 0;
+  size_t last = 0;
+};
+
+bool isWord(const std::vector<Token>& tokens, size_t i, std::string_view text) {
+  return i < tokens.size() && tokens[i].text == text;
+}
+
+std::vector<Definition> findFunctions(const std::vector<Token>& tokens) {
+  std::vector<Definition> found;
+  size_t first = 0;  // of the declaration at which the loop is
+  for (size_t i = 0; i < tokens.size(); ++i) {
+    if (isWord(tokens, i, ";") || tokens[i].text[0] == '#') first = i + 1;
+    if (!isWord(tokens, i, "{")) continue;
+    const size_t last = tokens[i].partner + 1;
+    if (i >= first + 4 && isWord(tokens, i - 1, ")")) {
+      const size_t name = tokens[i - 1].partner - 1;
+      if (name > first && isName(tokens[name])) found.push_back({tokens[name].text, first, last});
+      first = last;
+    }
+    i = last - 1;
+  }
+  return found;
+}
+
+void addNames(const std::vector<Token>& tokens, size_t first, size_t last, Names& names) {
+  for (size_t i = first; i < last; ++i) {
+    if (tokens[i].live && isName(tokens[i])) names.insert(tokens[i].text);
+  }
+}
+
+/// Names outside of the functions.
+Names namesBetween(const std::vector<Token>& tokens, const std::vector<Definition>& functions) {
+  Names names;
+  size_t at = 0;
+  for (const Definition& function : functions) {
+    addNames(tokens, at, function.first, names);
+    at = function.last;
+  }
+  addNames(tokens, at, tokens.size(), names);
+  return names;
+}
+
+/// Takes out functions that main does not reach by any name.
+void dropUnused(std::vector<Token>& tokens) {
+  const std::vector<Definition> functions = findFunctions(tokens);
+  Names reached = namesBetween(tokens, functions);
+  reached.insert("main");
+  std::vector<bool> called(functions.size(), false);
+  for (bool more = true; more;) {
+    more = false;
+    // Callers stand behind what they call.
+    for (size_t f = functions.size(); f-- > 0;) {
+      if (called[f] || !reached.contains(functions[f].name)) continue;
+      called[f] = more = true;
+      addNames(tokens, functions[f].first, functions[f].last, reached);
+    }
+  }
+  for (size_t f = 0; f < functions.size(); ++f) {
+    for (size_t i = functions[f].first; !called[f] && i < functions[f].last; ++i) tokens[i].live = false;
+  }
+}
+
+}  // namespace
 
 std::string liveText(const std::string& text) {
   std::vector<Token> tokens = tokensOf(text);

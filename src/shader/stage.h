@@ -6,7 +6,6 @@
 #include <bitset>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 
 #include "shader/effect.h"

@@ -2,7 +2,6 @@
 #include "shader/variant.h"
 
 #include <algorithm>
-#include <array>
 
 #include "bvh/bvh.h"
 #include "scene/casters.h"

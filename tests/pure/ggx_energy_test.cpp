@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pack/ggx_energy.h"
+#include "pack/energy_tables.h"
 
 #include <gtest/gtest.h>
 
@@ -58,11 +58,11 @@ TEST(GgxEnergy, TheCompensatedBsdfIsReciprocal) {
 
 TEST(GgxEnergy, LossGrowsWithRoughnessAndIsNothingForAMirror) {
   const GgxEnergyTable& table = ggxEnergyTable();
-  EXPECT_NEAR(ggxLoss(table, 0.5f, 0.0f), 0.0f, 1e-6f);
-  for (int j = 1; j <= kGgxEnergyCells; ++j)
+  EXPECT_NEAR(table.loss.at(0.5f, 0.0f), 0.0f, 1e-6f);
+  for (int j = 1; j <= EnergyTable::kCells; ++j)
     EXPECT_GT(table.averageLoss[size_t(j)], table.averageLoss[size_t(j) - 1]);
   // 1 - 0.4091 by an independent quadrature of 192 x 192 directions.
-  EXPECT_NEAR(ggxAverageLoss(table, 1.0f), 1.0f - 0.40914f, 0.002f);
+  EXPECT_NEAR(table.averageAt(1.0f), 1.0f - 0.40914f, 0.002f);
 }
 
 }  // namespace

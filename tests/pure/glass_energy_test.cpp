@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "pack/glass_energy.h"
-
-#include <algorithm>
+#include "pack/energy_tables.h"
 
 #include <gtest/gtest.h>
 
-#include "pack/ggx_energy.h"
 #include "shader_bsdf_cases.h"
 
 namespace fragtrace {
@@ -29,25 +26,14 @@ double glassAlbedoOf(double roughness, double ior, bool solid, bool front, doubl
   return sum / kSamples;
 }
 
-/// As energyTableAt() of shaders/energy.glsl reads it.
-double inTable(const std::vector<float>& nodes, double cosine, double alpha) {
-  const double x = std::sqrt(cosine) * kGgxEnergyCells;
-  const double y = std::sqrt(alpha) * kGgxEnergyCells;
-  const int i = std::min(int(x), kGgxEnergyCells - 1);
-  const int j = std::min(int(y), kGgxEnergyCells - 1);
-  const float* low = nodes.data() + size_t(j) * GgxEnergyTable::kNodes + size_t(i);
-  const float* high = low + GgxEnergyTable::kNodes;
-  return glm::mix(glm::mix(double(low[0]), double(low[1]), x - i),
-                  glm::mix(double(high[0]), double(high[1]), x - i), y - j);
-}
-
 TEST(GlassEnergy, TheTablesHoldWhatFacetsKeep) {
   for (double ior : {1.1, 1.5, 2.4}) {
     const GlassAlbedoTable& table = glassAlbedoTable(ior);
     for (bool front : {true, false}) {
       for (double roughness : {0.1, 0.35, 0.7, 1.0}) {
         for (double cosine : {0.05, 0.2, 0.5, 1.0}) {
-          const double kept = inTable(front ? table.outside : table.inside, cosine, roughness * roughness);
+          const EnergyTable& side = front ? table.outside : table.inside;
+          const float kept = side.at(float(cosine), float(roughness * roughness));
           EXPECT_NEAR(glassAlbedoOf(roughness, ior, true, front, cosine, 0.0), kept, 0.01)
               << "index " << ior << ", front " << front << ", roughness " << roughness << ", cosine "
               << cosine;
@@ -60,7 +46,7 @@ TEST(GlassEnergy, TheTablesHoldWhatFacetsKeep) {
 TEST(GlassEnergy, AThinWallKeepsWhatAMirrorOfItsRoughnessDoes) {
   for (double roughness : {0.1, 0.5, 1.0}) {
     for (double cosine : {0.1, 0.4, 1.0}) {
-      const double kept = 1.0 - ggxLoss(ggxEnergyTable(), float(cosine), float(roughness * roughness));
+      const double kept = 1.0 - ggxEnergyTable().loss.at(float(cosine), float(roughness * roughness));
       EXPECT_NEAR(glassAlbedoOf(roughness, 1.5, false, true, cosine, 0.0), kept, 0.01)
           << roughness << ", " << cosine;
     }

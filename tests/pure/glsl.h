@@ -10,8 +10,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "pack/ggx_energy.h"
-#include "pack/sheen_albedo.h"
+#include "pack/energy_tables.h"
 #include "shader/layout.h"
 
 /// What the shader's prelude fixes and its buffers hold: here variables, so that one test can walk the

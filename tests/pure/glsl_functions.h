@@ -46,10 +46,8 @@ inline uvec4 readLeaves(int index) { return glsl_variant::rowOf(glsl_variant::le
 inline uvec4 readFaces(int index) { return glsl_variant::rowOf(glsl_variant::faces, index); }
 
 // shaders/energy.glsl reads the same table from a buffer.
-inline float ggxLoss(float cosine, float alpha) {
-  return fragtrace::ggxLoss(ggxEnergyTable(), cosine, alpha);
-}
-inline float ggxAverageLoss(float alpha) { return fragtrace::ggxAverageLoss(ggxEnergyTable(), alpha); }
+inline float ggxLoss(float cosine, float alpha) { return ggxEnergyTable().loss.at(cosine, alpha); }
+inline float ggxAverageLoss(float alpha) { return ggxEnergyTable().averageAt(alpha); }
 inline float energyTableAt(int, float cosine, float alpha) {  // only sheen's is read
-  return fragtrace::sheenAlbedo(sheenAlbedoTable(), cosine, alpha);
+  return sheenAlbedoTable().at(cosine, alpha);
 }

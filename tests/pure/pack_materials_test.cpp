@@ -8,8 +8,8 @@
 
 #include "bvh/build.h"
 #include "gltf_builder.h"
+#include "pack/energy_tables.h"
 #include "pack/gpu_scene.h"
-#include "pack/sheen_albedo.h"
 
 namespace fragtrace::gltf_test {
 namespace {
@@ -127,7 +127,7 @@ TEST(PackMaterials, ExtensionsHaveRowsOfTheirOwn) {
   EXPECT_EQ(packed.floats(kMaterialDiffuseTransmission), glm::vec4(0.25, 1, 0, 0.5));
   // The tables: sheen's albedo, then GGX's loss with its averages.
   const size_t sheen = packed.scene.energyTableRow - kEnergyCells * kEnergyCells;
-  const std::vector<float>& albedo = sheenAlbedoTable().albedo;
+  const std::vector<float>& albedo = sheenAlbedoTable().nodes;
   EXPECT_EQ(packed.floats(sheen + 1), glm::vec4(albedo[1], albedo[2], albedo[34], albedo[35]));
   EXPECT_EQ(packed.scene.buffers[kMaterialsBinding].size() / 4,
             packed.scene.energyTableRow + kEnergyCells * kEnergyCells + kEnergyCells);

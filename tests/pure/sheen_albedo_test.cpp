@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pack/sheen_albedo.h"
+#include "pack/energy_tables.h"
 
 #include <algorithm>
 
@@ -23,20 +23,20 @@ TEST(SheenAlbedo, IsTheIntegralOfTheLobe) {
                                          glsl_double::sheenAlbedo(i.z, alpha)})
                          : 0.0;
       }));
-      EXPECT_NEAR(sheenAlbedo(sheenAlbedoTable(), float(z), float(alpha)), integral, 0.004)
+      EXPECT_NEAR(sheenAlbedoTable().at(float(z), float(alpha)), integral, 0.004)
           << "roughness " << roughness << ", cosine " << z;
     }
   }
 }
 
 TEST(SheenAlbedo, IsAboveOneOnlyAtGrazingAnglesOfLowRoughness) {
-  const SheenAlbedoTable& table = sheenAlbedoTable();
+  const EnergyTable& table = sheenAlbedoTable();
   for (int k = 0; k <= 100; ++k) {
     const float cosine = float(k) / 100.0f;
-    EXPECT_LE(sheenAlbedo(table, cosine, 0.3f * 0.3f), 1.0f);
-    EXPECT_LE(sheenAlbedo(table, cosine, 1.0f), 1.0f);
+    EXPECT_LE(table.at(cosine, 0.3f * 0.3f), 1.0f);
+    EXPECT_LE(table.at(cosine, 1.0f), 1.0f);
   }
-  EXPECT_GT(sheenAlbedo(table, 0.01f, 0.1f * 0.1f), 1.5f);
+  EXPECT_GT(table.at(0.01f, 0.1f * 0.1f), 1.5f);
 }
 
 }  // namespace

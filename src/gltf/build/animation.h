@@ -3,8 +3,6 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
-#include <span>
-#include <string>
 #include <vector>
 
 #include "gltf/read/document.h"

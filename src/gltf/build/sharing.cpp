@@ -2,7 +2,6 @@
 #include "gltf/build/sharing.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <map>
 #include <utility>

@@ -3,7 +3,6 @@
 
 #include <deque>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 

@@ -5,9 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <glm/glm.hpp>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "gltf/check/extensions.h"
 #include "gltf/read/json_parts.h"

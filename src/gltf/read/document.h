@@ -5,7 +5,6 @@
 #include <tiny_gltf.h>
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>

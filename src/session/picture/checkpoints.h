@@ -3,7 +3,6 @@
 // and removed when the picture is there.
 #pragma once
 
-#include <functional>
 #include <optional>
 
 #include "render/film/checkpoint.h"

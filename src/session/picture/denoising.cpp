@@ -2,7 +2,6 @@
 #include "session/picture/denoising.h"
 
 #include <algorithm>
-#include <array>
 #include <memory>
 
 #include "base/errors.h"

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "gl/program.h"
-#include "image/channels.h"
 #include "image/denoise/oidn.h"
 #include "render/noisy_image.h"
 #include "session/picture/draw_picture.h"

@@ -6,13 +6,36 @@
 #include "base/errors.h"
 #include "base/thread_name.h"
 #include "gl/debug_log.h"
+#include "gl/gl.h"
 #include "options/option_row.h"
 #include "session/picture/denoising.h"
-#include "view/live/run_in.h"
 
 namespace fragtrace {
 
 namespace {
+
+void bindNothing() {
+  const auto most = [](GLenum limit) { return GLsizei(driverLimit(limit)); };
+  glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, most(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS), nullptr);
+  glBindBuffersBase(GL_UNIFORM_BUFFER, 0, most(GL_MAX_UNIFORM_BUFFER_BINDINGS), nullptr);
+  glBindImageTextures(0, most(GL_MAX_IMAGE_UNITS), nullptr);
+  glBindTextures(0, most(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS), nullptr);
+  waitForDevice();
+  checkGl("compiling programs");
+}
+
+/// Runs the job in the calling thread with that context current, whose functions are loaded already; nothing
+/// stays bound there, since that would stay in memory, too. Throws as the job does, and RenderError.
+void runIn(const OutsideContext& context, const std::function<void()>& job) {
+  struct Inside {
+    explicit Inside(const OutsideContext& outside) : outside(outside) { outside.enter(); }
+    ~Inside() { outside.leave(); }
+    const OutsideContext& outside;
+  };
+  const Inside inside(context);
+  job();
+  bindNothing();
+}
 
 /// A draw's time: a wish waits for one draw at most.
 constexpr double kSoftwareWishMs = 30.0;

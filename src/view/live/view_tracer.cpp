@@ -2,14 +2,12 @@
 #include "view/live/view_tracer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "base/errors.h"
 #include "gl/driver_choice.h"
 #include "session/outputs.h"
 #include "session/phase_timer.h"
-#include "session/picture/denoising.h"
 #include "view/live/pick_text.h"
 #include "view/shown_text.h"
 
