@@ -3,9 +3,9 @@
 
 #include "gl/program.h"
 #include "image/channels.h"
-#include "render/draw_target.h"
 #include "render/picture_passes.h"
 #include "render/picture_texture.h"
+#include "render/renderer.h"
 
 namespace fragtrace {
 

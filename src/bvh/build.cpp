@@ -20,7 +20,7 @@ namespace {
 struct Subtree {
   std::vector<BvhNode> nodes;
   std::vector<BvhLeaf> leaves;
-  uint32_t root = 0;   ///< as BvhNode::child
+  uint32_t root = 0;   ///< an index as in BvhNode::child
   uint32_t depth = 0;  ///< inner nodes on the longest path
   double area = 0.0;   ///< sum over all boxes in the nodes
 };

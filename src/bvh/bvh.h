@@ -50,7 +50,8 @@ struct Bvh {
   uint32_t depth = 0;  ///< inner nodes on the longest path from the root, at most kMaxBvhDepth; with meshes
                        ///< kMaxTwoLevelDepth
   Bounds bounds;
-  std::vector<BvhMesh> meshes;  ///< by Instance::mesh; their nodes and leaves stand behind the scene's own
+  std::vector<BvhMesh>
+      meshes;  ///< shared meshes by Instance::mesh; their nodes and leaves stand behind the scene's
 };
 
 /// Nodes of the tree in local space.

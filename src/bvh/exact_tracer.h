@@ -16,7 +16,7 @@ namespace fragtrace {
 struct ExactHit {
   double t = 0.0;  ///< local space
   uint32_t primitive = kMissIndex;
-  uint32_t instance = kMissIndex;  ///< that shows it, if one does
+  uint32_t instance = kMissIndex;  ///< the instance that shows it, if one does
 };
 
 /// A ray whose direction may have any length.
@@ -54,7 +54,7 @@ class ExactTracer {
 
   const Scene& scene_;
   const Bvh& bvh_;
-  std::vector<glm::dmat4> toMesh_;  ///< by instance
+  std::vector<glm::dmat4> toMesh_;  ///< matrices by instance
 };
 
 }  // namespace fragtrace

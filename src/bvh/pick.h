@@ -18,7 +18,7 @@ struct Pick {
   uint32_t triangle = kMissIndex;   ///< its number in the mesh primitive; kMissIndex for a sphere
   uint32_t material = 0;
   uint32_t instance = kMissIndex;  ///< index of the shared mesh's instance that it belongs to
-  double distance = 0.0;           ///< from the camera, orthographic: from its plane; metres
+  double distance = 0.0;           ///< metres from the camera, or from the plane of an orthographic one
   glm::dvec3 point{0.0};           ///< world space
   glm::dvec3 normal{0.0};          ///< geometric, unit, towards the camera
 };

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/norm.h"
+#include "base/vectors.h"
 #include "bvh/build.h"
 
 namespace fragtrace {

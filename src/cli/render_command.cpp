@@ -160,9 +160,9 @@ int renderVariants(const RenderOptions& options) {
 struct SequenceRun {
   Device device;
   Tracer tracer;
-  std::optional<LoadedScene> loaded;       ///< as of the picture before
-  std::optional<RefittableTree> tree;      ///< that was built last, where the next may take it over
-  std::shared_ptr<KeptDocument> document;  ///< that is posed for each picture
+  std::optional<LoadedScene> loaded;       ///< the scene of the picture before
+  std::optional<RefittableTree> tree;      ///< the latest tree, where the next picture may refit it
+  std::shared_ptr<KeptDocument> document;  ///< the document that is posed for each picture
   Statistics prepared;                     ///< time spent on a turntable's scene
 };
 
@@ -266,7 +266,7 @@ int runSequence(const RenderOptions& options) {
       say(options, "one camera shows the whole animation: " + cameraText(settled));
   }
   run.device.oidn = openDenoiser(settled);
-  passOnWhatIsSaid([](const std::string&) {});  // what all of them say, once
+  passOnWhatIsSaid([](const std::string&) {});  // they would all say the same
   countInterrupts();
   if (options.output.file.extension() != ".pfm") startImageProcess();
   const RenderOptions firstOptions = frameOf(settled, 0).options;

@@ -11,8 +11,8 @@ namespace fragtrace {
 /// The amount of work, by which a schedule is chosen.
 struct ScheduleWork {
   bool software = false;  ///< a rasteriser on the processor
-  double paths = 0.0;     ///< that the picture will take
-  size_t nodes = 0;       ///< of the tree
+  double paths = 0.0;     ///< paths in the whole picture
+  size_t nodes = 0;       ///< nodes in the tree
 };
 
 /// Chooses the megakernel or the wavefront, once reads and dispatch are known. Returns the reason for the

@@ -24,8 +24,8 @@ inline void checkImageSize(int64_t width, int64_t height, int64_t channelCount) 
 /// memory, and what the process may address (RLIMIT_AS).
 uint64_t defaultMemoryLimit();
 
-inline constexpr uint64_t kLeastMemoryBytes = 1'000'000;  // that --memory-limit takes
-inline constexpr int kLargestTextureSide = 65535;         // what the shader's slots hold
+inline constexpr uint64_t kLeastMemoryBytes = 1'000'000;  // the least that --memory-limit takes
+inline constexpr int kLargestTextureSide = 65535;         // the shader's slots hold no more
 
 /// The limits that the user sets for input files.
 struct InputLimits {

@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <glm/glm.hpp>
 
-#include "base/luminance.h"
+#include "base/vectors.h"
 #include "image/channels.h"
 
 namespace fragtrace {
 
 namespace {
 
-constexpr float kRounding = 1e-6f;  // of alpha: nothing
+constexpr float kRounding = 1e-6f;  // smaller changes of alpha are rounding
 
 }  // namespace
 

@@ -31,10 +31,10 @@ enum class Renewal : uint8_t {
 enum class OptionGroup : uint8_t {
   File,      ///< the scene and the picture, which each command declares by itself
   Tracing,   ///< all that trace
-  Encoding,  ///< that write pictures
-  Output,    ///< that write one picture at a time
-  Sequence,  ///< that write numbered pictures
-  Filter,    ///< that finish a picture
+  Encoding,  ///< commands that write pictures
+  Output,    ///< commands that write one picture at a time
+  Sequence,  ///< commands that write numbered pictures
+  Filter,    ///< commands that finish a picture
   None       ///< a member that another row's option sets, too
 };
 
@@ -63,7 +63,8 @@ struct OptionRow {
   /// The value as the command line spells it, a word each time that the option is given; of a flag none.
   std::function<std::vector<std::string>(const RenderOptions&)> words{};
   std::function<void(RenderOptions& to, const RenderOptions& from)> copy{};  ///< its members
-  std::function<AttributeValue(const RenderOptions&)> value{};               ///< where it has an attribute
+  std::function<AttributeValue(const RenderOptions&)>
+      value{};  ///< writes it as an attribute of the picture's file; may be empty
 };
 
 /// The row of the option. A name that there is not is an error of the program: std::logic_error.

@@ -16,7 +16,7 @@ struct ViewOptions {
   /// A picture in motion may take so long; 0: it has full resolution; none: the device decides.
   std::optional<double> movingMs{};
   bool waitsForPasses = false;  ///< so that each has its time
-  bool keepsPast = true;        ///< what the camera saw before is taken over
+  bool keepsPast = true;        ///< pictures of moving views reuse the view before
 };
 
 struct RawView {

@@ -12,7 +12,7 @@ namespace fragtrace {
 
 namespace {
 
-constexpr int kSamplesASide = 20;  // of the unit square
+constexpr int kSamplesASide = 20;  // samples along each side of the unit square
 
 // These are the terms of shaders/fresnel.glsl, in double precision.
 

@@ -34,7 +34,7 @@ struct BoxGrid {
 /// The powers between which light samples in gi choose, in one unit.
 struct LightShare {
   bool samplesEnvironment = false;
-  double environment = 0.0;  ///< at an intensity of 1
+  double environment = 0.0;  ///< power at an intensity of 1
   double emitters = 0.0;
   bool anyEmitters = false;
 };
@@ -44,16 +44,16 @@ float environmentChance(const LightShare& share, double intensity);
 
 /// A grid of densities among the texels.
 struct PackedGrid {
-  glm::dmat4 fromFile{1.0};  ///< from the file's space to bricks of the table
-  glm::ivec3 bricks{0};      ///< of the table
-  uint32_t firstTexel = 0;   ///< of the table
+  glm::dmat4 fromFile{1.0};  ///< maps the file's space to bricks of the table
+  glm::ivec3 bricks{0};      ///< size of the table
+  uint32_t firstTexel = 0;   ///< first texel of the table
   double largest = 0.0;      ///< density
   double brightest = 0.0;    ///< radiance
 };
 
 struct GpuScene {
   std::array<Words, layout::kSceneBufferCount>
-      buffers;  ///< by binding; empty when the variant never reads it
+      buffers;  ///< buffers by binding; empty if the variant never reads one
   BoxGrid grid;
   uint32_t leafCount = 0;
   glm::ivec2 environmentSize{0};
@@ -63,9 +63,10 @@ struct GpuScene {
   uint32_t punctualLights = 0;
   std::vector<glm::vec4> casters{};  ///< balls that cast caustics: middle and radius in local space
   PackedGrid densities{};
-  uint32_t energyTableRow = 0;       ///< first row of the energy table among the material rows
-  uint32_t objectRow = 0;            ///< and the numbers of objects
-  glm::vec3 upwardIrradiance{0.0f};  ///< by the environment, of a plane that faces up; for shadow catchers
+  uint32_t energyTableRow = 0;  ///< first row of the energy table among the material rows
+  uint32_t objectRow = 0;       ///< row of the numbers of objects
+  glm::vec3 upwardIrradiance{
+      0.0f};  ///< irradiance by the environment of a plane that faces up, for shadow catchers
   std::array<bool, layout::kSceneBufferCount> unchanged{};  ///< those that are as packed before: empty here
 
   size_t bytes() const;

@@ -11,7 +11,7 @@ namespace fragtrace {
 namespace {
 
 constexpr uint64_t kUnits = 65536;  // numbers of a step
-constexpr size_t kMostChanges = 2;  // of the density within a step
+constexpr size_t kMostChanges = 2;  // changes of the density within a step
 
 /// Runs of constant density: the place where each begins, and the number that draws its beginning; the end
 /// comes last.

@@ -13,7 +13,7 @@ namespace fragtrace {
 /// ends and up to two places where the density changes (shaders/environment.glsl: invertTable).
 struct InversionStep {
   float first = 0.0f;  ///< place at the beginning of the step
-  float last = 0.0f;   ///< at its end
+  float last = 0.0f;   ///< density at its end
   uint32_t numbers =
       0;  ///< where the density changes, of the step, in 65,536ths: first | second << 16, 0: nowhere
   uint32_t places = 0;  ///< the places there: first | second << 16
@@ -31,7 +31,7 @@ double makeInversionTable(std::span<float> weights, std::span<InversionStep> ste
 /// On Generating Random Variates from an Empirical Distribution, 1974).
 struct InversionEntry {
   uint32_t first = 0;  ///< the index that the first number of the entry's equal share of the numbers draws
-  uint32_t last = 0;   ///< that its last number draws
+  uint32_t last = 0;   ///< index that its last number draws
   uint32_t end = 0;    ///< the last number that draws this index
 };
 

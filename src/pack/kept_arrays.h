@@ -28,7 +28,7 @@ using PlacedTextures = std::map<std::pair<uint32_t, TransferCurve>, PlacedTexels
 struct KeptArrays {
   std::vector<std::pair<std::string, size_t>> images;  ///< names and bytes of the scene's, when it was packed
   PlacedTextures textures;
-  const VolumeGrid* grid = nullptr;  ///< that stands behind them; it is only compared
+  const VolumeGrid* grid = nullptr;  ///< grid behind the arrays; it is only compared
   PackedGrid densities;
   struct KeptEnvironment {
     glm::ivec2 size{0};

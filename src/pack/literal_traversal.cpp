@@ -342,7 +342,7 @@ class TraversalText {
   bool passing_;
   bool backFaces_;
   int single_;
-  double size_;  // of the mesh, metres
+  double size_;  // size of the mesh, metres
   std::map<std::string, std::string> variables_;
   std::string body_;
 };

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <glm/gtc/constants.hpp>
 
-#include "base/luminance.h"
+#include "base/vectors.h"
 #include "pack/pack_lights.h"
 #include "pack/pack_textures.h"
 #include "shader/variant.h"

@@ -9,8 +9,8 @@
 #include <numeric>
 #include <thread>
 
-#include "base/luminance.h"
 #include "base/parallel.h"
+#include "base/vectors.h"
 #include "pack/environment_light.h"
 #include "pack/inversion_table.h"
 #include "pack/words.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/norm.h"
+#include "base/vectors.h"
 #include "pack/pack_tree.h"
 #include "pack/words.h"
 

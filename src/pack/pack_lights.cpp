@@ -8,7 +8,7 @@
 #include <glm/gtx/component_wise.hpp>
 #include <numeric>
 
-#include "base/luminance.h"
+#include "base/vectors.h"
 #include "pack/inversion_table.h"
 #include "pack/light_tree.h"
 #include "pack/words.h"

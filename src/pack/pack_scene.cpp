@@ -91,7 +91,7 @@ uint32_t materialFlags(const Material& m) {
 
 /// Rows of traitRows(), looked up once.
 const std::array<const TraitRow*, layout::kSlotCount>& traitsOfSlots() {
-  static_assert(kTextureRefs.size() == layout::kSlotCount + 1);  // and occlusion
+  static_assert(kTextureRefs.size() == layout::kSlotCount + 1);  // occlusion has no slot
   static const auto rows = [] {
     std::array<const TraitRow*, layout::kSlotCount> found{};
     for (size_t slot = 0; slot < found.size(); ++slot) found[slot] = &traitOfTexture(kTextureRefs[slot].ref);

@@ -11,7 +11,7 @@ namespace fragtrace {
 
 namespace {
 
-constexpr int kHeights = 32;  // of the quadrature
+constexpr int kHeights = 32;  // heights and turns of the quadrature
 constexpr int kTurns = 24;
 
 // These are the distribution and the fit of shaders/layers.glsl, in double precision.

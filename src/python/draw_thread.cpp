@@ -39,7 +39,7 @@ void perform(DrawJob& job) {
   } catch (...) {
     job.error = std::current_exception();
   }
-  job.work = nullptr;  // what it holds is freed in this thread
+  job.work = nullptr;  // frees what it holds in this thread
 }
 
 [[noreturn]] void performAll() {

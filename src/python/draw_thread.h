@@ -19,7 +19,7 @@ struct DrawJob {
   std::function<void(DrawJob&)> work;
   std::atomic<int> interrupts = 0;   ///< interrupts() of the work
   std::atomic<double> fraction = 0;  ///< share of the samples
-  std::vector<std::string> said;     ///< by say(); read it when the job has ended
+  std::vector<std::string> said;     ///< lines of say(); read them when the job has ended
   std::exception_ptr error;          ///< likewise
 
   void end();

@@ -14,7 +14,7 @@ namespace fragtrace {
 struct AdaptiveGoal {
   double noise = 0.0;  ///< relative error that 95 % of the pixels that can be noisy are to stay under; 0: as
                        ///< good as time allows
-  double seconds = 0.0;  ///< for drawing; 0: no limit
+  double seconds = 0.0;  ///< limit of drawing; 0: none
   int mostSamples = 0;   ///< largest number in a pixel
 };
 
@@ -26,7 +26,7 @@ struct AdaptivePicture {
   int rounds = 0;
   bool known = true;     ///< there are samples enough, and light, to tell an error; else it is 1, and share 0
   bool black = false;    ///< no sample has brought any light, so that nothing is known of the noise
-  bool stopped = false;  ///< by progress
+  bool stopped = false;  ///< progress() ended it
 };
 
 /// An adaptive picture in progress. A copy of it between two draws is enough to continue from there.

@@ -46,7 +46,7 @@ class VarianceFilter {
   GlProgram compare_;
   GlProgram finish_;
   std::array<GlTexture, 3> summaries_;  ///< a texel each, in the order of shaders/denoise/denoise.glsl
-  glm::ivec2 room_{0};                  ///< of the following
+  glm::ivec2 room_{0};                  ///< size of the textures below
   GlTexture light_;
   GlTexture seenLight_;
   GlTexture guides_;

@@ -67,7 +67,7 @@ class Film {
   void addSplats(FilmPixels& film) const;
 
   glm::ivec2 size_;
-  glm::ivec2 room_;  ///< of the textures
+  glm::ivec2 room_;  ///< size of the textures
   GlTexture sum_;
   GlTexture compensation_;
   GlTexture counts_;

@@ -10,8 +10,8 @@ namespace fragtrace {
 struct NoisyTextures {
   GlTexture radiance;  ///< linear R, G, B; variance of the mean's luminance (Layers::variance)
   GlTexture counts;    ///< samples; one observation of that variance (observedVariance()), negative: none
-  GlTexture albedo;    ///< and coverage, as the first four of kGuideChannels
-  GlTexture normal;    ///< and depth: the others
+  GlTexture albedo;    ///< albedo and coverage: the first four of kGuideChannels
+  GlTexture normal;    ///< normal and depth: the other four
   glm::ivec2 room{0};  ///< pixels that they hold
 };
 

@@ -41,8 +41,8 @@ class PicturePasses {
   size_t attached_ = 0;
   GlProgram sums_;
   glm::ivec2 room_{0};
-  GlTexture blocks_;  ///< of pixels
-  GlTexture wider_;   ///< of these
+  GlTexture blocks_;  ///< sums over blocks of pixels
+  GlTexture wider_;   ///< sums over blocks of blocks
 };
 
 }  // namespace fragtrace

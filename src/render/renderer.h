@@ -11,17 +11,28 @@
 #include <vector>
 
 #include "gl/context.h"
+#include "gl/gl.h"
 #include "gl/program.h"
 #include "gl/scene_buffers.h"
 #include "image/region.h"
 #include "render/draw_plan.h"
-#include "render/draw_target.h"
 #include "render/film.h"
 #include "scene/fog.h"
 #include "scene/volume/grid.h"
 #include "shader/render_options.h"
 
 namespace fragtrace {
+
+/// The objects that no two contexts share. They are made for a pass, so that a pass may draw in any context
+/// that shares the other objects.
+struct DrawTarget {
+  GlFramebuffer framebuffer = makeFramebuffer();
+  GlVertexArray vertexArray = makeVertexArray();
+  void bind() const {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+    glBindVertexArray(vertexArray.name());
+  }
+};
 
 /// A thin lens.
 struct Lens {
@@ -58,7 +69,7 @@ struct View {
 
 /// The times of the draws so far; a frame is one sample in every pixel.
 struct RenderTimes {
-  double renderMs = 0.0;  ///< by the wall's clock, with all that is done between draws
+  double renderMs = 0.0;  ///< wall clock, with all that happens between draws
   double drawMs = 0.0;    ///< time of the draws alone, by Renderer::clock()
   double firstFrameMs = 0.0;
   std::vector<double> frameMs;
@@ -150,7 +161,7 @@ class Renderer {
   /// A draw that the device may not have done yet.
   struct Flight {
     Work tile;
-    size_t slot = 0;  ///< of its progress
+    size_t slot = 0;  ///< index of its progress buffer
     GlQuery timer;    ///< none: the wall's clock
     void* done = nullptr;
     std::chrono::steady_clock::time_point start;
@@ -195,13 +206,13 @@ class Renderer {
   ProgramCache programs_;
   SceneBuffers buffers_;
   std::map<ShaderVariant, Pace> paces_;
-  Pace* pace_ = nullptr;  ///< of the variant that draws
+  Pace* pace_ = nullptr;  ///< pace of the variant that draws
   layout::Frame frame_{};
   LightShare lightShare_;
   PackedGrid grid_;
   std::vector<glm::vec4> casters_;     ///< as in GpuScene
   std::optional<Film> lightPathFilm_;  ///< a texel a light path (storeRecord of film.glsl)
-  std::optional<Film> reservoirs_;  ///< of the film's pixels in this sample (shaders/reuse/neighbours.glsl)
+  std::optional<Film> reservoirs_;  ///< a reservoir a pixel, for this sample (shaders/reuse/neighbours.glsl)
   GlBuffer frameBuffer_;
   GlBuffer fogBuffer_;
   GlBuffer volumeBuffer_;
@@ -210,10 +221,10 @@ class Renderer {
   const layout::Progress* progressMapped_ = nullptr;  ///< the same; null where the driver maps none
   size_t flights_ = 0;
   GlBuffer pathStates_;
-  GlTexture pathStateView_;  ///< of the same, as image
+  GlTexture pathStateView_;  ///< the path states as an image
   int64_t pathStateRows_ = 0;
   bool software_;
-  double drawnMs_ = 0.0;  ///< by all draws
+  double drawnMs_ = 0.0;  ///< sum over all draws
   double targetMs_;
   size_t inFlight_;
   bool overBudget_ = false;  ///< the last tile needed more than one draw

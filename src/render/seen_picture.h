@@ -12,7 +12,7 @@ namespace fragtrace {
 /// A picture and its camera.
 struct SeenPicture {
   NoisyTextures noisy;
-  glm::ivec2 size{0};  ///< of it; 0: nothing
+  glm::ivec2 size{0};  ///< size of the picture; 0: there is none
   Camera camera;       ///< world space
 };
 
@@ -58,7 +58,7 @@ class SeenPasses {
   GlProgram showFilm_;
   GlProgram totals_;
   glm::ivec2 room_{0};
-  GlTexture past_;  ///< for the moment of a call
+  GlTexture past_;  ///< scratch of one call
   GlTexture apart_;
 };
 

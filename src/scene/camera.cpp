@@ -8,7 +8,7 @@
 
 #include "base/count_text.h"
 #include "base/errors.h"
-#include "base/finite.h"
+#include "base/vectors.h"
 #include "scene/parts.h"
 
 namespace fragtrace {
@@ -84,7 +84,7 @@ Camera frameScene(const BoundsDouble& bounds, double aspectRatio) {
   camera.fovY = glm::quarter_pi<double>();
   const glm::dvec3 center = centerOf(bounds);
   const glm::dvec3 extent = bounds.empty() ? glm::dvec3(1.0) : bounds.extent();
-  constexpr double kFlat = 1e-3;  // of the largest extent
+  constexpr double kFlat = 1e-3;  // share of the largest extent
   const double thin = kFlat * std::max({extent.x, extent.y, extent.z});
   if (extent.z > thin && extent.y <= thin) {
     camera.forward = {0, -1, 0};
@@ -150,7 +150,7 @@ double focalLengthOf(double viewAngle) {
 }
 
 Camera zoomed(Camera camera, double zoom) {
-  if (zoom == 1.0) return camera;  // to the bit
+  if (zoom == 1.0) return camera;  // keeps every bit
   camera.fovY = 2.0 * std::atan(std::tan(0.5 * camera.fovY) / zoom);
   camera.halfHeight /= zoom;
   return camera;

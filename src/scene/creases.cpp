@@ -41,8 +41,8 @@ constexpr uint32_t kNone = 0xffffffffu;
 
 /// The triangles around each place: vertices at the same place count as one.
 struct Fans {
-  std::vector<uint32_t> place;   ///< of each corner, three a triangle
-  std::vector<uint32_t> first;   ///< of each place, in `corner`; one more at the end
+  std::vector<uint32_t> place;   ///< the place of each corner, three a triangle
+  std::vector<uint32_t> first;   ///< the start of each place in `corner`; one more at the end
   std::vector<uint32_t> corner;  ///< triangle * 3 + corner
 };
 
@@ -110,7 +110,7 @@ Fans fansOf(const Scene& scene) {
 struct Sector {
   glm::dvec3 normal, toSecond, toThird;  // unit; (0, 0, 0) for the normal of a triangle without area
   std::array<double, 3> altitude;        // over the edge opposite to the corner, the second, the third vertex
-  std::array<double, 2> length;          // of the edges to the second and to the third vertex
+  std::array<double, 2> length;          // lengths of the edges to the second and third vertex
   double offset;
   double grazing;          // the uncertainty of a point within the plane for a grazing ray
   uint32_t second, third;  // places
@@ -153,7 +153,7 @@ double nearest(const glm::dvec3& direction, const Sector& s) {
 
 /// The distances that the points of a triangle need, and if the crease that asks for them is sharp.
 struct Asked {
-  double distance = 0.0;  // from the edge or vertex
+  double distance = 0.0;  // distance from the edge or vertex
   bool sharp = false;
 };
 

@@ -20,7 +20,7 @@ struct SceneDescription {
   size_t lines = 0;      ///< segments
   size_t instances = 0;  ///< mesh primitives, counted once for each node that shows them
   size_t sharedMeshes = 0;
-  size_t sharedInstances = 0;  ///< of shared meshes
+  size_t sharedInstances = 0;  ///< instances of shared meshes
   size_t trianglesDrawn = 0;   ///< those of shared meshes counted for each instance
   std::string sharing;         ///< why meshes are shared, or are not
   size_t materials = 0;
@@ -28,7 +28,7 @@ struct SceneDescription {
   size_t images = 0;
   size_t imageBytes = 0;    ///< encoded
   size_t texelBytes = 0;    ///< decoded, on the device
-  size_t volumeBricks = 0;  ///< that are stored
+  size_t volumeBricks = 0;  ///< bricks that are stored
   size_t pointLights = 0;
   size_t spotLights = 0;
   size_t directionalLights = 0;

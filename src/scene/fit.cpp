@@ -225,7 +225,7 @@ Camera fitted(Camera camera, std::span<const glm::dvec3> points, double aspectRa
   if (camera.perspective) {
     // A flat scene that is seen from its edge has neither width nor height, and a tip may reach up to the
     // lens.
-    constexpr double kNearest = 0.01;  // of the size
+    constexpr double kNearest = 0.01;  // share of the size
     const double slope = std::tan(0.5 * camera.fovY) * kFitted;
     place = perspectivePlace(seen, {slope * aspectRatio, slope}, bounds.minimum.z - kNearest * size);
   } else {

@@ -6,7 +6,7 @@
 #include <glm/gtc/constants.hpp>
 #include <utility>
 
-#include "base/luminance.h"
+#include "base/vectors.h"
 
 namespace fragtrace {
 

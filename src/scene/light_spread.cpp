@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "base/luminance.h"
+#include "base/vectors.h"
 #include "scene/light_bounds.h"
 
 namespace fragtrace {

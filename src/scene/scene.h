@@ -37,7 +37,7 @@ struct LocalSpace {
 struct EncodedImage {
   std::string name;  ///< a file path, or the place
   std::vector<uint8_t> bytes;
-  int width = 0;  ///< to be scaled down to once decoded; 0: as it is
+  int width = 0;  ///< the decoded picture is scaled down to this; 0: it is not
   int height = 0;
   std::string place{};  ///< "scene.gltf: /images/0"
 };
@@ -141,7 +141,7 @@ struct Material {
   float scatterStrength = 0.0f;
   glm::vec3 multiscatterColor{1.0f};  ///< albedo of a thick layer, all scatterings counted
   float scatterAnisotropy = 0.0f;     ///< mean cosine of a scattering; above 0 forward
-  bool scatterOfDraft = false;  ///< of KHR_materials_volume_scatter, whose albedo is that without anisotropy
+  bool scatterOfDraft = false;  ///< the draft KHR_materials_volume_scatter, whose albedo ignores anisotropy
   PerlinNormal perlinNormal;
   TextureRef baseColorTexture;
   TextureRef metallicRoughnessTexture;
@@ -209,7 +209,7 @@ struct TextureRefRow {
 
 /// All textures of a material; those that are drawn, in the order of their slots (shaders/layout.glsl).
 inline constexpr std::array kTextureRefs = std::to_array<TextureRefRow>({
-    {&Material::baseColorTexture, TransferCurve::Srgb},            // and alpha
+    {&Material::baseColorTexture, TransferCurve::Srgb},            // colour and alpha
     {&Material::metallicRoughnessTexture, TransferCurve::Linear},  // G roughness, B metallic
     {&Material::normalTexture, TransferCurve::Linear},             // tangent space
     {&Material::emissiveTexture, TransferCurve::Srgb},
@@ -287,7 +287,7 @@ struct SharedMesh {
 
 /// A shared mesh as a node places it.
 struct Instance {
-  glm::dmat4 toLocal{1.0};  ///< from the mesh's space into local space: affine, invertible
+  glm::dmat4 toLocal{1.0};  ///< maps the mesh's space into local space; affine, invertible
   uint32_t mesh = 0;        ///< index into Scene::sharedMeshes
   std::string node{};       ///< as in PrimitiveOrigin
   uint32_t nodeIndex = 0;   ///< as in PrimitiveOrigin
@@ -316,12 +316,12 @@ struct Strokes {
 
 /// A node of the scene that is shown.
 struct SceneNode {
-  std::string name;           ///< or its JSON pointer
+  std::string name;           ///< its name, or else its JSON pointer
   uint32_t index = 0;         ///< its place in the file
   int depth = 0;              ///< ancestors
   bool hidden = false;        ///< it or an ancestor, by the file or by the user
-  bool hiddenInFile = false;  ///< by the file alone
-  bool mesh = false;          ///< or a sphere
+  bool hiddenInFile = false;  ///< hidden by the file alone
+  bool mesh = false;          ///< true for a mesh, false for a sphere
   bool light = false;
   bool camera = false;
 };
@@ -350,7 +350,7 @@ struct Scene {
   std::vector<Texture> textures;
   std::vector<EncodedImage> images;
   std::vector<Light> lights;
-  std::vector<Camera> cameras;  ///< in the order of the scene's node traversal; positions in world space
+  std::vector<Camera> cameras;  ///< cameras in the order in which nodes are visited; world space
   std::vector<PrimitiveOrigin> origins;
   std::vector<SceneNode> nodes;          ///< parents before what is below them
   std::vector<SharedMesh> sharedMeshes;  ///< their triangles and vertices stand behind all others

@@ -13,7 +13,7 @@ struct SceneSelection {
   std::string scene{};                     ///< empty: the file's default scene
   std::string animation{};                 ///< empty: the first one; only with a time
   std::optional<double> animationTime{};   ///< seconds; none: the pose that the file stands in
-  std::string camera{};                    ///< of the scene's; empty: the one of an index, or the first
+  std::string camera{};                    ///< name of a camera; empty: the one of the index, or the first
   std::string materialVariant{};           ///< empty: the materials that the file shows by default
   std::vector<std::string> hiddenNodes{};  ///< by name (all that have it), JSON pointer or index; not drawn,
                                            ///< nor what is below them

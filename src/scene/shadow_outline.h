@@ -12,7 +12,7 @@ namespace fragtrace {
 struct PlaneLight {
   glm::dvec3 from{0.0, 1.0, 0.0};  ///< a unit direction towards the light, or the place of a lamp
   bool isPlace = false;
-  double irradiance = 0.0;  ///< of the plane, in any unit
+  double irradiance = 0.0;  ///< irradiance of the plane, in any unit
 };
 
 /// Longer shadows are cut: the distance from the middle of the scene, in diagonals of its box.

@@ -71,7 +71,7 @@ class StrokeSize {
   bool perspective_;
   glm::dvec3 position_;
   glm::dvec3 forward_;
-  double radius_ = 0.0;  ///< of a perspective camera: at depth 1
+  double radius_ = 0.0;  ///< for a perspective camera, the radius at depth 1
 };
 
 /// The material of the solid of a point or line. Without normals it shows the sum of base colour and emission

@@ -31,7 +31,7 @@ struct SoftBox {
 /// the shoulder of the tone curve over most of their area.
 constexpr std::array<SoftBox, 3> kBoxes{
     {{-42.0, 38.0, {0.55, 0.55}, 3.8}, {62.0, 12.0, {0.55, 0.75}, 0.8}, {152.0, 42.0, {0.34, 0.60}, 4.2}}};
-constexpr double kSoftPart = 0.5;  ///< of the shorter half that the edge takes to fade
+constexpr double kSoftPart = 0.5;  ///< the edge fades over this share of the shorter half
 
 /// 1 in the middle of the box, 0 outside; round corners.
 double shareOf(const SoftBox& box, const glm::dvec3& direction) {

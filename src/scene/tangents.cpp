@@ -155,8 +155,9 @@ class TangentMaker {
 
   void assign(const std::vector<Orientation>& orientations) {
     const size_t count = vertices_.position.size();
-    std::vector<Orientation> taken(count, kUndecided);  // by the first triangle that uses the vertex
-    std::vector<uint32_t> copies(count, kMissIndex);    // for the other orientation
+    std::vector<Orientation> taken(count,
+                                   kUndecided);  // orientation of the first triangle that uses the vertex
+    std::vector<uint32_t> copies(count, kMissIndex);  // index of a vertex's copy for the other orientation
     for (size_t i = 0; i < triangles_.size(); ++i) {
       for (int corner = 0; corner < 3; ++corner) {
         uint32_t& vertex = triangles_[i].vertex[corner];

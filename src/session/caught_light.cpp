@@ -5,14 +5,14 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtx/rotate_vector.hpp>
 
-#include "base/luminance.h"
+#include "base/vectors.h"
 #include "pack/environment_light.h"
 
 namespace fragtrace {
 
 namespace {
 
-constexpr int kRows = 32;  // of the coarse map
+constexpr int kRows = 32;  // rows of the coarse map
 
 void appendEnvironment(const Environment& environment, const RenderOptions& options,
                        std::vector<PlaneLight>& lights) {

@@ -19,9 +19,9 @@ struct LoadedScene {
   Scene scene;
   Environment environment;
   Camera camera;
-  CameraOverrides overrides;       ///< that it was chosen by (settledOverrides())
+  CameraOverrides overrides;       ///< the camera was chosen by these (settledOverrides())
   std::optional<int> cameraIndex;  ///< index of that camera in the scene, if one was asked for
-  glm::ivec2 size{0};              ///< of the picture
+  glm::ivec2 size{0};              ///< size of the picture
   Region region;                   ///< part of the picture that is drawn
   Bvh bvh;
   View view;
@@ -41,7 +41,7 @@ struct SceneBefore {
       nullptr;  ///< the map of the options; it is moved into the next scene, if there is one
   const RefittableTree* tree = nullptr;
   const Volume* volume = nullptr;
-  std::shared_ptr<KeptDocument>* document = nullptr;  ///< as loadGltf() wants it
+  std::shared_ptr<KeptDocument>* document = nullptr;  ///< passed to loadGltf()
 };
 
 /// Loads scene and environment, chooses camera and size, builds the tree; fills in the statistics of that.
@@ -68,7 +68,7 @@ double catcherHeightOf(const RenderOptions& options, const BoundsDouble& bounds)
 /// Points of the world about which --fit moves the camera.
 struct FittedPoints {
   std::vector<glm::dvec3> scene;
-  std::vector<glm::dvec3> shadow;                                   ///< on the catcher
+  std::vector<glm::dvec3> shadow;  ///< points around the shadow on the catcher
   double catcherHeight = -std::numeric_limits<double>::infinity();  ///< Y, metres; of several, the lowest
 };
 

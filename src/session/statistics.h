@@ -25,12 +25,12 @@ struct AdaptiveStatistics {
 
 /// Statistics of a render with --denoise.
 struct DenoiseStatistics {
-  std::string filter;      ///< and its version; empty: none ran
+  std::string filter;      ///< name and version; empty: none ran
   std::string skipped;     ///< why none ran
   double compileMs = 0.0;  ///< programs, built anew
-  double filterMs = 0.0;   ///< by the wall clock, with the way to the device and back
+  double filterMs = 0.0;   ///< wall clock, with the way to the device and back
   std::string library;     ///< the file that did it; empty: we did
-  double loadMs = 0.0;     ///< that opening the library took
+  double loadMs = 0.0;     ///< time to open the library
 };
 
 /// The contents of `--stats` for one render; the JSON's keys are the names here.
@@ -47,12 +47,12 @@ struct Statistics {
   int spp = 0;
   glm::ivec2 size{0};            ///< size of the drawn part
   std::optional<Region> region;  ///< the drawn part of the picture, if one was asked for
-  int parts = 1;                 ///< in which it was drawn
+  int parts = 1;                 ///< number of parts in which it was drawn
   FilmTotals film;
   std::optional<AdaptiveStatistics> adaptive;
   double featureMs = 0.0;  ///< drawing the layers of first hits
   std::optional<DenoiseStatistics> denoise;
-  size_t sceneBytes = 0;     ///< on the device
+  size_t sceneBytes = 0;     ///< memory of the scene on the device
   size_t geometryBytes = 0;  ///< bytes among these for tree, leaves, records and vertex attributes
   bool defaultLight = false;
   std::string defaultLightReason;
@@ -74,7 +74,7 @@ struct Statistics {
   std::vector<std::string> skipped;  ///< "refraction: no transmissive material", ...
   std::vector<std::string> warnings;
   double clockMs = steadyMilliseconds();     ///< when the command began
-  double clockCpuMs = threadMilliseconds();  ///< that its thread had taken by then
+  double clockCpuMs = threadMilliseconds();  ///< processor time of its thread by then
   std::vector<Phase> phases;                 ///< up to the written picture
 };
 

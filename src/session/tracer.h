@@ -16,7 +16,7 @@ struct Tracer {
   ShaderVariant variant;
   std::vector<ShaderVariant> aovs;  ///< in the order of options.aovs
   std::unique_ptr<Renderer> renderer;
-  double programMs = 0.0;  ///< that building the variant's program took
+  double programMs = 0.0;  ///< time to build the variant's program
   uint64_t sceneHash = 0;  ///< hash of all that was uploaded; only for .exr and checkpoints, which keep it
   KeptArrays kept;         ///< arrays that the next scene of a sequence need not upload
   std::array<uint64_t, layout::kSceneBufferCount> arrayHashes{};  ///< set if sceneHash is

@@ -24,7 +24,7 @@ enum class Aov : uint8_t {
   Emission,  ///< the parts of its radiance, which add up to it: what surfaces and surroundings send to the
              ///< camera,
   Diffuse,   ///< light that was scattered first by a diffuse surface,
-  Specular,  ///< and by all others
+  Specular,  ///< light that was scattered first by any other surface
   Guides     ///< guides of filters, all in one: kGuideChannels
 };
 

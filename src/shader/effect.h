@@ -13,7 +13,7 @@ enum class Effect : uint8_t {
   Count,    ///< number of samples
   Display,  ///< processing of finished samples
   Noise,    ///< choice of samples; their mean stays
-  View,     ///< from where the scene is seen
+  View,     ///< the point of view
   Picture   ///< the limit to which samples converge
 };
 

@@ -268,7 +268,7 @@ bool isWord(const std::vector<Token>& tokens, size_t i, std::string_view text) {
 
 std::vector<Definition> findFunctions(const std::vector<Token>& tokens) {
   std::vector<Definition> found;
-  size_t first = 0;  // of the declaration at which the loop is
+  size_t first = 0;  // first token of the declaration at hand
   for (size_t i = 0; i < tokens.size(); ++i) {
     if (isWord(tokens, i, ";") || tokens[i].text[0] == '#') first = i + 1;
     if (!isWord(tokens, i, "{")) continue;

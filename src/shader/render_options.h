@@ -91,7 +91,7 @@ struct FrameRange {
 
 /// Pictures of one scene, numbered: at times of an animation, or from all around.
 struct SequenceOptions {
-  std::optional<FrameRange> frames;  ///< of the animation
+  std::optional<FrameRange> frames;  ///< frames of the animation
   double fps = 24.0;                 ///< picture k is the animation at k / fps seconds
   int turntable = 0;                 ///< pictures of a whole turn about the focal point; 0: none
   bool keep = false;                 ///< pictures that are there already are not drawn again
@@ -146,8 +146,8 @@ struct LightOptions {
   Caustics caustics = Caustics::Auto;
   std::filesystem::path hdriFile;
   double hdriRotationDegrees = 0.0;
-  double hdriIntensity = 1.0;   ///< that the environment's radiance is multiplied by
-  double backgroundBlur = 0.0;  ///< of the environment map as the camera sees it: standard deviation, degrees
+  double hdriIntensity = 1.0;                ///< factor of the environment's radiance
+  double backgroundBlur = 0.0;               ///< standard deviation of the blur that the camera sees, degrees
   std::optional<glm::vec3> backgroundColor;  ///< none: the environment map, black without one
   bool background = true;
   DefaultLight defaultLight = DefaultLight::Studio;
@@ -163,8 +163,8 @@ struct FogOptions {
   double density = 0.0;            ///< extinction, 1/m; 0: there is none
   std::optional<glm::vec3> color;  ///< albedo of one scattering; none: 1
   double anisotropy = 0.0;
-  std::optional<double> height;    ///< in which it falls by e, metres; none: it does not
-  std::optional<double> base;      ///< from which it falls, Y in metres; none: the bottom of the scene
+  std::optional<double> height;    ///< it falls by the factor e over this, metres; none: it does not
+  std::optional<double> base;      ///< it falls above this Y, metres; none: the bottom of the scene
   std::optional<double> distance;  ///< radius, metres; none: in proportion to the scene
 
   bool operator==(const FogOptions&) const = default;

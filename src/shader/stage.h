@@ -39,8 +39,8 @@ struct StageRow {
   const char* sentence;          ///< in the help
   bool cumulative;               ///< --stage NAME turns on this and all cumulative rows before it
   bool standard;                 ///< a switch that is on unless turned off
-  const char* constant;          ///< in the shader; null: always on
-  std::optional<Trait> needs{};  ///< without which it changes nothing
+  const char* constant;          ///< constant in the shader; null: always on
+  std::optional<Trait> needs{};  ///< it changes nothing without this trait
   Effect effect = Effect::Picture;
 };
 std::span<const StageRow> stageRows();

@@ -82,12 +82,12 @@ struct Coordinates {
 
 struct TraitRow {
   Trait trait;
-  const char* name;      ///< in the statistics and the variant's name
+  const char* name;      ///< shown in the statistics and the variant's name
   const char* constant;  ///< in the shader
   const char* absence;   ///< why something that needs it is off
   StageSet stages{};     ///< it is off where one of these is
   TraitSet needs{};      ///< it is off where one of these is
-  TraitSet brings{};     ///< without which a scene that has it would not show it
+  TraitSet brings{};     ///< traits that it needs to be seen
   /// The textures that the shader reads where it is on; the rest null.
   std::array<TextureRef Material::*, 2> textures{};
   bool texcoords = false;  ///< it reads texture coordinates without a texture

@@ -77,7 +77,7 @@ void dropTraits(const StageSet& stages, bool countsVisits, Surroundings surround
   if (gi && surroundings == Surroundings::DefaultLight) drop(traits, {Trait::EnvironmentSampling});
   const auto looksUp = [&](const TraitRow& row) { return readsTexcoords(row) && has(traits, row.trait); };
   if (std::ranges::none_of(traitRows(), looksUp)) drop(traits, {Trait::Texcoords, Trait::TextureTransforms});
-  drop(traits, {Trait::SmoothSurfaces, Trait::ObjectNumbers});  // for layers alone
+  drop(traits, {Trait::SmoothSurfaces, Trait::ObjectNumbers});  // only layers read these
 }
 
 /// Stages that change nothing in a scene of these traits, and traits that stages alone ask for.

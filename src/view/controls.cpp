@@ -285,6 +285,24 @@ bool changeWindow(ViewState& state, const Control& control, const Movement& m) {
   }
 }
 
+/// The actions that the window carries out, beyond its state.
+constexpr std::pair<Action, Errand> kErrands[] = {
+    {Action::CenterOn, Errand::CenterOn},
+    {Action::Inspect, Errand::Inspect},
+    {Action::CopyCommand, Errand::CopyCommand},
+    {Action::PasteCommand, Errand::PasteCommand},
+    {Action::Undo, Errand::Undo},
+    {Action::Redo, Errand::Redo},
+    {Action::Fullscreen, Errand::Fullscreen},
+    {Action::Reload, Errand::Reload},
+    {Action::Open, Errand::Open},
+    {Action::SaveAs, Errand::SaveAs},
+    {Action::Screenshot, Errand::Screenshot},
+    {Action::WriteExr, Errand::WriteExr},
+    {Action::Close, Errand::Close},
+    {Action::Quit, Errand::Quit},
+};
+
 }  // namespace
 
 bool isUsable(const ViewState& state, Action action) {
@@ -299,42 +317,12 @@ Errand apply(ViewState& state, const Control& control, const Movement& movement)
   if (moveCamera(state, control, movement) || changePicture(state, control, movement) ||
       changeWindow(state, control, movement))
     return Errand::None;
-  switch (control.action) {
-    case Action::CenterOn:
-      return Errand::CenterOn;
-    case Action::Inspect:
-      return Errand::Inspect;
-    case Action::CopyCommand:
-      return Errand::CopyCommand;
-    case Action::PasteCommand:
-      return Errand::PasteCommand;
-    case Action::Undo:
-      return Errand::Undo;
-    case Action::Redo:
-      return Errand::Redo;
-    case Action::Fullscreen:
-      return Errand::Fullscreen;
-    case Action::Reload:
-      return Errand::Reload;
-    case Action::Open:
-      return Errand::Open;
-    case Action::SaveAs:
-      return Errand::SaveAs;
-    case Action::Screenshot:
-      return Errand::Screenshot;
-    case Action::WriteExr:
-      return Errand::WriteExr;
-    case Action::Close:
-      if (std::exchange(state.sheet, false)) return Errand::None;
-      if (std::exchange(state.overview, false)) return Errand::None;
-      if (state.magnifier.steps == 0) return Errand::Close;
-      state.magnifier = {};
-      return Errand::None;
-    case Action::Quit:
-      return Errand::Quit;
-    default:
-      return Errand::None;
+  if (control.action == Action::Close) {
+    if (std::exchange(state.sheet, false) || std::exchange(state.overview, false)) return Errand::None;
+    if (std::exchange(state.magnifier, {}).steps > 0) return Errand::None;
   }
+  const auto errand = std::ranges::find(kErrands, control.action, &std::pair<Action, Errand>::first);
+  return errand == std::end(kErrands) ? Errand::None : errand->second;
 }
 
 }  // namespace fragtrace

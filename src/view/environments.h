@@ -16,9 +16,9 @@ std::vector<std::filesystem::path> environmentsNear(const RenderOptions& options
 
 struct EnvironmentChoice {
   std::string name;
-  std::filesystem::path file{};  ///< of an environment map; empty: none
+  std::filesystem::path file{};  ///< the environment map; empty: none
   bool studio = false;
-  DefaultLight light = DefaultLight::Studio;  ///< where the scene has no light of its own
+  DefaultLight light = DefaultLight::Studio;  ///< used if the scene has no light of its own
 
   bool operator==(const EnvironmentChoice&) const = default;
 };

@@ -55,7 +55,7 @@ struct SideStatistics {
   std::string variant;
   size_t deviceBytes = 0;   ///< scene, film and pictures
   uint64_t movedBytes = 0;  ///< between host and device since the side's picture before
-  PassTimes passes;         ///< since then
+  PassTimes passes;         ///< times since then
   bool copied = false;      ///< through the host, as the window's driver is another one
 };
 
@@ -76,10 +76,10 @@ struct TracedPicture {
   size_t side = 0;
   uint64_t request = 0;  ///< the latest that it answers
   glm::ivec2 size{0};
-  SharedTexture shared{};          ///< where the picture is; else it is here:
+  SharedTexture shared{};          ///< the picture, if textures are shared; else the image below
   Image image;                     ///< linear R, G, B and perhaps A, the first row at the top
   bool asItIs = false;             ///< colours of a debug view: neither exposure nor tone map
-  std::filesystem::path file{};    ///< that the picture was read from; empty: it was traced
+  std::filesystem::path file{};    ///< file of a picture that was read; empty: it was traced
   std::vector<PictureLine> lines;  ///< over it: boxes of the tree
   SideStatistics statistics;
 };
@@ -92,8 +92,8 @@ struct ViewedMaterial {
 
 /// The scene that is drawn, as far as the window knows it.
 struct ViewedScene {
-  RenderOptions options;  ///< that it was loaded with
-  Camera camera;          ///< that these choose
+  RenderOptions options;  ///< options of the load
+  Camera camera;          ///< the camera that the options choose
   std::vector<Camera> cameras;
   BoundsDouble bounds;
   TraitSet present;
@@ -101,7 +101,7 @@ struct ViewedScene {
   bool defaultLight = false;                        ///< it has no light of its own
   bool map = false;                                 ///< an environment map lights it
   std::vector<std::filesystem::path> environments;  ///< files near it that may
-  std::vector<SceneNode> nodes;                     ///< as when it was loaded
+  std::vector<SceneNode> nodes;                     ///< nodes as they were loaded
   std::vector<ViewedMaterial> materials;
   std::vector<std::string> sceneNames;  ///< as in Scene, as are the next three
   std::vector<std::string> materialVariants;
@@ -144,7 +144,7 @@ struct PickAnswer {
   glm::dvec3 point{0.0};           ///< world space
   std::vector<std::string> lines;  ///< description of the hit, in words
   BoundsDouble bounds;             ///< bounds of all that its node draws, world space
-  std::optional<uint32_t> node;    ///< that was selected
+  std::optional<uint32_t> node;    ///< the selected node
 };
 
 /// A small picture of an environment.
@@ -155,7 +155,7 @@ struct EnvironmentThumbnail {
 
 /// News for the window since it asked last.
 struct Delivery {
-  std::vector<TracedPicture> pictures;  ///< at most one a side
+  std::vector<TracedPicture> pictures;  ///< one a side at most
   std::optional<ViewedScene> scene;     ///< a new one
   std::optional<PickAnswer> pick;
   std::optional<BoundsDouble> bounds;  ///< bounds of the scene as it is posed now
@@ -175,8 +175,7 @@ struct Orders {
   std::optional<RenderOptions> load;
   bool cancelLoad = false;
   std::vector<SaveRequest> saves;
-  std::optional<std::filesystem::path>
-      reference;  ///< to be read, and delivered as side B; empty: none any more
+  std::optional<std::filesystem::path> reference;  ///< file to be delivered as side B; empty: side B ends
   std::optional<PickRequest> pick;
   std::vector<std::filesystem::path> thumbnails;  ///< environments, of which pictures are wanted
   bool quit = false;
@@ -240,7 +239,7 @@ class Exchange {
   bool ending_ = false;
   Orders orders_;
   Delivery delivery_;
-  std::array<std::array<bool, kSlots>, kMostSides> taken_{};  ///< by the window
+  std::array<std::array<bool, kSlots>, kMostSides> taken_{};  ///< slots that the window reads
   std::array<std::array<void*, kSlots>, kMostSides> doneAt_{};
 };
 

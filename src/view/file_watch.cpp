@@ -8,7 +8,7 @@ namespace fragtrace {
 
 namespace {
 
-constexpr int kLooksAway = 4;  // that in turn miss a file make it gone
+constexpr int kLooksAway = 4;  // a file is gone if so many looks in turn miss it
 
 }  // namespace
 

@@ -25,7 +25,7 @@ class FileWatch {
   };
   static std::optional<Look> lookAt(const std::filesystem::path& file);
   std::map<std::filesystem::path, std::optional<Look>> files_;
-  std::map<std::filesystem::path, int> away_;  ///< how many of the latest looks in turn have missed it
+  std::map<std::filesystem::path, int> away_;  ///< number of looks in turn that have missed it
 };
 
 /// All files in a folder whose names end so. Empty where there is no such folder.

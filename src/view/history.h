@@ -32,7 +32,7 @@ struct History {
   std::optional<Settings> now;
   bool waits =
       false;     ///< for a scene that belongs to the latest step; until it is loaded, nothing is recorded
-  int step = 0;  ///< that the scene belongs to: -1 of undo(), 1 of redo(), 0 of neither
+  int step = 0;  ///< the scene's step: -1 undo(), 1 redo(), 0 neither
 };
 
 /// Forgets all steps: what was set before belongs to another scene.

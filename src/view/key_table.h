@@ -139,7 +139,7 @@ std::string controlName(const Control& control);
 
 /// A line of the sheet.
 struct SheetLine {
-  std::string name;  ///< of one control, or of the first and the last of several: "F2 to F7"
+  std::string name;  ///< a control, or the first and last of several: "F2 to F7"
   std::string sentence;
 };
 std::vector<SheetLine> sheetLines();

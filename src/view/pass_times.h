@@ -13,7 +13,7 @@ inline constexpr std::array kPassNames{"trace", "guides", "film", "past", "filte
 /// Milliseconds of each.
 struct PassTimes {
   std::array<double, kPassNames.size()> wall{};  ///< meaningful where each pass was waited for
-  std::array<double, kPassNames.size()> cpu{};   ///< of the tracing thread
+  std::array<double, kPassNames.size()> cpu{};   ///< processor time of the tracing thread
 };
 
 }  // namespace fragtrace

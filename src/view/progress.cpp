@@ -18,7 +18,7 @@ ViewProgress progressOf(const SideStatistics& side, const RenderOptions& options
   ViewProgress progress;
   if (side.resting) return {1.0, 0.0};
   if (side.samples <= 0) return progress;
-  double longest = 0.0;  // that the nearest goal may be away to be told
+  double longest = 0.0;  // longer times to the nearest goal are not shown
   const auto goal = [&](double fraction, double told) {
     if (fraction > progress.fraction) longest = told;
     progress.fraction = std::max(progress.fraction, std::clamp(fraction, 0.0, 1.0));

@@ -10,7 +10,7 @@
 namespace fragtrace {
 
 struct ViewProgress {
-  double fraction = 0.0;          ///< of the samples, or of the time, that the nearest goal takes; 0 to 1
+  double fraction = 0.0;          ///< share of the samples or the time of the nearest goal, 0 to 1
   std::optional<double> seconds;  ///< left until then, if that can be told
 };
 

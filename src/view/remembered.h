@@ -19,7 +19,7 @@ struct Bookmark {
 
 struct Remembered {
   std::vector<std::filesystem::path> recent;               ///< absolute; the latest first
-  std::map<std::string, std::vector<Bookmark>> bookmarks;  ///< by the absolute path of their scene
+  std::map<std::string, std::vector<Bookmark>> bookmarks;  ///< bookmarks by the absolute path of their scene
 
   bool operator==(const Remembered&) const = default;
 };

@@ -15,7 +15,7 @@ inline constexpr std::array<double, 5> kResolutionSteps{1.0, 1.5, 2.0, 3.0, 4.0}
 /// Its state, changed by the functions below alone. Steps are indices into kResolutionSteps.
 struct ResolutionController {
   double targetMs = 1000.0 / 10.0;  ///< time of one frame while moving
-  int mostSamples = 1;              ///< of such a frame, where it has full resolution
+  int mostSamples = 1;              ///< most samples in a frame of full resolution
   size_t step = 0;                  ///< step of the next frame
   bool moving = false;
   std::array<double, 8> msPerPixel{};  ///< time per pixel of the latest frames, the newest first; 0: none yet

@@ -41,8 +41,8 @@ struct ViewState {
 
   glm::ivec2 size{1280, 720};  ///< pixels of the picture; of one cell in the overview
   std::optional<ViewedScene> scene;
-  BoundsDouble selected;                 ///< of what was clicked on, world space; empty: nothing
-  std::optional<uint32_t> selectedNode;  ///< that it is (SceneNode::index)
+  BoundsDouble selected;                 ///< box of what was clicked on, world space; empty: nothing
+  std::optional<uint32_t> selectedNode;  ///< index of its node (SceneNode::index)
   CameraPose pose;
   bool posed = false;  ///< the camera is the pose; else what the options choose, to the last bit
   int sceneCamera = -1;
@@ -52,10 +52,10 @@ struct ViewState {
 
   bool panel = true;
   bool panelHasRoom = true;  ///< beside the picture
-  bool panelWaits = false;   ///< for room: it was open while it had some
+  bool panelWaits = false;   ///< it was open, and opens again when it has room
   bool figures = false;
   float panelWidth = 0.0f;    ///< pixels at 96 dots an inch; 0: the standard width
-  std::optional<float> blur;  ///< of the backdrop, degrees, while its slider is held
+  std::optional<float> blur;  ///< blur of the backdrop while its slider is held, degrees
   std::array<char, 64> bookmarkName{};
   std::array<char, 64> search{};  ///< text that the sheet is searched for; ends with a 0
   bool sheet = false;
@@ -103,14 +103,14 @@ enum class Errand : uint8_t {
   Screenshot,
   SaveAs,
   WriteExr,
-  Close,  ///< what is open beside the sheet, or the selection; where nothing is, asks whether to quit
+  Close,  ///< closes what is open beside the sheet, or the selection, or else asks whether to quit
   Quit
 };
 
 /// An errand, and what it is about.
 struct Task {
   Errand errand = Errand::None;
-  glm::dvec2 place{0.0};  ///< of the cursor: parts of the picture's width and height, from the top left
+  glm::dvec2 place{0.0};  ///< the cursor in parts of the picture's width and height, from the top left
   std::filesystem::path file{};
   std::optional<RenderOptions> load{};
   size_t index = 0;

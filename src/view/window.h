@@ -30,7 +30,7 @@ struct WindowStart {
 
 /// The functions of libfragtrace_window.so. Host and library are of one build, so C++ types may cross.
 struct WindowLibrary {
-  const char* version;  ///< of the sources that it is built from; the first member in all builds
+  const char* version;  ///< version of its sources; stays the first member
   /// Shows the window until it is closed, then returns. Throws ContextError when there can be none, and what
   /// the tracing thread failed with.
   void (*run)(const WindowStart& start, Exchange& exchange);

@@ -17,9 +17,9 @@ constexpr float kMostPanel = 640.0f;
 constexpr float kStagesHeight = 28.0f;
 constexpr float kStatusHeight = 24.0f;
 constexpr float kLeastPicture = 300.0f;   // beside the panel; where less is left, the panel covers it
-constexpr float kLeastRoom = 180.0f;      // that anything beside a panel over the picture needs
-constexpr float kLeastForPanel = 560.0f;  // of the picture's width
-constexpr float kNewsShare = 0.3f;        // of the picture's height,
+constexpr float kLeastRoom = 180.0f;      // least room beside a panel over the picture
+constexpr float kLeastForPanel = 560.0f;  // least width of the picture
+constexpr float kNewsShare = 0.3f;        // share of the picture's height,
 constexpr float kLeastNews = 60.0f;       // or this, up to half of it
 constexpr float kNewsWidth = 400.0f;      // or half of the picture's
 constexpr glm::vec2 kAllFigures{258.0f, 190.0f};

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/luminance.h"
+#include "base/vectors.h"
 #include "glsl.h"
 #include "shader_statistics.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/finite.h"
+#include "base/vectors.h"
 #include "scene/tangents.h"
 
 namespace fragtrace {

@@ -16,7 +16,7 @@ namespace fragtrace {
 struct PrimitiveInstance {
   const MeshPrimitive* primitive = nullptr;
   glm::dmat4 world{1.0};
-  std::span<const glm::dmat4> joints;  ///< in place of `world` for a primitive with influences
+  std::span<const glm::dmat4> joints;  ///< used instead of `world` for a primitive with influences
   std::string node;
   uint32_t nodeIndex = 0;
   std::string mesh;

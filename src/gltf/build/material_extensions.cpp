@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
+#include "gltf/check/extensions.h"
 #include "gltf/read/value.h"
 
 namespace fragtrace {
@@ -103,8 +105,6 @@ void readDispersion(const MaterialPart& part, Material& m) {
   m.dispersion = part.factor("dispersion", 0.0, 0.0f, kMost);
 }
 
-/// The anisotropies that the phase function still has digits for.
-
 /// KHR_materials_volume_scatter, the draft before KHR_materials_scatter, whose colour had two names.
 void readVolumeScatter(const MaterialPart& part, Material& m) {
   m.scatterStrength = 1.0f;
@@ -152,43 +152,70 @@ void readSpecularGlossiness(const MaterialPart& part, Material& m) {
   }
 }
 
-struct ExtensionRow {
-  const char* name;
-  void (*read)(const MaterialPart&, Material&);
-  bool withSpecularGlossiness = false;  ///< may stand beside it
-};
-constexpr ExtensionRow kMaterialExtensions[] = {
-    {"KHR_materials_emissive_strength", readEmissiveStrength, true},
-    {"KHR_materials_ior", readIor},
-    {"KHR_materials_transmission", readTransmission},
-    {"KHR_materials_volume", readVolume},
-    {"KHR_materials_specular", readSpecular},
-    {"KHR_materials_clearcoat", readClearcoat},
-    {"KHR_materials_sheen", readSheen},
-    {"KHR_materials_anisotropy", readAnisotropy},
-    {"KHR_materials_iridescence", readIridescence},
-    {"KHR_materials_diffuse_transmission", readDiffuseTransmission},
-    {"KHR_materials_dispersion", readDispersion},
-    {"KHR_materials_volume_scatter", readVolumeScatter},
-    {"KHR_materials_scatter", readScatter},
-    {kSpecularGlossiness, readSpecularGlossiness, true},
+constexpr Extension ofMaterials(std::string_view name, std::string_view members,
+                                void (*read)(const MaterialPart&, Material&),
+                                Support support = Support::Supported) {
+  return {name, support, "build/material_extensions.cpp", {"/materials/*", kNowhere}, {}, members, read};
+}
+
+constexpr Extension kMaterialExtensions[] = {
+    ofMaterials("KHR_materials_unlit", "", [](const MaterialPart&, Material& m) { m.unlit = true; }),
+    ofMaterials("KHR_materials_emissive_strength", "emissiveStrength", readEmissiveStrength),
+    ofMaterials("KHR_materials_ior", "ior", readIor),
+    ofMaterials("KHR_materials_transmission", "transmissionFactor transmissionTexture", readTransmission),
+    ofMaterials("KHR_materials_volume",
+                "thicknessFactor attenuationDistance attenuationColor[3] thicknessTexture", readVolume,
+                Support::Partly),
+    ofMaterials("KHR_materials_specular",
+                "specularFactor specularColorFactor[3] specularTexture specularColorTexture", readSpecular),
+    ofMaterials("KHR_materials_clearcoat",
+                "clearcoatNormalTexture clearcoatNormalTexture/scale clearcoatFactor "
+                "clearcoatRoughnessFactor clearcoatTexture clearcoatRoughnessTexture",
+                readClearcoat),
+    ofMaterials("KHR_materials_sheen",
+                "sheenColorFactor[3] sheenRoughnessFactor sheenColorTexture sheenRoughnessTexture",
+                readSheen),
+    ofMaterials("KHR_materials_anisotropy", "anisotropyStrength anisotropyRotation anisotropyTexture",
+                readAnisotropy),
+    ofMaterials("KHR_materials_iridescence",
+                "iridescenceFactor iridescenceIor iridescenceThicknessMinimum iridescenceThicknessMaximum "
+                "iridescenceTexture iridescenceThicknessTexture",
+                readIridescence),
+    ofMaterials("KHR_materials_diffuse_transmission",
+                "diffuseTransmissionFactor diffuseTransmissionColorFactor[3] diffuseTransmissionTexture "
+                "diffuseTransmissionColorTexture",
+                readDiffuseTransmission),
+    ofMaterials("KHR_materials_dispersion", "dispersion", readDispersion),
+    ofMaterials("KHR_materials_volume_scatter",
+                "multiscatterColor[3] multiscatterColorFactor[3] scatterAnisotropy", readVolumeScatter),
+    ofMaterials("KHR_materials_scatter",
+                "scatterStrengthFactor multiscatterColorFactor[3] scatterAnisotropy scatterStrengthTexture "
+                "multiscatterColorTexture",
+                readScatter),
+    ofMaterials(
+        kSpecularGlossiness,
+        "diffuseFactor[4] specularFactor[3] glossinessFactor diffuseTexture specularGlossinessTexture",
+        readSpecularGlossiness),
 };
 
 }  // namespace
 
-const tinygltf::Value* extensionOf(const tinygltf::Material& source, const char* name) {
-  const auto found = source.extensions.find(name);
+std::span<const Extension> materialExtensions() { return kMaterialExtensions; }
+
+const tinygltf::Value* extensionOf(const tinygltf::Material& source, std::string_view name) {
+  const auto found = source.extensions.find(std::string(name));
   return found != source.extensions.end() && found->second.IsObject() ? &found->second : nullptr;
 }
 
 void readMaterialExtensions(const tinygltf::Material& source, const MaterialPart& core, Material& result) {
-  result.unlit = extensionOf(source, "KHR_materials_unlit") != nullptr;
+  constexpr std::string_view kBesideGlossiness[] = {"KHR_materials_unlit", "KHR_materials_emissive_strength",
+                                                    kSpecularGlossiness};
   const bool specularGlossiness = extensionOf(source, kSpecularGlossiness) != nullptr;
-  for (const ExtensionRow& row : kMaterialExtensions) {
+  for (const Extension& row : kMaterialExtensions) {
     const tinygltf::Value* object = extensionOf(source, row.name);
     if (object == nullptr) continue;
-    const std::string name = std::string("extensions/") + row.name;
-    if (specularGlossiness && !row.withSpecularGlossiness) {
+    const std::string name = "extensions/" + std::string(row.name);
+    if (specularGlossiness && std::ranges::find(kBesideGlossiness, row.name) == std::end(kBesideGlossiness)) {
       core.warn(name, std::string("does not go with ") + kSpecularGlossiness + ", and is ignored");
     } else {
       row.read(core.below(name, *object), result);

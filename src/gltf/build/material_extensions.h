@@ -3,12 +3,14 @@
 
 #include <tiny_gltf.h>
 
+#include <string_view>
+
 #include "gltf/build/material_part.h"
 
 namespace fragtrace {
 
 /// The extension's object in a material, or null if the material does not have it.
-const tinygltf::Value* extensionOf(const tinygltf::Material& source, const char* name);
+const tinygltf::Value* extensionOf(const tinygltf::Material& source, std::string_view name);
 
 /// Reads the extensions of a material, of which `core` is the place and `result` holds what glTF itself says.
 void readMaterialExtensions(const tinygltf::Material& source, const MaterialPart& core, Material& result);

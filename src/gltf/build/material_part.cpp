@@ -57,7 +57,7 @@ TextureRef MaterialPart::texture(int index, int texcoord, const tinygltf::Value&
 /// The matrix of KHR_texture_transform, translation times rotation times scale. Its rotation is
 /// counter-clockwise as seen on the picture, v pointing down (KhronosGroup/glTF issue 1563).
 TextureTransform MaterialPart::transformOf() const {
-  constexpr double kMost = 1e6;  // from where a float has hardly any digits left for the place in the picture
+  constexpr double kMost = 1e6;  // beyond, a float has hardly any digits left for the place in the picture
   const std::vector<double> offset = numbersOf(object_, "offset", {0.0, 0.0});
   const std::vector<double> scale = numbersOf(object_, "scale", {1.0, 1.0});
   const auto bounded = [&](double value, const char* name) {

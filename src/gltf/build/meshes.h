@@ -14,13 +14,13 @@ namespace fragtrace {
 
 struct DecodedMesh {
   std::vector<MeshPrimitive> primitives;
-  BoundsDouble bounds;  ///< in the mesh's own space
+  BoundsDouble bounds;  ///< box in the mesh's own space
 };
 
 /// The meshes that instances show.
 struct ShownMeshes {
-  std::map<std::pair<int, MeshPose>, DecodedMesh> decoded;  ///< by mesh
-  std::map<int, std::vector<glm::dmat4>> joints;            ///< by skin
+  std::map<std::pair<int, MeshPose>, DecodedMesh> decoded;  ///< decoded meshes by mesh and pose
+  std::map<int, std::vector<glm::dmat4>> joints;            ///< matrices of joints by skin
   std::vector<PrimitiveInstance> instances;
 };
 

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "base/finite.h"
+#include "base/vectors.h"
 #include "gltf/build/topology.h"
 #include "gltf/read/accessor.h"
 #include "scene/tangents.h"

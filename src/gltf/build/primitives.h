@@ -16,7 +16,7 @@ struct MeshPrimitive {
   Vertices vertices;
   std::vector<Influence> influences;  ///< joints, equally many a vertex; none: the mesh is not skinned
   std::vector<Triangle> triangles;
-  Strokes strokes;  ///< without a node
+  Strokes strokes;  ///< strokes without a node
 
   bool empty() const { return triangles.empty() && strokes.ends.empty(); }
 };

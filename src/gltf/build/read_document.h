@@ -11,7 +11,7 @@
 namespace fragtrace {
 
 struct KeptDocument {
-  Document document;  ///< as the file stands, not posed
+  Document document;  ///< the file as it stands, not posed
   nlohmann::json root;
   std::vector<Animation> animations;
 };

@@ -22,7 +22,7 @@ struct PlacedMeshes {
   std::vector<PrimitiveInstance> flat;
   std::vector<MeshToShare> shared;
   uint64_t bytes = 0;  ///< memory that they take
-  std::string reason;  ///< for it, in a few words
+  std::string reason;  ///< reason in a few words
   std::string copies;  ///< repeated meshes that cannot be shared; may be empty
 };
 

@@ -13,7 +13,7 @@
 namespace fragtrace {
 namespace {
 
-constexpr double kTexturesPart = 0.4;  // of a load, that is behind when they are read
+constexpr double kTexturesPart = 0.4;  // share of a load that is done when they are read
 
 Wrap wrapOf(int mode, const std::string& place, Diagnostics& diagnostics) {
   switch (mode) {

@@ -28,7 +28,7 @@ class TextureTable {
   Scene& scene_;
   std::vector<uint32_t> textures_;  ///< scene index by glTF index
   std::vector<uint32_t> images_;
-  std::vector<bool> lost_;  ///< by glTF index of the picture
+  std::vector<bool> lost_;  ///< lost pictures by glTF index
 };
 
 }  // namespace fragtrace

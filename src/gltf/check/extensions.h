@@ -6,8 +6,12 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace fragtrace {
+
+class MaterialPart;
+struct Material;
 
 enum class Support : uint8_t { Supported, Partly, Ignored };
 
@@ -23,12 +27,18 @@ struct Extension {
   std::string_view advice = {};            ///< advice for a file that requires it, if it is ignored
   std::string_view members = {};  ///< members of a material's extension, with spaces between: a texture ends
                                   ///< in Texture, NAME[3] is three numbers, all others are numbers
+  void (*read)(const MaterialPart&, Material&) = nullptr;  ///< reads a material's extension
 };
 
 /// The place of extensions without an object of their own, and a second place that does not exist.
 inline constexpr std::string_view kNowhere = "nowhere";
 
-std::span<const Extension> extensions();
+/// Those of materials stand with the functions that read them (build/material_extensions.cpp), in the order
+/// in which they are read.
+std::span<const Extension> materialExtensions();
+
+/// All of them.
+const std::vector<Extension>& extensions();
 
 /// Returns null for an extension that is not in the table.
 const Extension* extensionNamed(std::string_view name);

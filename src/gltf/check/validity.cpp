@@ -191,7 +191,7 @@ bool isDecomposable(const json& matrix) {
   glm::dmat3 axes(1.0);
   for (int c = 0; c < 3; ++c)
     for (int r = 0; r < 3; ++r) axes[c][r] = matrix[4 * size_t(c) + size_t(r)].get<double>();
-  constexpr double kLargestCosine = 1e-3;  // of single precision, with scales of some hundreds
+  constexpr double kLargestCosine = 1e-3;  // rounding of single precision with scales of some hundreds
   for (int c = 0; c < 3; ++c) {
     const glm::dvec3& a = axes[c];
     const glm::dvec3& b = axes[(c + 1) % 3];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gltf/codecs/codec_process.h"
+#include "gltf/codecs/compression.h"
 
 #include "advice.h"
 #include "base/message.h"

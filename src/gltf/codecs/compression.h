@@ -4,9 +4,11 @@
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <vector>
 
-#include "gltf/codecs/codec_process.h"
+#include "base/worker.h"
+#include "gltf/codecs/worker/decode.h"
 #include "gltf/read/document.h"
 
 namespace fragtrace {
@@ -23,5 +25,12 @@ bool isFallback(const nlohmann::json& buffer);
 /// InputError.
 void decompressViews(nlohmann::json& root, Buffers& buffers, Worker& codecs, Document& document);
 void decompressPrimitives(nlohmann::json& root, Buffers& buffers, Worker& codecs, Document& document);
+
+/// The libraries run in a worker process.
+extern const WorkerKind kGeometryCodecs;
+
+/// The decoded bytes, request.outputBytes of them. Throws std::runtime_error with the bare reason.
+std::vector<uint8_t> decodeByProcess(Worker& codecs, const CodecRequest& request,
+                                     std::span<const uint8_t> encoded);
 
 }  // namespace fragtrace

@@ -75,7 +75,7 @@ class Diagnostics {
 
   std::string file_;
   std::vector<Warning> warnings_;
-  std::unordered_map<std::string, size_t> warningOf_;  ///< by reason
+  std::unordered_map<std::string, size_t> warningOf_;  ///< index of a warning by its reason
 };
 
 }  // namespace fragtrace

@@ -34,7 +34,7 @@ struct Document {
         drawMissingTextures(limits.drawMissingTextures),
         memory(limits.memoryBytes) {}
 
-  tinygltf::Model model;  ///< without skins, animations and pictures
+  tinygltf::Model model;  ///< the document without skins, animations and pictures
   FileAccess access;
   GltfProgress progress{};  ///< reports this load; a document that is kept has none
   std::vector<ImageSource> images;

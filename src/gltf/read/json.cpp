@@ -11,7 +11,7 @@ namespace {
 
 struct Extent {
   size_t depth = 0;   ///< nesting of objects and arrays
-  size_t values = 0;  ///< at most
+  size_t values = 0;  ///< most values
 };
 
 /// Values are counted before parsing, since the parser's destructor recurses, and a value takes more memory

@@ -15,7 +15,7 @@ namespace fragtrace {
 /// The places to which a file's URIs may lead.
 struct FileAccess {
   std::filesystem::path folder;  ///< the start of relative URIs
-  bool allowExternal = false;    ///< also out of the folder
+  bool allowExternal = false;    ///< allows files out of the folder
   ReadProgress progress{};       ///< reports every file
 };
 

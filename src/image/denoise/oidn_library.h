@@ -48,9 +48,9 @@ struct OidnFunctions {
 struct OidnLibrary {
   OidnFunctions call{};
   std::shared_ptr<OidnDeviceHandle> device;
-  std::string file;     ///< as it was opened: a path, or the name that the loader found
+  std::string file;     ///< a path, or the name that the loader found
   std::string version;  ///< "2.5.1"
-  double loadMs = 0.0;  ///< that opening it and making the device took
+  double loadMs = 0.0;  ///< time to open it and to make the device
 };
 
 /// Opens `chosen`; without it the file that the variable FRAGTRACE_OIDN_LIBRARY names; without that what the

@@ -29,7 +29,7 @@ glm::dvec3 aces(glm::dvec3 color) {
                                  {0.04823, 0.01566, 0.83777}};     // Rec.709, D65 to D60, to AP1, desaturated
   static const glm::dmat3 kOutput{{1.60475, -0.10208, -0.00327},   //
                                   {-0.53108, 1.10813, -0.07276},   //
-                                  {-0.07367, -0.00605, 1.07602}};  // and back
+                                  {-0.07367, -0.00605, 1.07602}};  // the inverse
   const glm::dvec3 v = kInput * color;
   return kOutput * ((v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081));
 }
@@ -71,7 +71,7 @@ glm::dvec3 agx(glm::dvec3 color) {
 
 /// Khronos PBR Neutral Tone Mapper, specification of 2024.
 glm::dvec3 neutral(glm::dvec3 color) {
-  constexpr double kFresnel = 0.04;  // what a dielectric of index 1.5 reflects, taken off again
+  constexpr double kFresnel = 0.04;  // a dielectric of index 1.5 reflects this, which is taken off again
   constexpr double kCompressionStart = 0.8 - kFresnel;
   constexpr double kDesaturation = 0.15;
 
@@ -185,7 +185,8 @@ Image forBlendedValues(Image display) {
 
 Image toDefaultDisplay(const Image& linear) {
   Image display = toDisplay(linear, 0, ToneMap::Neutral);
-  for (float& value : display.values) value = std::round(value * 255.0F) * (1 / 255.0F);  // as it is read
+  for (float& value : display.values)
+    value = std::round(value * 255.0F) * (1 / 255.0F);  // the value that a reader of the file gets
 
   const auto channels = findColorChannels(linear).value();  // toDisplay has thrown where there are none
   const size_t pixelCount = size_t(linear.width) * size_t(linear.height);

@@ -51,11 +51,11 @@ bool takesWrites(const std::filesystem::path& path) {
 
 /// The place behind symbolic links, whether or not anything is there yet.
 std::filesystem::path behindLinks(std::filesystem::path path) {
-  constexpr int kMostLinks = 40;  // as the kernel follows
+  constexpr int kMostLinks = 40;  // the kernel follows as many
   std::error_code error;
   for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(path, error); ++i) {
     const auto target = std::filesystem::read_symlink(path, error);
-    path = path.parent_path() / target;  // which an absolute target replaces
+    path = path.parent_path() / target;  // an absolute target replaces the folder
   }
   return path;
 }

@@ -29,18 +29,18 @@ struct FilmState {
 struct AdaptiveState {
   std::vector<int32_t> samples;
   std::vector<int32_t> targets;
-  int rounds = 0;        ///< that are complete
-  double seconds = 0.0;  ///< that drawing has taken
+  int rounds = 0;        ///< rounds that are complete
+  double seconds = 0.0;  ///< time that drawing has taken
 };
 
 /// A render between two draws. The caller writes the texts that say what is rendered and what was measured.
 struct Checkpoint {
   std::string job;                ///< JSON of all that its samples depend on
   std::string statistics;         ///< JSON of the parts before the one under way
-  Image picture;                  ///< of these parts, with values of all of them; may be empty
-  int part = 0;                   ///< of the picture, that is under way
-  std::vector<FilmState> films;   ///< of that part: one, or the halves of an adaptive one
-  std::vector<FilmPixels> looks;  ///< at its film on the way (observedVariance() needs them)
+  Image picture;                  ///< the finished parts with all their values; may be empty
+  int part = 0;                   ///< number of the part that is under way
+  std::vector<FilmState> films;   ///< films of that part: one, or the two of an adaptive picture
+  std::vector<FilmPixels> looks;  ///< copies of its film on the way (for observedVariance())
   AdaptiveState adaptive;
 };
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "base/luminance.h"
+#include "base/vectors.h"
 #include "image/image.h"
 
 namespace fragtrace {
@@ -42,8 +42,8 @@ struct FilmPixels {
 struct FilmTotals {
   uint64_t samples = 0;
   uint64_t rays = 0;
-  uint64_t hitPixels = 0;    ///< in which a camera ray has met a surface
-  uint64_t emptyPixels = 0;  ///< without any sample
+  uint64_t hitPixels = 0;    ///< pixels in which a camera ray has met a surface
+  uint64_t emptyPixels = 0;  ///< pixels without any sample
   uint64_t nonfinitePixels = 0;
   uint64_t budgetHits = 0;  ///< pixels in which a loop was ended by the driver: the picture is wrong
   double cut = 0.0;         ///< as in FilmPixels

@@ -44,7 +44,7 @@ std::vector<double> relativeErrors(const FilmPixels& pooled, const std::vector<d
 /// The distance of a picture from a noise goal: of the pixels that can be noisy, or of those among them that
 /// light has reached, whichever is larger. Otherwise black pixels would hide the few that are lit.
 struct GoalDistance {
-  double error = 0.0;  ///< that 95 % of the pixels do not exceed; 0 without any
+  double error = 0.0;  ///< 95 % of the pixels have no larger error; 0 without pixels
   double share = 1.0;  ///< share of the pixels at or below the goal
 };
 GoalDistance distanceTo(double goal, const FilmPixels& film, const std::vector<double>& errors);

@@ -182,7 +182,7 @@ struct PartRun {
   /// Writes a checkpoint of the part in its present state.
   std::function<void(std::vector<FilmState>, const std::vector<FilmPixels>&, const AdaptiveState&)> keep;
   CheckpointKeeper& keeper;
-  const Checkpoint* from;  ///< to go on from; may be none
+  const Checkpoint* from;  ///< drawing goes on from it; may be null
 
   /// Reports the progress, and keeps a checkpoint if one is due or the work is to stop.
   template <typename State>

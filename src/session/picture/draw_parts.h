@@ -17,7 +17,7 @@ struct PictureJob {
   const RenderOptions& options;
   const LoadedScene& loaded;
   const Tracer& tracer;
-  bool showsProgress = true;  ///< of this picture alone; a sequence shows its own
+  bool showsProgress = true;  ///< false where a sequence shows its own
   /// Called with the progress of the samples, 0..1; may be empty.
   std::function<void(double fraction)> told = {};
 };
@@ -25,8 +25,8 @@ struct PictureJob {
 /// Everything that is made and measured before the first sample that counts.
 struct DrawingPlan {
   std::vector<Region> parts;
-  Film film;                         ///< of the first part, empty
-  std::vector<double> layerSeconds;  ///< that a sample of each layer takes in all pixels of the picture
+  Film film;                         ///< film of the first part, empty
+  std::vector<double> layerSeconds;  ///< time of one sample of each layer in all pixels
 };
 
 /// Compiles all programs, so that none fails later, and fills in their statistics. Throws UsageError,

@@ -22,7 +22,7 @@ struct Drawing {
 /// A film that gets samples, and the copies of it that were read on the way.
 struct SampledFilm {
   Film film;
-  std::vector<FilmPixels> looks;  ///< at a quarter and at half of the samples
+  std::vector<FilmPixels> looks;  ///< copies of the film at a quarter and at half of the samples
   int fewest = 0;                 ///< samples that each pixel has
 };
 
@@ -46,7 +46,7 @@ int samplesOfLayer(const RenderOptions& options, Aov aov, int ofPicture);
 
 /// A layer, with its time and its counts.
 struct LayerDraw {
-  Image image;  ///< with the names that its channels have in a file
+  Image image;  ///< its channels have the names that they have in a file
   bool complete = true;
   double compileMs = 0.0;
   double drawMs = 0.0;

@@ -17,7 +17,7 @@ namespace fragtrace {
 /// The device and the filter, which several pictures share.
 struct Device {
   std::unique_ptr<Context> context;
-  std::optional<DebugLog> driverLog;  ///< of the context
+  std::optional<DebugLog> driverLog;  ///< messages of the context's driver
   std::optional<OidnLibrary> oidn;
 };
 

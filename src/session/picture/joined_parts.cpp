@@ -8,7 +8,7 @@
 
 #include "base/count_text.h"
 #include "base/errors.h"
-#include "base/luminance.h"
+#include "base/vectors.h"
 #include "image/channels.h"
 #include "image/over_white.h"
 #include "session/picture/denoising.h"

@@ -22,10 +22,10 @@ struct FileFilter {
 };
 
 struct FileQuestion {
-  bool save = false;  ///< for a file that may be new
+  bool save = false;  ///< the file may be new
   std::string title;
-  std::filesystem::path folder;  ///< to begin in; absolute
-  std::string name;              ///< to save under, unless another one is typed
+  std::filesystem::path folder;  ///< folder that is shown first; absolute
+  std::string name;              ///< name to save under, unless another one is typed
   std::vector<FileFilter> filters;
 };
 

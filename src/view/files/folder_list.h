@@ -38,9 +38,9 @@ struct FolderList {
   FileQuestion question;
   size_t filter = 0;                ///< index in question.filters
   FolderContent content;            ///< content of the latest read
-  std::array<char, 1024> text{};    ///< to save under, or to be found in names; ends with a 0
+  std::array<char, 1024> text{};    ///< name to save under, or text to find in names; ends with a 0
   std::vector<FolderEntry> shown;   ///< entries that filter and text leave
-  std::optional<size_t> chosen;     ///< of these
+  std::optional<size_t> chosen;     ///< index of the chosen entry
   std::string note;                 ///< obstacle to the choice; empty: none
   std::filesystem::path toReplace;  ///< the file that is there already, when the user was asked
 };

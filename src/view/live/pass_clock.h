@@ -30,7 +30,7 @@ class PassClock {
  private:
   struct Stamp {
     GlQuery time;
-    std::optional<Pass> pass;  ///< that ends there
+    std::optional<Pass> pass;  ///< the pass that ends there
   };
   void stamp(std::optional<Pass> pass);
   void readStamps();

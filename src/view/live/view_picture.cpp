@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kAllUpTo = 64.0;  // samples
 constexpr double kNoneFrom = 256.0;
-constexpr int kGuideStep = 4;              // from one set of guides to the next, in samples
-constexpr double kMostPastSamples = 16.0;  // that the past counts for
+constexpr int kGuideStep = 4;              // samples from one set of guides to the next
+constexpr double kMostPastSamples = 16.0;  // the past counts for so many samples at most
 
 void fit(ShownTexture& shown, glm::ivec2 size) {
   if (shown.size == size) return;

@@ -23,9 +23,9 @@ inline constexpr int kNoPastFrom = 16;
 
 /// The memory that a side keeps on the device from picture to picture.
 struct SideMemory {
-  std::optional<Film> guides;  ///< of the present view
-  int guideSamples = 0;        ///< of these; 0: they are to be drawn anew
-  SeenPicture past;            ///< of the view before
+  std::optional<Film> guides;  ///< guides of the present view
+  int guideSamples = 0;        ///< samples of the guides; 0: they are drawn anew
+  SeenPicture past;            ///< picture of the view before
   SeenPicture present;         ///< shown last, before it was filtered
 
   /// The camera or the resolution is another one.
@@ -37,16 +37,16 @@ struct SideMemory {
 /// A picture as the window shows it: RGBA32F, linear, the first row at the top.
 struct ShownTexture {
   GlTexture texture;
-  glm::ivec2 size{0};     ///< of it, exactly
+  glm::ivec2 size{0};     ///< exact size of the picture
   void* ready = nullptr;  ///< a fence, of one that was handed over
 };
 
 /// The settings that make a side's picture.
 struct Showing {
   bool filtered = false;
-  bool byOidn = false;  ///< which must be there; else by variance
+  bool byOidn = false;  ///< by OIDN, which must be there; else by variance
   int samples = 0;      ///< per pixel
-  bool past = true;     ///< with what the camera saw before
+  bool past = true;     ///< uses the picture of the view before
 };
 
 /// R, G, B and A.

@@ -21,7 +21,7 @@ struct ViewProgram {
   std::string variant;
   size_t bytes = 0;                    ///< on the device
   std::string error;                   ///< why it cannot be had; empty: it can
-  std::vector<std::string> driverLog;  ///< of the context that it was compiled in, where that was another one
+  std::vector<std::string> driverLog;  ///< messages of the context that compiled it, if that was another one
 };
 
 /// Lets programs be compiled while others draw.
@@ -64,7 +64,7 @@ class ViewPrograms {
 
   const Context& context_;
   LoadedScene& loaded_;
-  RenderOptions treeOptions_;                         ///< that the scene's tree was built for
+  RenderOptions treeOptions_;                         ///< the scene's tree was built for these
   std::list<std::shared_ptr<ViewProgram>> programs_;  ///< the latest used first
   std::optional<CompileAside> aside_;
   std::future<std::shared_ptr<ViewProgram>> coming_;

@@ -23,8 +23,8 @@ namespace {
 constexpr int kFewestForOidn = 4;
 /// Below this many samples the variance of a pixel tells little of its error.
 constexpr int kLeastForError = 32;
-constexpr double kErrorStep = 1.2;  ///< from one estimate of the error to the next, in samples
-constexpr double kCountMs = 200.0;  ///< from one look at the film's counts to the next
+constexpr double kErrorStep = 1.2;  ///< samples grow by this factor between estimates of the error
+constexpr double kCountMs = 200.0;  ///< time between looks at the film's counts
 
 /// The bytes a pixel of films, and of pictures on their way to the window.
 size_t bytesPerPixel(const SideMemory& memory) {

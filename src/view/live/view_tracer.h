@@ -51,8 +51,8 @@ class ViewTracer {
   struct Side {
     RenderOptions options;
     std::shared_ptr<ViewProgram> program;
-    std::optional<RenderOptions> awaited;  ///< that it draws once their program is compiled
-    bool previews = false;                 ///< in Blinn-Phong, until then
+    std::optional<RenderOptions> awaited;  ///< options to draw once their program is compiled
+    bool previews = false;                 ///< draws in Blinn-Phong until then
     std::unique_ptr<Film> film;
     View view;
     int samples = 0;
@@ -66,8 +66,8 @@ class ViewTracer {
     SideMemory memory;
     int shownAt = 0;          ///< samples when it was published last
     int shownIn = -1;         ///< slot of that picture; negative: it is not there any more
-    double filterMs = 0.0;    ///< that it took
-    uint64_t movedBytes = 0;  ///< by the thread, at the side's picture before
+    double filterMs = 0.0;    ///< time of the filter
+    uint64_t movedBytes = 0;  ///< the thread's count at the side's picture before
   };
 
   void enterContext(const SharedContexts& shared);
@@ -145,12 +145,12 @@ class ViewTracer {
   std::unique_ptr<Context> context_;
   std::unique_ptr<DebugLog> driverLog_;
   std::unique_ptr<LoadedScene> loaded_;
-  std::shared_ptr<KeptDocument> document_;  ///< that it is posed from
-  RenderOptions loadedOptions_;             ///< of the scene
-  CameraOverrides posedCamera_;             ///< that lines have their width of
+  std::shared_ptr<KeptDocument> document_;  ///< the document that is posed
+  RenderOptions loadedOptions_;             ///< options of the scene
+  CameraOverrides posedCamera_;             ///< camera that gives lines their width
   std::optional<int> posedCameraIndex_;
   glm::ivec2 posedSize_{0};
-  std::optional<RefittableTree> tree_;  ///< that was built last for a moving scene
+  std::optional<RefittableTree> tree_;  ///< the latest tree of a moving scene
   std::unique_ptr<ViewPrograms> programs_;
   std::optional<OidnLibrary> oidn_;  ///< opened later where a pasted command asks for it
   PassClock clock_;
@@ -169,10 +169,10 @@ class ViewTracer {
   std::atomic<bool> saving_ = false;
   std::string loadError_;  ///< why the latest load failed; empty: it did not
   std::vector<SaveRequest> saves_;
-  std::optional<Image> reference_;  ///< that the window shows as side B
-  int losses_ = 0;                  ///< of the context since the latest publication
+  std::optional<Image> reference_;  ///< the picture that the window shows as side B
+  int losses_ = 0;                  ///< contexts lost since the latest publication
   double publishMs_ = 0.0;          ///< time of the latest publication
-  double filterMsPerPixel_ = 0.0;   ///< in it, of layers and filter
+  double filterMsPerPixel_ = 0.0;   ///< time of layers and filter for a pixel
   FileWatch sceneFiles_;
   FileWatch shaderFiles_;
   double watched_ = 0.0;  ///< when they were looked at, by steadyMilliseconds()

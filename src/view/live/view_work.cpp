@@ -18,7 +18,7 @@ constexpr double kPublishMs = 100.0;
 constexpr double kPublishShare = 4.0;
 constexpr double kFilteredShare = 1.0;
 constexpr size_t kFrames = 64;        ///< whose times are summarised
-constexpr int kMeanwhileSamples = 4;  ///< of a picture that gives way to another soon
+constexpr int kMeanwhileSamples = 4;  ///< samples of a picture that another one replaces soon
 /// The edges of fewer samples are ragged: the coarser picture before, which is smooth, stays until there are
 /// so many, but no longer than this.
 constexpr int kSmoothSamples = 4;

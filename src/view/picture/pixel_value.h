@@ -19,10 +19,10 @@ struct PixelArea {
 
 /// The values of an area of a picture.
 struct PictureValues {
-  uint64_t picture = 0;  ///< which one; counts these
+  uint64_t picture = 0;  ///< number of the picture
   glm::ivec2 whole{0};   ///< pixels of it
   PixelArea area;
-  Image image;  ///< of the area: R, G, B and more
+  Image image;  ///< values of the area: R, G, B and more
 };
 
 /// The pixel of a picture of that size at a place, in parts of width and height from the top left.

@@ -15,7 +15,7 @@ namespace fragtrace {
 
 namespace {
 
-constexpr int kTexelsPerSide = 4;  ///< of a pixel's part that are looked at
+constexpr int kTexelsPerSide = 4;  ///< texels that are read in a pixel's part
 constexpr double kMeanShown = 0.25;
 
 /// In the middle of equal parts of a pixel's part of the map.

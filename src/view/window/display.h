@@ -26,7 +26,7 @@ struct DisplayView {
   double bar = 1.0;       ///< a part of its width; 1: the left side alone
   Magnifier magnifier;
   bool cells = false;       ///< all sides in cells (kCells), rather than two
-  bool difference = false;  ///< of both sides' radiance, absolute, times 2^differenceStops
+  bool difference = false;  ///< shows the absolute difference of radiance times 2^differenceStops
   double differenceStops = 0.0;
 };
 
@@ -55,14 +55,14 @@ class Display {
 
  private:
   struct Side {
-    GlTexture copied;  ///< where pictures are not shared
+    GlTexture copied;  ///< the picture, if textures are not shared
     glm::ivec2 copiedSize{0};
-    SharedTexture shared;   ///< that is shown
-    SharedTexture waiting;  ///< until it is ready
+    SharedTexture shared;   ///< the texture that is shown
+    SharedTexture waiting;  ///< the next texture, until it is ready
     glm::ivec2 waitingSize{0};
     bool waitingAsItIs = false;
     GLuint traced = 0;    ///< texture that is shown
-    uint64_t number = 0;  ///< of the picture
+    uint64_t number = 0;  ///< number of the picture
     ValueReader reader;
     GlTexture displayed;
     GlFramebuffer framebuffer;  ///< framebuffer of the latter

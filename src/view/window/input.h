@@ -53,8 +53,8 @@ class Input {
     int modifiers = 0;
     glm::dvec2 start{0.0};
     bool dragging = false;
-    bool bar = false;   ///< that of the split view is dragged,
-    bool edge = false;  ///< that of the panel
+    bool bar = false;   ///< the split view's bar is dragged
+    bool edge = false;  ///< the panel's edge is dragged
   };
 
   void key(const Event& event, ViewState& state, const RunTask& run);
@@ -80,7 +80,7 @@ class Input {
   bool woken_ = true;
   bool behind_ = false;  ///< Interface::isBehind() at the latest update()
   int presses_ = 0;
-  WindowLayout layout_;  ///< of the latest update()
+  WindowLayout layout_;  ///< layout at the latest update()
 };
 
 }  // namespace fragtrace

@@ -81,7 +81,7 @@ void drawLines(const ViewState& state, const ViewFacts& facts, const WindowLayou
 /// Says at the top right of a picture which one it is: the first of these texts that has room, or the last.
 struct Label {
   std::vector<std::string> texts;
-  ImVec2 topRight;     ///< of the picture, and
+  ImVec2 topRight;     ///< corner of the picture
   float width = 0.0f;  ///< so wide it is
   bool chosen = false;
 };

@@ -31,10 +31,10 @@ struct ShownHistogram {
 struct ViewFacts {
   std::array<SideStatistics, kMostSides> statistics;
   std::array<glm::ivec2, kMostSides>
-      pictureSize{};  ///< of the pictures shown; lower than the window's while moving
+      pictureSize{};  ///< size of the pictures shown; lower than the window's while moving
   std::array<std::vector<PictureLine>, kMostSides> lines;
   std::array<PictureValues, kMostSides>
-      values;  ///< of what is looked at: under the cursor, enlarged, the whole
+      values;  ///< values under the cursor, of the enlarged area, of the whole
   ShownHistogram histogram;
   std::map<std::filesystem::path, unsigned> thumbnails;  ///< textures, of environments; empty: the studio
   std::optional<glm::dvec2> cursor;  ///< over the picture: parts of its width and height, from the top left
@@ -43,8 +43,8 @@ struct ViewFacts {
   std::string error;
   MessageList messages;
   std::optional<PickAnswer> pick;
-  double picturesPerSecond = 0.0;  ///< of the first side, while something moves; else 0
-  bool wantsHistogram = false;     ///< of the active side
+  double picturesPerSecond = 0.0;  ///< rate of the first side while something moves; else 0
+  bool wantsHistogram = false;     ///< the active side's histogram is shown
   bool wantsThumbnails = false;    ///< the list of environments is open
   bool errorClosed = false;        ///< it has been read
   bool resting = false;
@@ -54,9 +54,9 @@ struct ViewFacts {
   Remembered remembered;
   RecentFiles recent;
   DialogKind dialog = DialogKind::None;
-  size_t sheetLines = 0;          ///< of the sheet, that the search has found
+  size_t sheetLines = 0;          ///< lines of the sheet that the search has found
   const char* focus = "picture";  ///< receiver of keys (Interface::focus)
-  Places places;                  ///< of the latest frame
+  Places places;                  ///< places in the latest frame
 };
 
 /// Draws all of that into Dear ImGui's frame, `now` being seconds of the messages' clock. Returns what is

@@ -9,8 +9,8 @@ namespace fragtrace {
 
 namespace {
 
-constexpr float kLabelWidth = 0.42f;  // of the row, before its control
-constexpr float kTipWidth = 30.0f;    // of a tip at most, in heights of the font
+constexpr float kLabelWidth = 0.42f;  // share of the row before its control
+constexpr float kTipWidth = 30.0f;    // widest tip, in heights of the font
 
 }  // namespace
 

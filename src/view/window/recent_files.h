@@ -14,7 +14,7 @@ namespace fragtrace {
 struct RecentFiles {
   std::vector<std::filesystem::path> files;
   std::vector<bool> gone;
-  int frame = -1;  ///< of Dear ImGui, in which the list was drawn last
+  int frame = -1;  ///< Dear ImGui's frame in which the list was drawn last
 };
 
 /// A line for each file, grey where it is gone. One that is pressed becomes the task.

@@ -14,7 +14,7 @@ namespace fragtrace {
 /// Times of what a person would feel, milliseconds.
 struct Responsiveness {
   std::deque<double> loopMs;    ///< the event loop's latest turns, without waiting
-  std::deque<double> answerMs;  ///< from a change to the first picture of it, the latest ones
+  std::deque<double> answerMs;  ///< latest times from a change to its first picture
   double longestLoopMs = 0.0;
 };
 
@@ -23,9 +23,9 @@ void keepTime(std::deque<double>& times, double ms);
 
 struct WindowReport {
   uint64_t asked = 0;         ///< the latest request
-  uint64_t seen = 0;          ///< that the tracing thread has seen
-  uint64_t answered = 0;      ///< that a picture shown answers
-  uint64_t pictures = 0;      ///< of all sides, that came
+  uint64_t seen = 0;          ///< the latest change that the tracing thread has seen
+  uint64_t answered = 0;      ///< the latest change that a picture shown answers
+  uint64_t pictures = 0;      ///< pictures of all sides that came
   std::string camera;         ///< as options of the command line
   const char* end = nullptr;  ///< "closed" or "failed"; null: the window is open
   std::vector<std::string> glErrors;

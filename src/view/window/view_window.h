@@ -19,7 +19,7 @@
 
 namespace fragtrace {
 
-inline constexpr int kSettleFrames = 3;  ///< that Dear ImGui takes to come to rest after an event
+inline constexpr int kSettleFrames = 3;  ///< Dear ImGui comes to rest so many frames after an event
 
 class Window {
  public:
@@ -89,15 +89,15 @@ class Window {
   Display display_;
   FileDialog dialog_;
   bool dialogSaves_ = false;           ///< it asks for the name of a picture
-  std::filesystem::path savedFolder_;  ///< of the picture that was written last; empty: none was
+  std::filesystem::path savedFolder_;  ///< folder of the latest picture written; empty: none was
   std::map<std::filesystem::path, GlTexture> thumbnails_;
   std::set<std::filesystem::path> askedThumbnails_;
   ViewState state_;
   ViewFacts facts_;
   History history_;
   WindowReport report_;
-  RenderOptions wanted_;                 ///< of the scene that is shown, or being loaded
-  std::optional<RenderOptions> pasted_;  ///< to be taken once their scene is loaded
+  RenderOptions wanted_;                 ///< options of the scene that is shown or being loaded
+  std::optional<RenderOptions> pasted_;  ///< they apply once their scene is loaded
   glm::ivec4 windowed_{0};               ///< place and size before the window filled the screen
   std::string status_;
   double statusTime_ = -1.0;
@@ -112,9 +112,9 @@ class Window {
   glm::ivec2 askedSize_{0};
   bool askedMoving_ = false;
   uint64_t picksAsked_ = 0;
-  uint64_t picksAnswered_ = 0;                          ///< or taken back
-  int quitAskedAt_ = -2;                                ///< Input::presses() when Escape last asked
-  std::deque<double> arrivals_;                         ///< of the first side's pictures in the last second
+  uint64_t picksAnswered_ = 0;   ///< picks that are answered or taken back
+  int quitAskedAt_ = -2;         ///< Input::presses() when Escape last asked
+  std::deque<double> arrivals_;  ///< times of the first side's pictures in the last second
   std::deque<std::pair<uint64_t, double>> unanswered_;  ///< requests, and when they were made
 };
 

@@ -30,8 +30,8 @@ class FileDialog {
 
   struct News {
     bool changed = false;        ///< the list is to be drawn anew
-    std::filesystem::path file;  ///< that was chosen; empty: none
-    std::string message;         ///< for the user; empty: none
+    std::filesystem::path file;  ///< the chosen file; empty: none
+    std::string message;         ///< text for the user; empty: none
   };
   /// Returns the dialog's news since the last call.
   News take(double now);
@@ -55,7 +55,7 @@ class FileDialog {
   std::filesystem::path chosen_;
   double asked_ = 0.0;    ///< when the desktop was, in seconds; infinite: and the user knows
   bool popup_ = false;    ///< Dear ImGui has one open for the list
-  bool scrolls_ = false;  ///< to the entry that is chosen
+  bool scrolls_ = false;  ///< the next frame scrolls to the chosen entry
   int field_ = 0;         ///< a new number makes Dear ImGui take the text that it edits from the list
 };
 

@@ -11,7 +11,7 @@ namespace fragtrace {
 
 struct PortalAnswer {
   bool there = false;  ///< the desktop has shown a dialog; else it cannot,
-  std::string why;     ///< for this reason; empty: there is no portal
+  std::string why;     ///< the reason for which there is none; empty: there is a portal
   std::string uri;     ///< the choice; empty: none
 };
 

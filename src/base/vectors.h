@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// What GLM lacks: finite vectors, norms of matrices, luminance.
 #pragma once
 
 #include <algorithm>
@@ -6,6 +7,14 @@
 #include <glm/glm.hpp>
 
 namespace fragtrace {
+
+template <glm::length_t components, typename Number>
+bool isFinite(const glm::vec<components, Number>& v) {
+  for (glm::length_t c = 0; c < components; ++c) {
+    if (!std::isfinite(v[c])) return false;
+  }
+  return true;
+}
 
 /// The largest factor by which a matrix can enlarge the largest coordinate: the largest sum of a row's
 /// magnitudes.
@@ -16,5 +25,10 @@ inline double rowNorm(const glm::dmat3& m) {
 
 /// A bound on how much a matrix can lengthen a vector: no more than the root of both norms' product.
 inline double stretchBound(const glm::dmat3& m) { return std::sqrt(rowNorm(m) * rowNorm(glm::transpose(m))); }
+
+/// Luminance of linear sRGB (ITU-R BT.709), as shaders/luminance.glsl has it.
+inline constexpr glm::dvec3 kLuminance{0.2126, 0.7152, 0.0722};
+
+inline double luminance(const glm::dvec3& color) { return glm::dot(color, kLuminance); }
 
 }  // namespace fragtrace
