@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 file(GLOB_RECURSE files ${FOLDER}/*)
-set(text "#include \"shader/embedded.h\"\n\nnamespace fragtrace {\n\nconst std::vector<EmbeddedShader>& embeddedShaders() {\n  static const std::vector<EmbeddedShader> shaders = {\n")
+set(text "#include \"shader/assemble.h\"\n\nnamespace fragtrace {\n\nconst std::vector<EmbeddedShader>& embeddedShaders() {\n  static const std::vector<EmbeddedShader> shaders = {\n")
 foreach(file ${files})
   file(RELATIVE_PATH name ${FOLDER} ${file})
   file(READ ${file} body)

@@ -4,7 +4,7 @@
 const float kPi = float(3.14159265358979324);
 const float kInversePi = float(0.318309886183790672);
 
-/// The distance of what is not at any place.
+/// The distance of the environment and of directional lights.
 const float kFarAway = float(3.0e38);
 
 struct Frame3 {

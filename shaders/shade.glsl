@@ -125,7 +125,7 @@ Path scatterGlass(Path p, Surface s, SurfaceMaterial m, vec3 normal, float choic
   return spawnRay(p, s, direction, next.weight, 0.0, next.transmitted, m);
 }
 
-/// Mirror reflection of the stages before global illumination, of so much of what a mirror would reflect.
+/// Mirror reflection of the stages before global illumination, scaled by a share.
 Path scatterMirror(Path p, Surface s, SurfaceMaterial m, vec3 normal, float share) {
   vec3 wo = -p.direction;
   vec3 f0 = phongF0(m.baseColor, m.metallic, m.dielectricF0);

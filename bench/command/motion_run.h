@@ -8,7 +8,7 @@
 
 #include "options/view_options.h"
 #include "view/camera_controller.h"
-#include "view/pass_times.h"
+#include "view/exchange.h"
 
 namespace fragtrace {
 

@@ -21,9 +21,9 @@ struct Child {
   Child& operator=(const Child&) = delete;
 };
 
-/// endChild says this of a process that was stopped for its processor time,
+/// endChild says this of a process that has used up its processor time.
 inline constexpr const char* kOutOfTime = "out of time";
-/// and this of one that a shared library was missing for.
+/// endChild says this of a process that lacks a shared library.
 inline constexpr const char* kLibraryMissing = "a library that it needs is not installed";
 
 /// Starts an executable with the path of another file as its argument, and with a sequential-packet socket as

@@ -13,8 +13,7 @@ namespace fragtrace {
 /// shared object that this code is part of.
 std::vector<std::filesystem::path> ownFolders();
 
-/// The file of that name in the first of these folders that has it. Throws std::runtime_error, which names
-/// them.
+/// Searches these folders in order for the file. Throws std::runtime_error that names them.
 std::filesystem::path ownFile(const std::string& name);
 
 struct Plugin {

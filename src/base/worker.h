@@ -42,8 +42,8 @@ class Worker {
  public:
   explicit Worker(const WorkerKind& kind) : kind_(kind) {}
 
-  /// Starts the process ahead of its first use, which takes a millisecond here and up to 0.1 s there. Does
-  /// not wait for work that it has.
+  /// Starts the process ahead of its first use: this takes a millisecond, the first use up to 0.1 s. Returns
+  /// at once while the process works.
   void start();
 
   /// Why the libraries cannot be used; empty where they can. The first call asks the process.

@@ -78,7 +78,7 @@ struct Move {
 Move moveOff(const Face& glass, bool solid, const Face& opaque) {
   const double gap = kGap * std::max(glass.error, opaque.error);
   if (!(std::abs(glm::dot(glass.normal, opaque.normal)) > kParallel)) return {};
-  // The larger of two faces that are nearly parallel decides by its plane.
+  // If two faces are nearly parallel, the plane of the larger one decides.
   const bool byGlass = apart(glass, opaque) <= gap;
   if (!byGlass && !(apart(opaque, glass) <= gap)) return {};
   if (!overlap(glass, opaque, gap)) return {};

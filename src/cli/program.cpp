@@ -37,7 +37,7 @@ void openClosedStreams() {
 
 int prepareAndRun(const MainFunction& run, int argc, char** argv) {
   openClosedStreams();
-  // A full pipe or file gives an error where it is written to, which reaches the user.
+  // Writing to a closed pipe, or past the limit of a file, then returns an error, which reaches the user.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   if (asksForJson({argv, size_t(argc)})) reportAsJson(false);

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
-// The picture formats: what is written is known by its name, what is read by its first bytes.
+// SPDX-License-Identifier: MIT The picture formats. A file to be written is known by its name, one that is
+// read by its first bytes.
 #pragma once
 
 #include <cstdint>

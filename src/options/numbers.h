@@ -25,7 +25,7 @@ CLI::Validator realNumberFrom(double least, const char* type);
 /// The same within these bounds, which --help says.
 CLI::Validator realNumber(double least, double most);
 
-/// One of these names.
+/// Accepts one of these names.
 CLI::Validator oneOf(std::vector<std::string> names);
 
 /// Bytes, as a number with or without a unit (MB or MiB); the text becomes the plain number.

@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include "shader/effect.h"
 #include "shader/render_options.h"
+#include "shader/stage.h"
 
 namespace CLI {
 class App;
@@ -78,7 +78,7 @@ void appendRow(std::string& text, const OptionRow& row, const RenderOptions& opt
 /// effects in stageRows().
 RenderOptions withoutEffects(RenderOptions options, std::initializer_list<Effect> effects);
 
-/// The options that loadScene() looks at, but for those that aim() looks at again: all else is as by default.
+/// Keeps the options that loadScene() reads and aim() does not read again; all others get their defaults.
 RenderOptions sceneOptions(RenderOptions options);
 
 /// The same for makeTracer(), the options that loading depends on included.

@@ -108,7 +108,7 @@ OptionRow number(const char* name, std::string help, Member member, NumberRange<
   return numberRow<Number>(name, std::move(help), member, std::optional(range), true, traits);
 }
 
-/// Is none by default.
+/// A number that is absent by default.
 template <typename Number, typename Member>
 OptionRow limit(const char* name, std::string help, Member member, NumberRange<Number> range,
                 OptionTraits traits) {

@@ -59,7 +59,7 @@ OptionRow switchRow(const char* name, std::string help, bool on, std::vector<std
   return row;
 }
 
-/// None for it in RawRender: --noise and --time, and the viewer, have defaults of their own. So copied
+/// Has no default in RawRender, since --noise, --time and the viewer have defaults of their own. So copied
 /// commands always say it.
 OptionRow sppRow() {
   OptionRow row =

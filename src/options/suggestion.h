@@ -7,11 +7,11 @@
 
 namespace fragtrace {
 
-/// The option that somebody meant who wrote one that is not there, by what other programs call it, its
-/// beginning, or its letters; empty when none is near. Names stand with their dashes.
+/// The option that an unknown one probably means: what other programs call it, the same beginning, or similar
+/// letters; empty if none is near. Names have their dashes.
 std::string suggestedOption(const std::string& unknown, const std::vector<std::string>& known);
 
-/// The nearest name by its letters, of which a third may be wrong; empty when none is near.
+/// The most similar name; empty if more than a third of the letters differ.
 std::string nearestName(std::string_view unknown, const std::vector<std::string>& known);
 
 }  // namespace fragtrace

@@ -81,8 +81,8 @@ using DecodeProgress = std::function<void(size_t decoded, size_t count)>;
 
 /// Packs the arrays that the variant reads. Textures wider or higher than `textureSide` are scaled down. The
 /// tree may be a plain list of leaves without nodes (iterative traversal). Throws InputError when a texture
-/// cannot be decoded. With `kept`, pictures that it holds are not packed again (GpuScene::unchanged), and it
-/// learns of those that are.
+/// cannot be decoded. Pictures in `kept` are not packed again (GpuScene::unchanged); those that are packed
+/// are added to it.
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
                    const ShaderVariant& variant, int textureSide = kLargestTextureSide,
                    KeptArrays* kept = nullptr, const DecodeProgress& progress = {});

@@ -49,7 +49,7 @@ std::string chosenRow(const Words& words, const std::string& index, size_t count
   return text + ")";
 }
 
-/// A function of an entry and a row, which is a constant where it is called.
+/// Writes a function of an entry and a row; callers pass a constant row.
 std::string rowFunction(const std::string& head, const std::string& index, const Words& words, size_t count,
                         size_t rows, const std::vector<bool>& used = {}) {
   std::string text = head + " {\n";

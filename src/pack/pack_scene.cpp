@@ -17,7 +17,7 @@
 #include "pack/pack_tree.h"
 #include "pack/words.h"
 #include "scene/casters.h"
-#include "shader/glass_tables.h"
+#include "shader/variant.h"
 
 namespace fragtrace {
 

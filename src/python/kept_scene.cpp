@@ -20,7 +20,7 @@ struct DrawingState {
   std::vector<std::weak_ptr<KeptScene>> scenes;
 };
 
-/// The state of the drawing thread. It is never destroyed, since the driver may be gone before.
+/// The state of the drawing thread. It is never destroyed, since the driver may be unloaded first.
 DrawingState& drawing() {
   static auto* const theOne = new DrawingState;
   return *theOne;
@@ -51,8 +51,8 @@ void forgetDevice() {
   state.device.context.reset();
 }
 
-/// The options for which the scene is loaded: points and lines get their size from the camera and the
-/// picture's.
+/// The options that the loaded scene depends on. Points and lines depend on the camera and the size of the
+/// picture.
 RenderOptions loadedFor(const RenderOptions& options, const LoadedScene& loaded) {
   RenderOptions part = sceneOptions(options);
   if (loaded.scene.strokes.empty()) return part;

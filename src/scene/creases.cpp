@@ -47,7 +47,7 @@ struct Fans {
 };
 
 size_t hashOf(const glm::vec3& p) {
-  // -0 + 0 is 0, so both have the same place.
+  // -0 + 0 is 0, so both zeros hash alike.
   uint64_t h = 0;
   for (int axis = 0; axis < 3; ++axis)
     h = (h ^ std::bit_cast<uint32_t>(p[axis] + 0.0f)) * 0x9e3779b97f4a7c15u;

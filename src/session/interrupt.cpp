@@ -14,7 +14,7 @@ namespace fragtrace {
 
 namespace {
 
-// The first line ends that of a progress bar.
+// The line feed at the start ends the line of a progress bar.
 constexpr std::string_view kSaidOnTerminal = "\nfragtrace: interrupted, nothing is written\n";
 constexpr std::string_view kSaid = kSaidOnTerminal.substr(1);
 constexpr std::string_view kSaidAsJson =

@@ -23,8 +23,8 @@ uint64_t bytesOfFilm(const RenderOptions& options) {
   return options.output.aovs.empty() ? kOne : kWithLayers;
 }
 
-/// A pixel of what is filtered. Textures, what two of them are made of, the film as it was on the way, the
-/// picture with its layers twice, and the colours.
+/// Bytes that filtering takes for a pixel: textures and the sources of two of them, earlier copies of the
+/// film, the picture with its layers twice, and the colours.
 uint64_t bytesOfFilter(const RenderOptions& options) {
   constexpr uint64_t kDenoised = 7 * 16 + 20 + 20 + 2 * sizeof(FilmPixel) + 8 + 2 * 14 * 4 + 12;
   return options.output.denoise == Denoise::None ? 0 : kDenoised;

@@ -311,7 +311,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   Stopwatch watch;
   step("reading the scene", 0.0);
   LoadedScene loaded;
-  // The environment is decoded in another process, so it is read meanwhile.
+  // Another process decodes the environment, so this thread loads the scene meanwhile.
   Phase reading;  // outlives the thread that sets it
   std::future<LinearImage> map;
   const bool readsMap = !options.light.hdriFile.empty() && !before.environment;

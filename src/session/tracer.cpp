@@ -15,7 +15,7 @@
 #include "scene/light_spread.h"
 #include "session/outputs.h"
 #include "session/say.h"
-#include "shader/glass_tables.h"
+#include "shader/variant.h"
 
 namespace fragtrace {
 

@@ -8,11 +8,10 @@
 #include <string_view>
 
 #include "base/errors.h"
-#include "shader/embedded.h"
-#include "shader/glass_tables.h"
 #include "shader/layout.h"
 #include "shader/live_text.h"
 #include "shader/stack_text.h"
+#include "shader/variant.h"
 
 namespace fragtrace {
 

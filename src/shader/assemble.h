@@ -3,10 +3,19 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "shader/variant.h"
 
 namespace fragtrace {
+
+/// One file of shaders/, embedded when the program was built.
+struct EmbeddedShader {
+  std::string_view name;
+  std::string_view text;
+};
+const std::vector<EmbeddedShader>& embeddedShaders();
 
 /// The origin of shader text, and the abilities of the driver.
 struct ShaderSource {

@@ -35,7 +35,7 @@ size_t findOutside(Tokens tokens, std::string_view wanted) {
   return tokens.size();
 }
 
-/// As a whole.
+/// One pair of brackets encloses all tokens.
 bool isInBrackets(Tokens tokens) {
   return !tokens.empty() && tokens[0].text == "(" && findOutside(tokens, ")") == tokens.size() - 1;
 }
@@ -157,7 +157,7 @@ class Settler {
     return conditionValue(std::span(tokens_).subspan(range.first, range.last - range.first), constants_);
   }
 
-  /// Behind the statement that begins at i, or kNowhere.
+  /// The token behind the statement that begins at i, or kNowhere.
   size_t endOfStatement(size_t i) const {
     if (is(i, "{")) return tokens_[i].partner + 1;
     if ((is(i, "if") || is(i, "while") || is(i, "for")) && is(i + 1, "(")) {
@@ -172,7 +172,7 @@ class Settler {
     return i < tokens_.size() ? i + 1 : kNowhere;
   }
 
-  /// Leaves of a statement what is one that does nothing.
+  /// Leaves an empty statement.
   void empty(TokenRange statement) {
     const size_t last = statement.last - 1;
     const size_t first = is(last, "}") ? tokens_[last].partner : last;
@@ -180,7 +180,7 @@ class Settler {
     drop({first + 1, last});
   }
 
-  /// if and while whose condition the constants settle.
+  /// Drops what an if or a while does not need, if the constants settle its condition.
   void settleBranch(size_t i) {
     if (!tokens_[i].live || !is(i + 1, "(")) return;
     const size_t close = tokens_[i + 1].partner;
@@ -201,7 +201,8 @@ class Settler {
     }
   }
 
-  /// a ? b : c whose condition the constants settle. It stands alone, so what is left needs no brackets.
+  /// Drops what a ? b : c does not need, if the constants settle a. The choice stands alone, so the rest
+  /// needs no brackets.
   void settleChoice(size_t i) {
     if (!tokens_[i].live) return;
     size_t first = i;

@@ -37,7 +37,8 @@ inline constexpr std::array<std::string_view, 4> kBufferReadsNames{"auto", "ssbo
 /// The stage of the pipeline that runs the tracer: one fragment or one compute invocation a pixel.
 enum class Dispatch : uint8_t { Auto, Fragment, Compute };
 inline constexpr std::array<std::string_view, 3> kDispatchNames{"auto", "fragment", "compute"};
-/// The compilers that the shaders' text suits (docs/measurements/gpu.md). Pictures are the same bits.
+/// The kind of compiler for which the shaders' text is written (docs/measurements/gpu.md). Pictures do not
+/// depend on it.
 enum class Tune : uint8_t { Auto, Software, Gpu };
 inline constexpr std::array<std::string_view, 3> kTuneNames{"auto", "software", "gpu"};
 /// Bits of the vectors that Mesa's software driver computes with, and so how many invocations run in

@@ -4,13 +4,24 @@
 #pragma once
 
 #include <bitset>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
 
-#include "shader/effect.h"
-
 namespace fragtrace {
+
+/// The kind of change that a change of an option or a stage makes.
+enum class Effect : uint8_t {
+  Report,   ///< messages, files beside the picture, or permission
+  Method,   ///< the way in which the same samples are drawn: their time and rounding
+  Layers,   ///< content of a file beside the picture
+  Count,    ///< number of samples
+  Display,  ///< processing of finished samples
+  Noise,    ///< choice of samples; their mean stays
+  View,     ///< the point of view
+  Picture   ///< the limit to which samples converge
+};
 
 enum class Trait : uint8_t;  // shader/traits.h
 
@@ -45,7 +56,7 @@ struct StageRow {
 };
 std::span<const StageRow> stageRows();
 
-/// The row of a name as the command line spells it.
+/// The stage that the command line calls by this name.
 std::optional<Stage> parseStage(std::string_view name);
 
 /// The stages and switches that --stage NAME turns on: the stages up to it, and the switches that are on by

@@ -48,7 +48,7 @@ size_t lengthOfToken(std::string_view rest) {
   return found != kLongOperators.end() ? found->size() : 1;
 }
 
-/// False where brackets do not match.
+/// Links each bracket with its partner. False if they do not match.
 bool joinBrackets(std::vector<Token>& tokens) {
   std::vector<size_t> open;
   for (size_t i = 0; i < tokens.size(); ++i) {

@@ -41,7 +41,7 @@ void drop(TraitSet& traits, std::initializer_list<Trait> members) {
 
 /// A stage that is off by itself, or by what was asked for, turns others off.
 void dropStages(StageSet& stages, bool countsVisits) {
-  // gi shades by itself; without it and phong nothing beyond flat has a meaning.
+  // gi does its own shading. Without gi and phong, no stage beyond flat changes anything.
   stages.set(size_t(Stage::Flat));
   if (has(stages, Stage::Gi)) stages.set(size_t(Stage::Phong));
   if (countsVisits) stages &= StageSet(1ul << unsigned(Stage::Flat) | 1ul << unsigned(Stage::Watertight));
@@ -92,7 +92,7 @@ void dropIdle(ShaderVariant& v) {
     off(Stage::Refraction);
     off(Stage::Schlick);
   }
-  // Its light would be looked for by shadow rays.
+  // Only shadow rays would find its light.
   if (!stage(Stage::Shadows)) drop(v.traits, {Trait::ThinGlass});
   if (!hasLamps(v.traits)) drop(v.traits, {Trait::LightTree, Trait::Caustics});
   // Light paths do not know of media.

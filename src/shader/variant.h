@@ -98,4 +98,13 @@ std::string whyOff(Stage stage, const TraitSet& present, bool gi = true);
 /// The option that light paths cannot go with; empty when there is none.
 std::string whyNoLightPaths(const RenderOptions& options);
 
+/// Returns true if the tables of src/pack/glass_energy.cpp describe the loss. These traits change the facets:
+/// then no table fits, and samples would not follow their density.
+inline bool usesGlassTables(const ShaderVariant& v) {
+  if (!has(v.traits, Trait::RoughGlass) || !has(v.stages, Stage::EnergyCompensation)) return false;
+  return !has(v.traits, Trait::Anisotropy) && !has(v.traits, Trait::Iridescence) &&
+         !has(v.traits, Trait::GlassSpecular) && !has(v.traits, Trait::Dispersion) &&
+         !has(v.stages, Stage::Schlick);
+}
+
 }  // namespace fragtrace

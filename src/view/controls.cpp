@@ -69,7 +69,7 @@ void chooseSceneCamera(ViewState& state, int index) {
   state.posed = false;
 }
 
-/// The one so many further in the file's order, round and round.
+/// Moves on by so many cameras in the file's order, and starts again at the end.
 void nextSceneCamera(ViewState& state, int further) {
   const int count = state.scene ? int(state.scene->cameras.size()) : 0;
   if (count > 0) chooseSceneCamera(state, (std::max(state.sceneCamera, 0) + further + count) % count);
@@ -141,7 +141,7 @@ Denoise filterOf(const ViewState& state) {
   return chosen ? state.scene->options.output.denoise : Denoise::Variance;
 }
 
-/// From the beginning, where the end is shown.
+/// Plays from the beginning if the end is shown.
 void playOrPause(ViewState& state) {
   const int shown = shownAnimation(state);
   if (shown < 0) return;
@@ -218,7 +218,7 @@ bool changePicture(ViewState& state, const Control& control, const Movement& m) 
   }
 }
 
-/// By one step, so that the place under the cursor stays there.
+/// Magnifies by steps; the place under the cursor stays there.
 void magnify(ViewState& state, int steps, const glm::dvec2& cursor) {
   Magnifier& magnifier = state.magnifier;
   const glm::dvec2 place = magnifiedPlace(state, cursor);

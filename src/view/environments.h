@@ -26,7 +26,7 @@ struct EnvironmentChoice {
 /// The scene's own light or what stands for it, the studio, and all files.
 std::vector<EnvironmentChoice> environmentChoices(const ViewedScene& scene);
 
-/// The index of the one that lights the scene.
+/// The index of the choice that lights the scene.
 size_t currentChoice(const ViewedScene& scene, const std::vector<EnvironmentChoice>& choices);
 
 /// The options with that light.

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <condition_variable>
+#include <cstddef>
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -17,9 +18,18 @@
 #include "scene/describe.h"
 #include "shader/render_options.h"
 #include "shader/traits.h"
-#include "view/pass_times.h"
 
 namespace fragtrace {
+
+/// The steps of a picture of the viewer, in their order.
+enum class Pass : size_t { Trace, Guides, Film, Past, Filter, Show };
+inline constexpr std::array kPassNames{"trace", "guides", "film", "past", "filter", "show"};
+
+/// Milliseconds of each.
+struct PassTimes {
+  std::array<double, kPassNames.size()> wall{};  ///< meaningful where each pass was waited for
+  std::array<double, kPassNames.size()> cpu{};   ///< processor time of the tracing thread
+};
 
 /// The contents of the split view: both sides of the bar, one side alone, or how far they differ.
 enum class CompareMode : uint8_t { Bar, Left, Right, Difference };

@@ -8,8 +8,8 @@
 
 namespace fragtrace {
 
-/// Undo brings these back: camera and settings of both sides, the light and the material variant of the
-/// scene; not the scene, or its animation's time.
+/// Undo restores these: camera and settings of both sides, light and material variant. It restores neither
+/// the scene nor its animation's time.
 struct Settings {
   std::array<RenderOptions, 2> sides;
   CameraPose pose;

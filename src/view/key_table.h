@@ -111,7 +111,7 @@ inline constexpr int kRight = 1;
 inline constexpr int kMiddle = 2;
 }  // namespace mouse
 
-/// One row: with these modifiers, and no others, this gesture of this key or button does that.
+/// A row of the table: a key or button, exactly these modifiers, the gesture, and the action.
 struct Control {
   Gesture gesture = Gesture::Press;
   int code = 0;

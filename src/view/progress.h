@@ -19,7 +19,7 @@ struct ViewProgress {
 /// Seconds until the error's goal are told in its last ten minutes only: nobody waits for more.
 ViewProgress progressOf(const SideStatistics& side, const RenderOptions& options, double share);
 
-/// A word or two for that: a picture is worth a look from its first sample on, and only gets better.
+/// One or two words for the progress. They call no picture unfinished, since each sample only improves it.
 std::string progressText(const SideStatistics& side, const RenderOptions& options);
 
 /// "1 sample", "12 samples".

@@ -136,7 +136,7 @@ Errand apply(ViewState& state, const Control& control, const Movement& movement 
 /// The index of the animation that is shown or would be played; -1: the scene has none.
 int shownAnimation(const ViewState& state);
 
-/// Seconds that it takes; a second where the file does not say.
+/// Length of the animation in seconds; 1 if the file does not say.
 double animationLength(const ViewState& state);
 
 /// Shows that animation at that time, in seconds; kept between 0 and its end.
@@ -190,9 +190,8 @@ inline constexpr int kCells = 3;
 /// The side that is shown there; kMostSides or more: none.
 size_t sideAt(const ViewState& state, const glm::dvec2& place);
 
-/// All settings of both sides as the viewer was started with, and the scene's first camera. Returns what the
-/// scene is to be loaded with then: the light of the start, and if it is the scene of the start, its
-/// selection.
+/// Resets both sides to the settings of the start, and takes the scene's first camera. Returns the options to
+/// load the scene with: the light of the start, and for the scene of the start, its selection.
 RenderOptions resetAll(ViewState& state, const RenderOptions& start);
 
 /// Why a stage of the active side changes nothing; empty: it does.

@@ -6,7 +6,7 @@
 
 #include "base/errors.h"
 #include "gl/gl.h"
-#include "shader/embedded.h"
+#include "shader/assemble.h"
 
 namespace fragtrace {
 

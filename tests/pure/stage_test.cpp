@@ -4,7 +4,6 @@
 #include "base/errors.h"
 #include "bvh/bvh.h"
 #include "shader/assemble.h"
-#include "shader/embedded.h"
 #include "shader/variant.h"
 
 namespace fragtrace {

@@ -162,7 +162,7 @@ Keyframes readKeyframes(Document& document, const Channel& channel, size_t width
   return keys;
 }
 
-/// Rotations are normalized wherever they are read; what is far from unit is worth a warning.
+/// Warns of rotations that are far from unit; they are normalized wherever they are read.
 void checkRotations(const Keyframes& keys, const Channel& channel, Diagnostics& diagnostics) {
   constexpr double kRoundedToBytes = 0.00788;  // four components, each off by half of 1 / 127
   size_t count = 0;

@@ -28,7 +28,7 @@ struct PlacedNode {
 /// that is not in the file.
 std::vector<PlacedNode> placeNodes(const Document& document, const std::vector<std::string>& toHide);
 
-/// Finite, and so are the products of four of its numbers.
+/// Returns true if the numbers and the products of any four are finite.
 bool isMultiplicable(const glm::dmat4& matrix);
 
 /// A node's or mesh's name, or its JSON pointer if it has none.

@@ -225,8 +225,8 @@ bool takeBuffer(std::vector<unsigned char>* bytes, std::string*, const std::stri
   return true;
 }
 
-/// Our memory in place of files. tinygltf 2.9 has one member more than 2.8, and takes none of them where one
-/// is null.
+/// Callbacks that read our memory, not files. tinygltf 2.9 has one member more than 2.8, and uses none of
+/// them if one is null.
 template <typename Callbacks = tinygltf::FsCallbacks>
 Callbacks readFromMemory(Buffers& buffers) {
   Callbacks callbacks{};
@@ -295,8 +295,8 @@ tinygltf::Model parseModel(json& root, Buffers& buffers, const Diagnostics& diag
   return model;
 }
 
-/// Poses the document as the user asked: what the animation drives is written into the JSON, which is parsed
-/// again, so that all that reads the model is as without animations.
+/// Poses the document as the user asked: writes the animated values into the JSON and parses it again, so
+/// that readers of the model need not know of animations.
 void pose(const std::vector<Animation>& animations, const SceneSelection& selection, json& root,
           Document& document) {
   if (animations.empty() && selection.animation.empty()) {

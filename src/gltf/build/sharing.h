@@ -26,9 +26,8 @@ struct PlacedMeshes {
   std::string copies;  ///< repeated meshes that cannot be shared; may be empty
 };
 
-/// Parts what is to be copied from what is to be shared. Never shared are meshes that shine, whose triangles
-/// are lights of their own, and what is flattened or scaled so unevenly that rounding would show
-/// (docs/design/numerics.md).
+/// Decides which meshes are copied and which are shared. Copied are meshes that shine, since their triangles
+/// are lights, and meshes so flat or scaled so unevenly that rounding would show (docs/design/numerics.md).
 PlacedMeshes chooseSharing(std::vector<PrimitiveInstance> instances, Instancing wanted,
                            const std::vector<Material>& materials, uint64_t limit);
 

@@ -20,9 +20,9 @@ using BeginningCheck = std::function<uint64_t(std::span<const uint8_t> first, ui
 /// throws ends reading.
 using ReadProgress = std::function<void(uint64_t read, uint64_t size)>;
 
-/// All bytes of an open regular file or pipe, which is closed. Throws std::runtime_error with the bare reason
-/// when it is something else, takes more than is left of `memory`, or cannot be read; and as `check` and
-/// `progress` do.
+/// Reads all bytes of an open regular file or pipe, and closes it. Throws std::runtime_error with the bare
+/// reason if it is something else, needs more than is left of `memory`, or cannot be read; `check` and
+/// `progress` may throw, too.
 std::vector<uint8_t> readOpenFile(int file, const MemoryBudget& memory, const BeginningCheck& check = {},
                                   const ReadProgress& progress = {});
 

@@ -149,7 +149,7 @@ std::string differenceOf(const std::string& settings, const std::string& others)
   for (const auto& [key, value] : b.items()) {
     if (!a.contains(key)) add(key, "none and " + value.dump());
   }
-  // The rest tells nothing of another scene.
+  // Other settings mean nothing if the scene differs.
   if (differs("scene"))
     return "scene " + a["scene"].dump() + " and " + b["scene"].dump() +
            (differences.size() > 1 ? ", and " + countText(differences.size() - 1, "more setting") : "");

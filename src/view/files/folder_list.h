@@ -20,7 +20,7 @@ struct FolderEntry {
   bool operator==(const FolderEntry&) const = default;
 };
 
-/// Without hidden files; folders first, each kind in natural order.
+/// The entries of a folder without hidden ones: folders, then files, each in natural order.
 struct FolderContent {
   std::filesystem::path folder;  ///< absolute, without . and ..
   std::vector<FolderEntry> entries;

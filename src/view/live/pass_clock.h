@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "gl/gl.h"
-#include "view/pass_times.h"
+#include "view/exchange.h"
 
 namespace fragtrace {
 

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: MIT
-// The picture that the viewer shows of a side, made on the device: its film, while the samples are few joined
-// with what its camera saw before, and filtered.
+// SPDX-License-Identifier: MIT Makes the picture of a side on the device from its film. While samples are
+// few, it joins the picture of the view before, and filters.
 #pragma once
 
 #include <functional>
@@ -67,7 +66,7 @@ class PictureMaker {
   /// Compiles the filter, if that was not done yet.
   void prepareFilter();
 
-  /// Shows R, G, B and, where it has that, A of the host's.
+  /// Shows a picture of the host: R, G, B and, if there is one, A.
   void show(const Image& image, ShownTexture& into) const;
 
   /// The sums over all pixels: samples, rays, and pixels in which the driver ended a loop.

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: MIT
-// The viewer's programs, each with its scene on the device: made by the same steps as for `render`, so that
-// they draw the same, and kept for being asked for again.
+// SPDX-License-Identifier: MIT The viewer's programs, each with its scene on the device. They are made by the
+// same steps as for `render`, so they draw the same, and are kept for later.
 #pragma once
 
 #include <functional>

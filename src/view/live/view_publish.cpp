@@ -30,7 +30,7 @@ constexpr double kCountMs = 200.0;  ///< time between looks at the film's counts
 size_t bytesPerPixel(const SideMemory& memory) {
   constexpr size_t kFilm = 48;
   constexpr size_t kShown = kSlots * 16;
-  // Guides; past, present and fresh; what they differ by; the picture as it is; the filter's own.
+  // Bytes a pixel: guides; past, present and fresh pictures; their differences; the picture; the filter.
   constexpr size_t kFiltered = kFilm + 3 * 56 + 32 + 16 + 80;
   return kFilm + kShown + (memory.guides ? kFiltered : 0);
 }

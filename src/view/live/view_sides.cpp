@@ -56,7 +56,7 @@ void ViewTracer::adoptSide(Side& side, const RenderOptions& asked) {
   if (same && otherLook && !side.stale && side.samples > 0) publish(side);
   if (same) return;
   if (!side.awaited) side.previews = false;
-  // Beside a side that has samples, another is drawn at its resolution, or these would be lost.
+  // If one side has samples, the other takes its resolution, since another one would lose these samples.
   const bool joins =
       !side.program && std::ranges::any_of(sides_, [](const Side& s) { return !s.stale && s.samples > 0; });
   if (side.program != program && !joins)

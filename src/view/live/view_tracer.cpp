@@ -128,7 +128,7 @@ void ViewTracer::makePrograms() {
   programs_ = std::make_unique<ViewPrograms>(*context_, *loaded_, loadedOptions_, std::move(aside));
 }
 
-/// In the thread whose context it is.
+/// Called in the thread that owns the context.
 void ViewTracer::leaveContext() {
   sides_.clear();
   shown_ = {};

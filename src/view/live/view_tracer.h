@@ -90,7 +90,7 @@ class ViewTracer {
   void adoptSide(Side& side, const RenderOptions& options);
   void preview(Side& side, const RenderOptions& wanted);
   View viewOf(const RenderOptions& options);
-  /// Null where it is compiled while something else is drawn.
+  /// Null while the program is compiled beside other drawing.
   std::shared_ptr<ViewProgram> programFor(const RenderOptions& options, bool aside);
   /// Sides draw what was compiled aside.
   void takeCompiled();

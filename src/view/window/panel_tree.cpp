@@ -21,7 +21,8 @@ std::string notesOf(const SceneNode& node) {
   return notes.empty() ? "" : "  (" + notes + ")";
 }
 
-/// A row: whether it is shown, and its name, which selects it. Returns whether what is below it is shown.
+/// Draws a row: a box that shows or hides the node, and its name, which selects it. Returns true if the row
+/// is open.
 bool drawNode(ViewState& state, Places& places, size_t i, bool parentShown, Task& task) {
   const std::vector<SceneNode>& nodes = state.scene->nodes;
   const SceneNode& node = nodes[i];

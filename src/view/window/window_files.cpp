@@ -38,7 +38,7 @@ void Window::openFiles(const std::vector<std::filesystem::path>& files) {
 
 void Window::save(const std::filesystem::path& name) {
   const RenderOptions& o = state_.options();
-  // A file for a display is what is seen, one of radiance what the active side's samples say.
+  // A file for a display holds the picture as shown; a file of radiance holds the active side's samples.
   const bool seen = isDisplayFormat(name);
   const bool both = state_.compares() && seen;
   const char* side = !state_.compares() || both ? "" : state_.active == 0 ? " of side A" : " of side B";

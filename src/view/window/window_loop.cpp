@@ -21,8 +21,8 @@ namespace {
 
 constexpr double kMovingSeconds = 0.2;  // after the last change, before full resolution
 constexpr double kFrameSeconds = 1.0 / 60;
-/// GLFW 3.3 on X11 sleeps on what another thread's glfwPostEmptyEvent() has read from the connection
-/// meanwhile; so an event is late by this at most. Ten looks a second are no load.
+/// If another thread's glfwPostEmptyEvent() has read events from the connection, GLFW 3.3 on X11 sleeps
+/// although they wait. So an event is late by this at most. Ten looks a second are no load.
 constexpr double kLongestSleep = 0.1;
 constexpr double kStatusSeconds = 0.05;  // between two status files
 constexpr const char* kStarting = "starting";

@@ -120,7 +120,7 @@ void Window::executeOnScene(const Task& task) {
   }
 }
 
-/// For a picture of the size that is shown.
+/// Loads a scene for pictures of the size that is shown.
 void Window::load(RenderOptions options) {
   options.camera.resolution = state_.size;
   wanted_ = options;
@@ -129,7 +129,7 @@ void Window::load(RenderOptions options) {
   exchange_.load(options);
 }
 
-/// The light or the variant of a step that was undone, if another one is shown.
+/// Loads the light or the variant of an undone step, if another one is shown.
 void Window::loadStep() {
   if (withLight(history_, wanted_) == wanted_) return;
   load(withLight(history_, state_.scene->options));
@@ -200,7 +200,7 @@ void Window::pasteCommand() {
   if (takeText(text ? text : "", "cannot paste: ")) say("pasted");
 }
 
-/// A command, or options of a camera; false: it cannot be taken, and why was said.
+/// Takes a command or options of a camera. False if that fails, after a message.
 bool Window::takeText(const std::string& text, const std::string& otherwise) {
   try {
     const RenderOptions options = start_.withCommandText(renderOptionsOf(state_, state_.active), text);
@@ -261,7 +261,7 @@ void Window::takeThumbnail(const EnvironmentThumbnail& thumbnail) {
   frames_ = std::max(frames_, 1);
 }
 
-/// Once for each environment that the list offers.
+/// Asks once for each environment of the list.
 void Window::askForThumbnails() {
   if (!std::exchange(facts_.wantsThumbnails, false) || !state_.scene) return;
   std::vector<std::filesystem::path> wanted = state_.scene->environments;
@@ -271,7 +271,7 @@ void Window::askForThumbnails() {
   if (!wanted.empty()) exchange_.makeThumbnails(std::move(wanted));
 }
 
-/// It is side B from now on.
+/// Makes the picture side B.
 void Window::takeReference(const TracedPicture& picture) {
   record(history_, state_);
   state_.reference = picture.file;
@@ -305,7 +305,7 @@ void Window::takePick(PickAnswer answer) {
   }
 }
 
-/// Once the picture of the scene has its size.
+/// Says that sizes differ, once the picture of the scene has its size.
 void Window::compareSizes() {
   const glm::ivec2 size = facts_.pictureSize[1];
   if (!newReference_ || state_.reference.empty() || facts_.pictureSize[0] != state_.size) return;
