@@ -22,7 +22,7 @@ inline bool canBeNoisy(const FilmPixel& pixel) { return pixel.alpha > 0.0 || pix
 double floorOf(const FilmPixels& film);
 
 /// The variance of the luminance of every pixel's mean, as if samples were independent, improved by its
-/// neighbours (noise_neighbours.h).
+/// neighbours.
 std::vector<double> independentVariance(const FilmPixels& film);
 
 /// The variance of the luminance of every pixel's mean over both halves. A pixel's samples give the variance
