@@ -24,7 +24,7 @@
 #include "bench/report/formatted.h"
 #include "bench/report/json.h"
 #include "bench/report/scratch_folder.h"
-#include "cli/own_program.h"
+#include "cli/program.h"
 #include "options/command_text.h"
 #include "options/numbers.h"
 #include "options/option_text.h"

@@ -12,7 +12,7 @@
 
 #include "base/errors.h"
 #include "cli/commands.h"
-#include "cli/own_program.h"
+#include "cli/program.h"
 
 namespace fragtrace {
 

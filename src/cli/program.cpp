@@ -6,9 +6,11 @@
 
 #include <csignal>
 #include <new>
+#include <stdexcept>
 #include <system_error>
 
 #include "base/errors.h"
+#include "base/plugin.h"
 #include "base/report.h"
 #include "cli/command_line.h"
 #include "cli/leave.h"
@@ -75,6 +77,15 @@ int runProgram(const MainFunction& run, int argc, char** argv) {
   reportEnd(status);
   endAsMeant();
   return status;
+}
+
+std::filesystem::path ownProgram(const std::string& name, const std::string& user) {
+  try {
+    return ownFile(name);
+  } catch (const std::runtime_error& error) {
+    throw RenderError(user + ": the program " + error.what() +
+                      "; the package fragtrace holds it, and scripts/build makes it");
+  }
 }
 
 }  // namespace fragtrace

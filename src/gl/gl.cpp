@@ -2,7 +2,6 @@
 #include "gl/gl.h"
 
 #include <chrono>
-#include <cstdint>
 #include <thread>
 
 #include "base/errors.h"

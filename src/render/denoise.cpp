@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "render/denoise.h"
 
-#include <array>
 #include <span>
 
 #include "render/noisy_image.h"

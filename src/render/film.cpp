@@ -2,7 +2,6 @@
 #include "render/film.h"
 
 #include <algorithm>
-#include <array>
 #include <initializer_list>
 #include <stdexcept>
 

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "render/renderer.h"
 
-#include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <deque>
 
 #include "base/errors.h"
-#include "render/draw_plan.h"
 
 namespace fragtrace {
 

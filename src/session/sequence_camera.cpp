@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/errors.h"
-#include "gltf/gltf.h"
 #include "scene/first_view.h"
 #include "scene/fit.h"
 #include "scene/parts.h"

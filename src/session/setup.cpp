@@ -12,7 +12,6 @@
 #include "base/parallel.h"
 #include "bvh/large_first.h"
 #include "bvh/two_level.h"
-#include "gltf/gltf.h"
 #include "image/files/process.h"
 #include "image/image.h"
 #include "options/option_row.h"

@@ -5,13 +5,11 @@
 #include <fstream>
 #include <set>
 #include <sstream>
-#include <string_view>
 
 #include "base/errors.h"
 #include "shader/layout.h"
 #include "shader/live_text.h"
 #include "shader/stack_text.h"
-#include "shader/variant.h"
 
 namespace fragtrace {
 

@@ -2,7 +2,6 @@
 #include "view/file_watch.h"
 
 #include <algorithm>
-#include <string_view>
 
 namespace fragtrace {
 

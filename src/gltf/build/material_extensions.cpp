@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include "gltf/check/extensions.h"
 #include "gltf/read/value.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/build/primitives.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/gtx/norm.hpp>

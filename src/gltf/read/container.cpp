@@ -9,8 +9,6 @@
 #include <span>
 #include <string_view>
 
-#include "image/files/whole_file.h"
-
 namespace fragtrace {
 namespace {
 

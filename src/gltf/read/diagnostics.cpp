@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "base/errors.h"
-
 namespace fragtrace {
 
 std::string escapedForPointer(std::string_view name) {

@@ -12,7 +12,6 @@
 #include <system_error>
 
 #include "gltf/read/diagnostics.h"
-#include "image/files/whole_file.h"
 #include "image/limits.h"
 
 namespace fragtrace {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "view/live/view_loader.h"
 
-#include <atomic>
 #include <mutex>
 #include <thread>
 

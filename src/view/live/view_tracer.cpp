@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "base/errors.h"
 #include "gl/driver_choice.h"
 #include "session/outputs.h"
 #include "session/phase_timer.h"
