@@ -19,7 +19,7 @@ using GltfProgress = std::function<void(const std::string& step, double part)>;
 struct GltfOptions {
   std::optional<glm::dvec3> recenterOn{};      ///< world position that becomes the local origin
   std::optional<glm::dvec3> cameraPosition{};  ///< else the origin is chosen for a camera there,
-  int cameraIndex = 0;  ///< else the file's camera of this index: see recentringPoint()
+  int cameraIndex = 0;  ///< else for the file's camera of this index: see recentringPoint()
   SceneSelection selection{};
   Instancing instancing = Instancing::Flatten;
   InputLimits limits{};

@@ -64,7 +64,7 @@ struct OptionRow {
   std::function<std::vector<std::string>(const RenderOptions&)> words{};
   std::function<void(RenderOptions& to, const RenderOptions& from)> copy{};  ///< its members
   std::function<AttributeValue(const RenderOptions&)>
-      value{};  ///< writes it as an attribute of the picture's file; may be empty
+      value{};  ///< its value as an attribute of the picture's file; may be empty
 };
 
 /// The row of the option. A name that there is not is an error of the program: std::logic_error.

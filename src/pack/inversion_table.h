@@ -13,7 +13,7 @@ namespace fragtrace {
 /// ends and up to two places where the density changes (shaders/environment.glsl: invertTable).
 struct InversionStep {
   float first = 0.0f;  ///< place at the beginning of the step
-  float last = 0.0f;   ///< density at its end
+  float last = 0.0f;   ///< place at its end
   uint32_t numbers =
       0;  ///< where the density changes, of the step, in 65,536ths: first | second << 16, 0: nowhere
   uint32_t places = 0;  ///< the places there: first | second << 16

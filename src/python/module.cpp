@@ -62,7 +62,7 @@ Image imageOfArray(const GivenValues& values, std::vector<std::string> channels)
 /// done.
 void await(DrawJob& job, const nb::object& told) {
   constexpr int kLookMs = 40;
-  constexpr int kLeaveMs = 120;  // the end waits this long for a compilation under way
+  constexpr int kLeaveMs = 120;  // a compilation that takes longer goes on, and is not waited for
   double last = -1.0;
   const auto leave = [&] {
     job.interrupts = 2;

@@ -87,7 +87,7 @@ struct TraitRow {
   const char* absence;   ///< why something that needs it is off
   StageSet stages{};     ///< it is off where one of these is
   TraitSet needs{};      ///< it is off where one of these is
-  TraitSet brings{};     ///< traits that it needs to be seen
+  TraitSet brings{};     ///< traits that a scene must also have to show it
   /// The textures that the shader reads where it is on; the rest null.
   std::array<TextureRef Material::*, 2> textures{};
   bool texcoords = false;  ///< it reads texture coordinates without a texture

@@ -19,7 +19,7 @@ constexpr double kDragPixels = 3.0;  // below, a press and its release are a cli
 constexpr double kDoubleClickSeconds = 0.35;
 constexpr double kBarPixels = 8.0;        // either side of the bar that takes hold of it
 constexpr double kLongestFrame = 0.1;     // seconds that a held key counts at once
-constexpr double kFirstFrame = 1.0 / 60;  // the time before the first frame
+constexpr double kFirstFrame = 1.0 / 60;  // seconds that it counts at first
 constexpr double kShiftFaster = 4.0;
 
 Input& inputOf(GLFWwindow* window) { return *static_cast<Input*>(glfwGetWindowUserPointer(window)); }

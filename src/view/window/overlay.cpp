@@ -82,7 +82,7 @@ void drawLines(const ViewState& state, const ViewFacts& facts, const WindowLayou
 struct Label {
   std::vector<std::string> texts;
   ImVec2 topRight;     ///< corner of the picture
-  float width = 0.0f;  ///< so wide it is
+  float width = 0.0f;  ///< width of the picture
   bool chosen = false;
 };
 

@@ -10,8 +10,8 @@
 namespace fragtrace {
 
 struct PortalAnswer {
-  bool there = false;  ///< the desktop has shown a dialog; else it cannot,
-  std::string why;     ///< the reason for which there is none; empty: there is a portal
+  bool there = false;  ///< the desktop has shown a dialog
+  std::string why;     ///< the reason why it has not; empty: there is no portal
   std::string uri;     ///< the choice; empty: none
 };
 
