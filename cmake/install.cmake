@@ -8,6 +8,9 @@ install(TARGETS fragtrace_pictures fragtrace_geometry fragtrace_window LIBRARY D
 if(TARGET fragtrace_volumes)
   install(TARGETS fragtrace_volumes LIBRARY DESTINATION ${FRAGTRACE_FOLDER})
 endif()
+if(TARGET fragtrace_ktx2)
+  install(TARGETS fragtrace_ktx2 LIBRARY DESTINATION ${FRAGTRACE_FOLDER})
+endif()
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 file(RELATIVE_PATH link /${CMAKE_INSTALL_BINDIR} /${FRAGTRACE_FOLDER}/fragtrace)
 install(CODE "

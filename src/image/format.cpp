@@ -38,6 +38,7 @@ std::optional<ImageFormat> formatOfBytes(std::span<const uint8_t> bytes) {
   if (beginsWith(bytes, "#?")) return ImageFormat::Hdr;
   if (beginsWith(bytes, "RIFF") && bytes.size() >= 12 && beginsWith(bytes.subspan(8), "WEBP"))
     return ImageFormat::WebP;
+  if (beginsWith(bytes, "\xabKTX 20\xbb\r\n\x1a\n")) return ImageFormat::Ktx2;
   if (beginsWith(bytes, "PF") || beginsWith(bytes, "Pf")) return ImageFormat::Pfm;
   return std::nullopt;
 }

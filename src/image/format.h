@@ -9,7 +9,7 @@
 
 namespace fragtrace {
 
-enum class ImageFormat { Png, Jpeg, OpenExr, Hdr, WebP, Pfm };
+enum class ImageFormat { Png, Jpeg, OpenExr, Hdr, WebP, Pfm, Ktx2 };
 
 /// The format that a file name's extension (any case) asks to be written; nothing when none is written.
 std::optional<ImageFormat> formatOfName(const std::filesystem::path& path);

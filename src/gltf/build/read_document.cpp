@@ -44,11 +44,8 @@ void checkExtensions(json& root, Diagnostics& diagnostics) {
   for (size_t i = 0; i < required.size(); ++i) {
     const auto& name = required[i].get_ref<const std::string&>();
     if (!isApplied(name)) {
-      const Extension* known = extensionNamed(name);
-      const std::string advice = known != nullptr ? std::string(known->advice) : "";
-      diagnostics.refuse(pointerTo("extensionsRequired", i), "the extension " + inQuotes(name) +
-                                                                 " is required and not supported" +
-                                                                 (advice.empty() ? "" : "; " + advice));
+      diagnostics.refuse(pointerTo("extensionsRequired", i),
+                         "the extension " + inQuotes(name) + " is required and not supported");
     }
   }
   const json& used = arrayIn(root, "extensionsUsed");

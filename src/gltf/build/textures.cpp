@@ -8,11 +8,13 @@
 #include "gltf/read/uri.h"
 #include "gltf/read/value.h"
 #include "image/files/header.h"
+#include "image/files/process.h"
 #include "image/image.h"
 
 namespace fragtrace {
 namespace {
 
+constexpr const char* kBasisu = "KHR_texture_basisu";
 constexpr double kTexturesPart = 0.4;  // share of a load that is done when they are read
 
 Wrap wrapOf(int mode, const std::string& place, Diagnostics& diagnostics) {
@@ -49,19 +51,23 @@ void warnMediaType(std::string_view declared, ImageFormat format, const std::str
   const std::string_view found = format == ImageFormat::Png    ? "image/png"
                                  : format == ImageFormat::Jpeg ? "image/jpeg"
                                  : format == ImageFormat::WebP ? "image/webp"
+                                 : format == ImageFormat::Ktx2 ? "image/ktx2"
                                                                : "";
   if (found.empty()) {
-    diagnostics.warn(place, "is neither PNG nor JPEG nor WebP, as glTF wants it; it is read if it can be");
+    diagnostics.warn(place, "is neither PNG nor JPEG nor WebP nor KTX2, as glTF wants it; it is read if it can be");
   } else if (!declared.empty() && declared != found) {
     diagnostics.warn(place, "is declared " + inQuotes(declared) + " and is " + std::string(found) +
                                 ", as which it is read");
   }
 }
 
-/// Names the file, if it is one, in what is thrown.
+/// Names the file, if it is one, in what is thrown, also where its format cannot be decoded.
 ImageHeader headerOf(const std::vector<uint8_t>& bytes, const std::string& file) {
   try {
-    return readImageHeader(bytes);
+    const ImageHeader header = readImageHeader(bytes);
+    if (header.format == ImageFormat::Ktx2 && !whyNoKtx2().empty())
+      throw std::runtime_error("KTX2 cannot be decoded: " + whyNoKtx2());
+    return header;
   } catch (const std::runtime_error& error) {
     throw std::runtime_error((file.empty() ? "" : file + ": ") + error.what());
   }
@@ -80,7 +86,7 @@ EncodedImage readImage(Document& document, int index) {
       document.diagnostics.attempt(place, [&] { return headerOf(result.bytes, isFile ? source.uri : ""); });
   if (header.format == ImageFormat::Pfm || header.format == ImageFormat::Hdr ||
       header.format == ImageFormat::OpenExr)
-    document.diagnostics.refuse(place, "is no picture that a texture may have: PNG, JPEG, WebP");
+    document.diagnostics.refuse(place, "is no picture that a texture may have: PNG, JPEG, WebP, KTX2");
   result.width = header.width;
   result.height = header.height;
   if (std::max(header.width, header.height) > document.textureSide) {
@@ -96,11 +102,25 @@ EncodedImage readImage(Document& document, int index) {
   return result;
 }
 
-/// The picture of a texture, -1 for none; that of EXT_texture_webp counts more than the fallback beside it.
+/// The picture that an extension of a texture names; else another one.
+int sourceIn(const tinygltf::Texture& texture, const char* extension, int otherwise) {
+  const auto found = texture.extensions.find(extension);
+  return found != texture.extensions.end() ? int(numberOf(found->second, "source", otherwise)) : otherwise;
+}
+
+/// The picture of a texture, -1 for none. That of EXT_texture_webp counts more than the fallback beside it,
+/// that of KHR_texture_basisu less: it has lost more than the fallback, and not every build decodes it.
 int sourceOf(const tinygltf::Texture& texture) {
-  const auto webp = texture.extensions.find("EXT_texture_webp");
-  return webp != texture.extensions.end() ? int(numberOf(webp->second, "source", texture.source))
-                                          : texture.source;
+  const int source = sourceIn(texture, "EXT_texture_webp", texture.source);
+  return source >= 0 ? source : sourceIn(texture, kBasisu, -1);
+}
+
+/// Returns true where the file does without the texture: it has only a KTX2 picture, and the file does not
+/// require that extension.
+bool isDispensable(const tinygltf::Model& model, const tinygltf::Texture& texture) {
+  const std::vector<std::string>& required = model.extensionsRequired;
+  return sourceIn(texture, "EXT_texture_webp", texture.source) < 0 &&
+         std::ranges::find(required, kBasisu) == required.end();
 }
 
 }  // namespace
@@ -158,6 +178,11 @@ TextureRef TextureTable::use(int texture, const std::string& place) {
   const int image = sourceOf(source);
   if (image < 0) {
     document_.diagnostics.warn(place, "a texture without a picture is left out");
+    return ref;
+  }
+  if (isDispensable(document_.model, source) && !whyNoKtx2().empty()) {
+    document_.diagnostics.warn(pointerTo("textures", texture, "extensions", kBasisu),
+                               "is left out: KTX2 cannot be decoded: " + whyNoKtx2());
     return ref;
   }
   Texture result;

@@ -24,11 +24,7 @@ constexpr Extension kOtherExtensions[] = {
     {"KHR_meshopt_compression", Partly, "codecs/meshopt_views.cpp", {"/buffers/*", "/bufferViews/*"}},
     {"KHR_texture_transform", Supported, "build/material_part.cpp", {kTextureInfo, kNowhere}},
     {"EXT_texture_webp", Supported, "build/textures.cpp", {"/textures/*", kNowhere}},
-    {"KHR_texture_basisu",
-     Ignored,
-     "",
-     {"/textures/*", kNowhere},
-     "`gltf-transform ktxdecompress IN OUT` writes a file with PNG textures"},
+    {"KHR_texture_basisu", Partly, "build/textures.cpp", {"/textures/*", kNowhere}},
     {"EXT_mesh_gpu_instancing", Supported, "build/instancing.cpp", kInNodes},
     {"KHR_node_visibility", Supported, "build/nodes.cpp", kInNodes},
 };
@@ -50,9 +46,6 @@ const Extension* extensionNamed(std::string_view name) {
   return found == extensions().end() ? nullptr : &*found;
 }
 
-bool isApplied(std::string_view name) {
-  const Extension* extension = extensionNamed(name);
-  return extension != nullptr && extension->support != Support::Ignored;
-}
+bool isApplied(std::string_view name) { return extensionNamed(name) != nullptr; }
 
 }  // namespace fragtrace

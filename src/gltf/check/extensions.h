@@ -13,7 +13,7 @@ namespace fragtrace {
 class MaterialPart;
 struct Material;
 
-enum class Support : uint8_t { Supported, Partly, Ignored };
+enum class Support : uint8_t { Supported, Partly };
 
 /// The place of any use of a texture, whatever its name.
 inline constexpr std::string_view kTextureInfo = "a texture info";
@@ -21,10 +21,9 @@ inline constexpr std::string_view kTextureInfo = "a texture info";
 struct Extension {
   std::string_view name;
   Support support = Support::Supported;
-  std::string_view reader;                 ///< the file of src/gltf that reads it; empty where it is ignored
+  std::string_view reader;                 ///< the file of src/gltf that reads it
   std::array<std::string_view, 2> places;  ///< where it may stand: pointers with * for an index, "" the root,
                                            ///< kTextureInfo; kNowhere
-  std::string_view advice = {};            ///< advice for a file that requires it, if it is ignored
   std::string_view members = {};  ///< members of a material's extension, with spaces between: a texture ends
                                   ///< in Texture, NAME[3] is three numbers, all others are numbers
   void (*read)(const MaterialPart&, Material&) = nullptr;  ///< reads a material's extension

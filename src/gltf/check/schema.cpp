@@ -82,6 +82,8 @@ constexpr Rule kRules[] = {
     {"/textures/*/source", Kind::Index, "/images"},
     {"/textures/*/sampler", Kind::Index, "/samplers"},
     {"/textures/*/extensions", Kind::Object},
+    {"/textures/*/extensions/KHR_texture_basisu", Kind::Object},
+    {"/textures/*/extensions/KHR_texture_basisu/source", Kind::Index, "/images"},
     {"/textures/*/extensions/EXT_texture_webp", Kind::Object},
     {"/textures/*/extensions/EXT_texture_webp/source", Kind::Index, "/images"},
 

@@ -8,6 +8,7 @@
 
 #include "image/files/exr_header.h"
 #include "image/files/jpeg.h"
+#include "image/files/ktx2.h"
 #include "image/files/pfm.h"
 #include "image/files/png.h"
 #include "image/limits.h"
@@ -114,7 +115,7 @@ ImageHeader hdrHeader(Bytes bytes) {
 ImageHeader readImageHeader(Bytes bytes) {
   if (bytes.empty()) throw std::runtime_error("it is empty");
   const auto format = formatOfBytes(bytes);
-  if (!format) throw std::runtime_error("it is no PNG, JPEG, WebP, OpenEXR, Radiance HDR or PFM picture");
+  if (!format) throw std::runtime_error("it is no PNG, JPEG, WebP, KTX2, OpenEXR, Radiance HDR or PFM picture");
   switch (*format) {
     case ImageFormat::Png:
       return pngHeader(bytes);
@@ -127,6 +128,10 @@ ImageHeader readImageHeader(Bytes bytes) {
     case ImageFormat::OpenExr: {
       const ExrHeader exr = readExrHeader(bytes);
       return checked(ImageFormat::OpenExr, exr.width, exr.height, exr.channelCount);
+    }
+    case ImageFormat::Ktx2: {
+      const Ktx2Size ktx2 = readKtx2Header(bytes);
+      return checked(ImageFormat::Ktx2, ktx2.width, ktx2.height, kMostDecodedChannels);
     }
     case ImageFormat::Pfm: {
       const PfmHeader pfm = readPfmHeader(bytes);

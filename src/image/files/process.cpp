@@ -21,6 +21,16 @@ Worker& worker() {
   return theOne;
 }
 
+/// A codec of its own, since few builds have it.
+Worker& ktx2Worker() {
+  static constexpr WorkerKind kKtx2{
+      "libfragtrace_ktx2.so", "the codec of KTX2 textures", "scripts/build makes it",
+      "; `scripts/setup ktx2` before scripts/build brings it, `gltf-transform ktxdecompress IN OUT` writes a file with "
+      "PNG textures"};
+  static Worker theOne(kKtx2);
+  return theOne;
+}
+
 /// Decoders take some 10 ns a value on slow machines, and a few times the memory of what they make.
 WorkResult decode(PictureTask task, Bytes bytes, const ImageHeader& header, uint64_t room) {
   constexpr uint64_t kLibrary = uint64_t(512) << 20;
@@ -31,9 +41,10 @@ WorkResult decode(PictureTask task, Bytes bytes, const ImageHeader& header, uint
                                .width = header.width,
                                .height = header.height,
                                .channelCount = header.channelCount};
-  return worker().perform({asMessage(request), bytes}, room,
-                          {.memoryBytes = kLibrary + 4 * bytes.size() + 16 * values,
-                           .cpuSeconds = unsigned(2 + values / kValuesASecond)});
+  Worker& codec = header.format == ImageFormat::Ktx2 ? ktx2Worker() : worker();
+  return codec.perform({asMessage(request), bytes}, room,
+                       {.memoryBytes = kLibrary + 4 * bytes.size() + 16 * values,
+                        .cpuSeconds = unsigned(2 + values / kValuesASecond)});
 }
 
 /// More room than any of the formats makes of incompressible values.
@@ -84,6 +95,8 @@ TexelImage decodeTexelsByProcess(Bytes bytes, const ImageHeader& header) {
           {reinterpret_cast<const uint16_t*>(result.output.data()), values},
           result.memory};
 }
+
+const std::string& whyNoKtx2() { return ktx2Worker().whyNot(); }
 
 std::vector<uint8_t> encodeBytesByProcess(int width, int height, int channelCount, int bits, Bytes values,
                                           ImageFormat format) {

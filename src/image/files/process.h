@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "image/files/header.h"
@@ -18,6 +19,9 @@ namespace fragtrace {
 Image decodeByProcess(std::span<const uint8_t> bytes, const ImageHeader& header);
 
 TexelImage decodeTexelsByProcess(std::span<const uint8_t> bytes, const ImageHeader& header);
+
+/// Why KTX2 textures cannot be decoded; empty where they can. The first call starts their codec.
+const std::string& whyNoKtx2();
 
 /// Interleaved RGB, or RGBA with unassociated alpha, of 8 bits as .png or .jpg, of 16 as .png.
 std::vector<uint8_t> encodeBytesByProcess(int width, int height, int channelCount, int bits,

@@ -28,6 +28,7 @@ const char* formatName(ImageFormat format) {
     case ImageFormat::WebP:
       return "webp";
     case ImageFormat::Pfm:
+    case ImageFormat::Ktx2:
       break;
   }
   throw std::runtime_error("the image library is not for this format");
