@@ -171,6 +171,8 @@ def pictures():
     yield "hdr", b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 1\n12345678"
     yield "exr", exr()
     yield "pfm", b"PF\n1 1\n-1.0\n" + bytes(12)
+    for path in sorted((Path(__file__).resolve().parent.parent / "ktx2").glob("*.ktx2")):
+        yield path.name, path.read_bytes()
 
 
 def grids(nvdb):
