@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer's target over what is read of environments and textures in this process: headers, and .pfm as a
-// whole. What the distribution's libraries decode, they decode in a process of their own. The decoder of KTX2,
-// where it was built, works here: what it does with memory that is not its own shows.
+// whole. What the distribution's libraries decode, they decode in a process of their own. The decoder of
+// KTX2, where it was built, works here: what it does with memory that is not its own shows.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>

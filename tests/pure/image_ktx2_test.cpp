@@ -126,13 +126,15 @@ TEST_F(Ktx2Codec, BrokenFilesAreRefusedOrDecodedWithinTheirLimits) {
     try {
       decodeTexels(bytes, "broken.ktx2");
     } catch (const InputError& error) {
-      EXPECT_TRUE(std::string(error.what()).starts_with("cannot read the picture broken.ktx2: ")) << error.what();
+      EXPECT_TRUE(std::string(error.what()).starts_with("cannot read the picture broken.ktx2: "))
+          << error.what();
       ++refused;
     }
   };
   for (const char* name : {"basisu_etc1s_alpha", "basisu_uastc_zstd_alpha", "libktx_uastc_zstd_mips"}) {
     const Bytes whole = fileOf(name + std::string(".ktx2"));
-    for (size_t size = 0; size < whole.size(); size += 37) decode({whole.begin(), whole.begin() + std::ptrdiff_t(size)});
+    for (size_t size = 0; size < whole.size(); size += 37)
+      decode({whole.begin(), whole.begin() + std::ptrdiff_t(size)});
     for (int i = 0; i < 60; ++i) {
       Bytes broken = whole;
       for (int flips = 0; flips < 3; ++flips) broken[random() % broken.size()] ^= uint8_t(1 << random() % 8);
@@ -179,7 +181,8 @@ TEST(Ktx2Header, MetadataThatTurnOrSwizzleAreRefused) {
     return headerRefusal({text.begin(), text.end()});
   };
   const std::string orientation = std::string("KTXorientation") + '\0';
-  EXPECT_EQ(with(orientation + "rd", orientation + "ru"), "its KTXorientation is not rd, as it must be in glTF");
+  EXPECT_EQ(with(orientation + "rd", orientation + "ru"),
+            "its KTXorientation is not rd, as it must be in glTF");
   EXPECT_EQ(with(orientation + "rd", orientation + "rd"), "");
   // An entry of the same length: its key ends earlier.
   const std::string swizzle = std::string("KTXswizzle") + '\0' + "rrr1";
@@ -227,8 +230,9 @@ TEST(GltfBasisu, WithoutAFallbackTheTextureIsDrawnOrItsAbsenceIsSaid) {
   GltfBuilder required = withTexture(kBasisuOnly, true);
   const Scene scene = load(used);
   EXPECT_EQ(scene.images.size(), why.empty() ? 1u : 0u);
-  EXPECT_EQ(anyWarningHas(scene, "/textures/0/extensions/KHR_texture_basisu: is left out: KTX2 cannot be decoded"),
-            !why.empty());
+  EXPECT_EQ(
+      anyWarningHas(scene, "/textures/0/extensions/KHR_texture_basisu: is left out: KTX2 cannot be decoded"),
+      !why.empty());
   EXPECT_EQ(refusalOf(required).empty(), why.empty());
   if (why.empty()) {
     ASSERT_EQ(scene.images[0].width, 16);

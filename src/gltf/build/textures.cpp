@@ -54,7 +54,8 @@ void warnMediaType(std::string_view declared, ImageFormat format, const std::str
                                  : format == ImageFormat::Ktx2 ? "image/ktx2"
                                                                : "";
   if (found.empty()) {
-    diagnostics.warn(place, "is neither PNG nor JPEG nor WebP nor KTX2, as glTF wants it; it is read if it can be");
+    diagnostics.warn(place,
+                     "is neither PNG nor JPEG nor WebP nor KTX2, as glTF wants it; it is read if it can be");
   } else if (!declared.empty() && declared != found) {
     diagnostics.warn(place, "is declared " + inQuotes(declared) + " and is " + std::string(found) +
                                 ", as which it is read");

@@ -115,7 +115,8 @@ ImageHeader hdrHeader(Bytes bytes) {
 ImageHeader readImageHeader(Bytes bytes) {
   if (bytes.empty()) throw std::runtime_error("it is empty");
   const auto format = formatOfBytes(bytes);
-  if (!format) throw std::runtime_error("it is no PNG, JPEG, WebP, KTX2, OpenEXR, Radiance HDR or PFM picture");
+  if (!format)
+    throw std::runtime_error("it is no PNG, JPEG, WebP, KTX2, OpenEXR, Radiance HDR or PFM picture");
   switch (*format) {
     case ImageFormat::Png:
       return pngHeader(bytes);

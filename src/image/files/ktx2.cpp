@@ -69,11 +69,13 @@ void checkFormat(const Fields& header, Bytes format) {
   constexpr uint8_t kMultipliedByAlpha = 1;
   if (format.size() < kFirstSampleEnd) refuse("the KTX2 header is wrong");
   const uint32_t model = format[kModelAt];
-  const bool isRead = header.format == 0 && ((model == kEtc1s && header.scheme == kBasisLz) ||
-                                             (model == kUastc && (header.scheme == kNone || header.scheme == kZstandard)));
+  const bool isRead =
+      header.format == 0 && ((model == kEtc1s && header.scheme == kBasisLz) ||
+                             (model == kUastc && (header.scheme == kNone || header.scheme == kZstandard)));
   if (!isRead)
-    refuse("it is neither ETC1S nor UASTC, which textures of glTF have (vkFormat " + std::to_string(header.format) +
-           ", colour model " + std::to_string(model) + ", supercompression " + std::to_string(header.scheme) + ")");
+    refuse("it is neither ETC1S nor UASTC, which textures of glTF have (vkFormat " +
+           std::to_string(header.format) + ", colour model " + std::to_string(model) + ", supercompression " +
+           std::to_string(header.scheme) + ")");
   if ((format[kFlagsAt] & kMultipliedByAlpha) != 0)
     refuse("its colours are multiplied by alpha, which textures of glTF must not be");
   checkSizes(header, model);
@@ -91,7 +93,8 @@ void checkMetadata(Bytes metadata) {
     const bool isMirrored = key == "KTXorientation" && value != "rd";
     const bool isSwizzled = key == "KTXswizzle" && value != "rgba";
     if (isMirrored || isSwizzled)
-      refuse("its " + std::string(key) + " is not " + (isMirrored ? "rd" : "rgba") + ", as it must be in glTF");
+      refuse("its " + std::string(key) + " is not " + (isMirrored ? "rd" : "rgba") +
+             ", as it must be in glTF");
     at += (4 + entry.size() + 3) / 4 * 4;
   }
 }

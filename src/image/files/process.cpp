@@ -23,10 +23,11 @@ Worker& worker() {
 
 /// A codec of its own, since few builds have it.
 Worker& ktx2Worker() {
-  static constexpr WorkerKind kKtx2{
-      "libfragtrace_ktx2.so", "the codec of KTX2 textures", "scripts/build makes it",
-      "; `scripts/setup ktx2` before scripts/build brings it, `gltf-transform ktxdecompress IN OUT` writes a file with "
-      "PNG textures"};
+  static constexpr WorkerKind kKtx2{"libfragtrace_ktx2.so", "the codec of KTX2 textures",
+                                    "scripts/build makes it",
+                                    "; `scripts/setup ktx2` before scripts/build brings it, `gltf-transform "
+                                    "ktxdecompress IN OUT` writes a file with "
+                                    "PNG textures"};
   static Worker theOne(kKtx2);
   return theOne;
 }

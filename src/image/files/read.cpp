@@ -33,7 +33,8 @@ auto decodeNamed(const std::string& name, Decode decode) {
 Image decodeStored(std::span<const uint8_t> bytes, const std::filesystem::path& path, uint64_t memoryLimit) {
   return decodeNamed(path.string(), [&] {
     const ImageHeader header = readImageHeader(bytes);
-    if (header.format == ImageFormat::Ktx2) throw std::runtime_error("a KTX2 picture is read as a texture only");
+    if (header.format == ImageFormat::Ktx2)
+      throw std::runtime_error("a KTX2 picture is read as a texture only");
     const uint64_t values = uint64_t(header.width) * uint64_t(header.height) * uint64_t(header.channelCount);
     MemoryBudget(memoryLimit).take(bytes.size() + values * sizeof(float));
     return header.format == ImageFormat::Pfm ? decodePfm(bytes) : decodeByProcess(bytes, header);

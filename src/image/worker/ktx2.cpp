@@ -34,7 +34,8 @@ extern "C" void fragtraceWork(std::span<const uint8_t> input, WorkOutput& output
     throw std::runtime_error("its size is not what its header says");
   const uint32_t texels = file.get_width() * file.get_height();
   std::vector<uint8_t> values(size_t(texels) * 4);
-  if (!file.transcode_image_level(0, 0, 0, values.data(), texels, basist::transcoder_texture_format::cTFRGBA32))
+  if (!file.transcode_image_level(0, 0, 0, values.data(), texels,
+                                  basist::transcoder_texture_format::cTFRGBA32))
     throw std::runtime_error("its level 0 is broken");
   if (isRedAndGreen(file)) {
     for (size_t i = 0; i < values.size(); i += 4) {
