@@ -37,15 +37,16 @@ class Ktx2(Case):
     def run_without_codec(self, *arguments):
         """By a copy of the program that has its worker and the module for pictures alone."""
         folder = self.folder / "program"
-        folder.mkdir(exist_ok=True)
-        for name in ("fragtrace", "fragtrace_worker", "libfragtrace_pictures.so"):
-            shutil.copy(FRAGTRACE.parent / name, folder)
+        if not folder.exists():
+            folder.mkdir()
+            for name in ("fragtrace", "fragtrace_worker", "libfragtrace_pictures.so"):
+                shutil.copy(FRAGTRACE.parent / name, folder)
         environment = {k: v for k, v in os.environ.items() if k != "FRAGTRACE_LIBRARY_PATH"}
         return subprocess.run([folder / "fragtrace", *map(str, arguments)], capture_output=True, text=True, env=environment)
 
     def middle(self, scene, *options, program=run):
         path = self.folder / "x.pfm"
-        result = program("render", scene, "-o", path, *SMALL, "--quiet", *options)
+        result = program("render", scene, "-o", path, *SMALL, *options)
         self.assertEqual(result.returncode, 0, result.stderr)
         return read_pfm(path)[4][4], result.stderr
 
@@ -66,14 +67,17 @@ class Ktx2(Case):
 
     def test_the_fallback_is_drawn_and_nothing_is_said(self):
         for required, program in ((False, self.run_without_codec), (True, self.run_without_codec), (False, run)):
-            self.assertEqual(self.middle(self.scene(required, fallback=True), program=program), ((0, 1, 0), ""))
+            color, said = self.middle(self.scene(required, fallback=True), program=program)
+            self.assertEqual(color, (0, 1, 0))
+            self.assertNotIn("ktx2", said.lower())
+            self.assertNotIn("KHR_texture_basisu", said)
 
     @has_codec
     def test_it_is_drawn_and_counted(self):
         for required in (False, True):
             # Half of red and of green, in sRGB.
             (red, green, blue), said = self.middle(self.scene(required))
-            self.assertEqual(said, "")
+            self.assertNotIn("ktx2", said.lower())
             self.assertAlmostEqual(red, 0.21, delta=0.05)
             self.assertAlmostEqual(green, 0.21, delta=0.05)
             self.assertLess(blue, 0.4)
@@ -82,11 +86,11 @@ class Ktx2(Case):
 
     @has_codec
     def test_a_broken_one_is_named_by_file_and_by_place(self):
-        scene = self.scene(name="basisu_etc1s")
+        scene = self.scene(name="basisu_uastc_zstd_alpha")
         whole = (self.folder / "wood.ktx2").read_bytes()
         cube = whole[:36] + b"\6" + whole[37:]
         noise = whole[:-200] + bytes((i * 151 + 77) % 256 for i in range(200))
-        for data, reason in ((cube, "it is a cube map"), (whole[:-30], "the file is truncated"), (noise, "")):
+        for data, reason in ((cube, "it is a cube map"), (whole[:-30], "the file is truncated"), (noise, "its level 0 is broken")):
             (self.folder / "wood.ktx2").write_bytes(data)
             self.fails(3, "info", scene, "--decode", says=["wood.ktx2", "scene.gltf: /images/0", reason])
 
@@ -99,7 +103,7 @@ class Ktx2(Case):
 
     def test_it_is_no_environment(self):
         shutil.copy(SAMPLES / "basisu_uastc.ktx2", self.folder)
-        self.fails(3, "render", self.scene(fallback=True), "-o", self.folder / "x.pfm", *SMALL, "--quiet", "--hdri", self.folder / "basisu_uastc.ktx2",
+        self.fails(3, "render", self.scene(fallback=True), "-o", self.folder / "x.pfm", *SMALL, "--quiet", "--hdri-file", self.folder / "basisu_uastc.ktx2",
                    says=["basisu_uastc.ktx2: a KTX2 picture is read as a texture only"])
 
 

@@ -97,7 +97,10 @@ TexelImage decodeTexelsByProcess(Bytes bytes, const ImageHeader& header) {
           result.memory};
 }
 
-const std::string& whyNoKtx2() { return ktx2Worker().whyNot(); }
+const std::string& whyNoKtx2() {
+  static const std::string why = ktx2Worker().whyNot();
+  return why;
+}
 
 std::vector<uint8_t> encodeBytesByProcess(int width, int height, int channelCount, int bits, Bytes values,
                                           ImageFormat format) {
