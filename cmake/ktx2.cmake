@@ -13,7 +13,7 @@ endif()
 add_library(basisu STATIC EXCLUDE_FROM_ALL ${basisu}/transcoder/basisu_transcoder.cpp ${basisu}/zstd/zstddeclib.c)
 set_target_properties(basisu PROPERTIES UNITY_BUILD OFF)
 target_include_directories(basisu SYSTEM INTERFACE ${basisu}/transcoder)
-# Its headers ask for no strict aliasing. Texels alone are wanted, and few formats of GPUs may be left out.
+# Its headers ask for no strict aliasing. Its assertions stop at broken files, which it refuses without them. Texels alone are wanted, and few formats of GPUs may be left out.
 target_compile_options(basisu PRIVATE -w -fvisibility=hidden PUBLIC -fno-strict-aliasing)
 if(FRAGTRACE_SANITIZE)
   target_compile_options(basisu PRIVATE -fno-sanitize=undefined)
@@ -21,7 +21,7 @@ endif()
 set(left_out DXT1 DXT5A ETC2_EAC_A8 ETC2_EAC_RG11 ATC FXT1 PVRTC1 PVRTC2)
 list(TRANSFORM left_out APPEND =0)
 list(TRANSFORM left_out PREPEND BASISD_SUPPORT_)
-target_compile_definitions(basisu PUBLIC BASISD_SUPPORT_KTX2=1 BASISD_SUPPORT_KTX2_ZSTD=1 ${left_out})
+target_compile_definitions(basisu PRIVATE NDEBUG PUBLIC BASISD_SUPPORT_KTX2=1 BASISD_SUPPORT_KTX2_ZSTD=1 ${left_out})
 
 add_library(fragtrace_ktx2 MODULE src/image/worker/ktx2.cpp)
 target_link_libraries(fragtrace_ktx2 PRIVATE basisu)

@@ -155,7 +155,8 @@ TEST(Ktx2Header, TheSizeIsReadWithoutTheCodec) {
 }
 
 TEST(Ktx2Header, WhatGltfDoesNotAllowIsNamed) {
-  constexpr size_t kFormat = 12, kWidth = 20, kDepth = 28, kLayers = 32, kFaces = 36, kScheme = 44;
+  constexpr size_t kFormat = 12, kWidth = 20, kDepth = 28, kLayers = 32, kFaces = 36, kScheme = 44,
+                   kUncompressed = 96;
   const char* const uastc = "basisu_uastc.ktx2";
   EXPECT_EQ(refusalWith(uastc, {}), "");
   EXPECT_EQ(refusalWith(uastc, {{kFaces, 6}}), "it is a cube map, and textures of glTF have two dimensions");
@@ -164,6 +165,7 @@ TEST(Ktx2Header, WhatGltfDoesNotAllowIsNamed) {
   EXPECT_EQ(refusalWith(uastc, {{kWidth, 0}}), "it has one dimension, not two");
   EXPECT_EQ(refusalWith(uastc, {{kWidth, 20000}}), "a size of 20000 x 16 pixels is not supported");
   EXPECT_EQ(refusalWith(uastc, {{kWidth, 20}}), "its level 0 has 256 bytes for 20 blocks");
+  EXPECT_EQ(refusalWith(uastc, {{kUncompressed, 272}}), "its level 0 has 272 bytes for 16 blocks");
   EXPECT_EQ(refusalWith(uastc, {{kFormat, 37}}),
             "it is neither ETC1S nor UASTC, which textures of glTF have (vkFormat 37, colour model 166, "
             "supercompression 0)");

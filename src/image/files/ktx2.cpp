@@ -56,9 +56,9 @@ void checkShape(const Fields& header) {
 /// Level 0 of UASTC has a block of 16 bytes for each 4 x 4 texels.
 void checkSizes(const Fields& header, uint32_t model) {
   const uint64_t blocks = uint64_t(header.width + 3) / 4 * ((header.height + 3) / 4);
-  const uint64_t stored = header.scheme == kZstandard ? header.levelUncompressed : header.levelLength;
-  if (model == kUastc && stored != 16 * blocks)
-    refuse("its level 0 has " + std::to_string(stored) + " bytes for " + std::to_string(blocks) + " blocks");
+  const uint64_t bytes = header.levelUncompressed;
+  if (model == kUastc && (bytes != 16 * blocks || (header.scheme == kNone && bytes != header.levelLength)))
+    refuse("its level 0 has " + std::to_string(bytes) + " bytes for " + std::to_string(blocks) + " blocks");
   constexpr uint64_t kGlobalHeader = 20;
   if (model == kEtc1s && header.globalLength < kGlobalHeader) refuse("it has no codebooks");
 }
