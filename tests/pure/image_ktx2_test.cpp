@@ -227,7 +227,7 @@ TEST(GltfBasisu, TheFallbackIsTakenWithTheCodecAndWithoutIt) {
 }
 
 TEST(GltfBasisu, WithoutAFallbackTheTextureIsDrawnOrItsAbsenceIsSaid) {
-  const std::string why = whyNoKtx2();
+  const std::string& why = whyNoKtx2();
   GltfBuilder used = withTexture(kBasisuOnly, false);
   GltfBuilder required = withTexture(kBasisuOnly, true);
   const Scene scene = load(used);
