@@ -154,7 +154,7 @@ void readSpecularGlossiness(const MaterialPart& part, Material& m) {
 constexpr Extension ofMaterials(std::string_view name, std::string_view members,
                                 void (*read)(const MaterialPart&, Material&),
                                 Support support = Support::Supported) {
-  return {name, support, "build/material_extensions.cpp", {"/materials/*", kNowhere}, {}, members, read};
+  return {name, support, "build/material_extensions.cpp", {"/materials/*", kNowhere}, members, read};
 }
 
 constexpr Extension kMaterialExtensions[] = {
