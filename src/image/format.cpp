@@ -18,11 +18,16 @@ bool beginsWith(std::span<const uint8_t> bytes, std::string_view signature) {
 
 }  // namespace
 
-std::optional<ImageFormat> formatOfName(const std::filesystem::path& path) {
+std::string extensionOf(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   // By hand, since tolower depends on the locale.
   for (char& c : extension)
     if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  return extension;
+}
+
+std::optional<ImageFormat> formatOfName(const std::filesystem::path& path) {
+  const std::string extension = extensionOf(path);
   if (extension == ".png") return ImageFormat::Png;
   if (extension == ".jpg" || extension == ".jpeg") return ImageFormat::Jpeg;
   if (extension == ".exr") return ImageFormat::OpenExr;

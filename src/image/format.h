@@ -6,10 +6,14 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 
 namespace fragtrace {
 
 enum class ImageFormat { Png, Jpeg, OpenExr, Hdr, WebP, Pfm, Ktx2 };
+
+/// The extension of a file's name with its dot, in small letters.
+std::string extensionOf(const std::filesystem::path& path);
 
 /// The format that a file name's extension (any case) asks to be written; nothing when none is written.
 std::optional<ImageFormat> formatOfName(const std::filesystem::path& path);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/errors.h"
+#include "image/files/video_format.h"
 #include "image/format.h"
 #include "image/image.h"
 #include "options/choose.h"
@@ -55,16 +56,22 @@ void chooseStandardOutput(OutputOptions& o) {
 
 void checkOutput(const RenderOptions& o, bool anyOutput) {
   const OutputOptions& out = o.output;
-  if (!out.file.empty() && !isWritableImageName(out.file))
-    throw UsageError("--output: '" + out.file.string() + "' ends in none of .png, .jpg, .exr, .hdr, .pfm");
+  const bool isVideo = videoFormatOf(out.file) != nullptr;
+  if (isVideo && !isSequence(o) && !anyOutput)
+    throw UsageError("--output: '" + out.file.string() +
+                     "' is a video; `render` makes one with --turntable or --frames");
+  if (!out.file.empty() && !out.toStandardOutput && !isVideo && !isWritableImageName(out.file))
+    throw UsageError("--output: '" + out.file.string() +
+                     "' ends in none of .png, .jpg, .exr, .hdr, .pfm, nor, for a sequence, in .mp4, .webm, "
+                     ".gif, .mov");
   const auto part = std::ranges::find_if(out.aovs, isPathAov);
   if (part != out.aovs.end() && !has(o.stages, Stage::Gi))
     throw UsageError("--aov " + std::string(rowOf(*part).name) + ": only stage gi has it");
   const bool hasLayers = !out.aovs.empty() || out.aovSamples || out.aovVariance;
   if (hasLayers && !anyOutput && formatOfName(out.file) != ImageFormat::OpenExr)
     throw UsageError("--aov: only .exr files hold more layers");
-  if (out.treeLevel && !out.file.empty() && !isDisplayFormat(out.file))
-    throw UsageError("--tree-level: boxes are drawn over a .png or .jpg only");
+  if (out.treeLevel && !out.file.empty() && !holdsDisplay(out.file))
+    throw UsageError("--tree-level: boxes are drawn over a .png, .jpg or video only");
 }
 
 void checkLens(const LensOptions& lens) {
@@ -156,6 +163,35 @@ void checkEncoding(const Encoding& encoding, const std::filesystem::path& output
     throw UsageError("--png-depth: '" + output.string() + "' is no .png");
 }
 
+namespace {
+
+/// Returns why the pictures of a sequence cannot go where they are to go; empty: they can.
+std::string whyNotTo(const RenderOptions& options) {
+  const OutputOptions& out = options.output;
+  const VideoFormat* const video = videoFormatOf(out.file);
+  if (out.toStandardOutput && !pixelFormOf(out.file))
+    return "--output - takes one picture of this format; --format rgb24 or rgba64 writes all of them, one "
+           "after the other";
+  if (video == nullptr && !out.toStandardOutput) {
+    const bool isNamed = isNumbered(out.file);
+    return isNamed ? "" : "the name of --output needs #### where the number of the picture goes";
+  }
+  if (video != nullptr && isNumbered(out.file))
+    return "--output: a video holds all pictures, so its name needs no #";
+  if (out.sequence.keep)
+    return "--continue: goes with numbered pictures (#### in the name of a .png); what is one file is drawn "
+           "as a whole";
+  const auto isOdd = [](const glm::ivec2& size) { return size.x % 2 != 0 || size.y % 2 != 0; };
+  if (video == nullptr || !video->evenSize) return "";
+  const std::string even = ": width and height of a " + std::string(video->extension) +
+                           " are even (.webm, .mov and .gif may be odd)";
+  if (options.camera.region) return isOdd(options.camera.region->size) ? "--region" + even : "";
+  if (options.camera.resolution && isOdd(*options.camera.resolution)) return "--resolution" + even;
+  return "";
+}
+
+}  // namespace
+
 void checkSequence(const RenderOptions& options) {
   const SequenceOptions& sequence = options.output.sequence;
   const bool allVariants = options.selection.materialVariant == kAllVariants;
@@ -169,13 +205,12 @@ void checkSequence(const RenderOptions& options) {
     throw UsageError(std::string(isTurntable ? "--turntable" : "--frames") + ": " + why);
   };
   if (allVariants) refuse("goes with one variant, not with --material-variant all");
-  if (!isNumbered(options.output.file))
-    refuse("the name of --output needs #### where the number of the picture goes");
+  if (const std::string reason = whyNotTo(options); !reason.empty()) refuse(reason);
   if (!options.output.statsFile.empty() && !isNumbered(options.output.statsFile))
     refuse("the name of --stats needs #### where the number of the picture goes");
   if (options.selection.animationTime && !isTurntable) refuse("--animation-time is of a single picture");
   if (options.output.checkpointSeconds > 0.0 || options.output.resume)
-    refuse("--checkpoint and --resume are of a single picture; --continue goes on with a sequence");
+    refuse("--checkpoint and --resume are of a single picture; --continue goes on with numbered pictures");
   if (options.device.traversal == TraversalMethod::Literals)
     refuse("--traversal literals would compile a shader for each picture");
 }

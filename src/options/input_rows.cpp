@@ -10,8 +10,9 @@ namespace {
 OptionRow outputRow() {
   OptionRow row = memberRow(
       "--output",
-      "picture to write: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance); '-' writes it to "
-      "standard output (--format), and nothing else goes there; required",
+      "picture to write: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance); of --frames and "
+      "--turntable also a video, which ffmpeg encodes: .mp4 .webm .gif, or .mov (ProRes with alpha, for "
+      "editing); '-' writes to standard output (--format), and nothing else goes there; required",
       FRAGTRACE_MEMBER(output.file), {.effect = Effect::Report, .kept = true, .group = OptionGroup::File});
   row.examples = {"it's-1.exr"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
@@ -110,6 +111,10 @@ std::vector<OptionRow> inputRows() {
           "them by 'all', each to --output with its name in place of #",
           FRAGTRACE_MEMBER(selection.materialVariant), kScene),
       hiddenRow(),
+      choice("--up",
+             "axis of the file that points up, {}: the whole scene is turned so that this axis becomes +Y, "
+             "about X for z (-Y becomes the front, +Z, as in Blender), else about Z",
+             FRAGTRACE_MEMBER(selection.up), kUpAxisNames, kScene),
       memoryRow(),
       limit<int>("--texture-limit",
                  "maximum width and height of textures in pixels; larger ones are scaled down",

@@ -11,7 +11,7 @@ namespace fragtrace {
 
 namespace {
 
-constexpr std::array<std::string_view, 5> kFormatNames{"png", "jpg", "exr", "hdr", "pfm"};
+constexpr std::array<std::string_view, 7> kFormatNames{"png", "jpg", "exr", "hdr", "pfm", "rgb24", "rgba64"};
 
 /// The layers of first hits come first, those of the film follow.
 std::vector<std::string> layerNames() {
@@ -135,7 +135,7 @@ FrameRange framesOf(const std::string& text) {
 OptionRow framesRow(const OptionTraits& traits) {
   OptionRow row = memberRow("--frames",
                             "A:B or A:B:STEP: render pictures A to B of the animation (B included), each to "
-                            "--output with its number in place of ####",
+                            "--output with its number in place of ####, or all to a video",
                             FRAGTRACE_MEMBER(output.sequence.frames), traits);
   row.examples = {"0:59", "10:9999999:3"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
@@ -152,7 +152,10 @@ OptionRow framesRow(const OptionTraits& traits) {
 
 OptionRow formatRow() {
   OptionRow row = memberRow(
-      "--format", "format of the picture that --output - writes to standard output: " + joined(kFormatNames),
+      "--format",
+      "format of the picture that --output - writes to standard output: " + joined(kFormatNames) +
+          "; rgb24 and rgba64 are pixels alone, 8 bits a channel or 16 (little-endian, straight alpha), as a "
+          ".png shows them (sRGB); --frames and --turntable write all pictures so, one after the other",
       FRAGTRACE_MEMBER(output.format),
       {.effect = Effect::Report, .copied = false, .group = OptionGroup::Output});
   row.examples.assign(kFormatNames.begin(), kFormatNames.end());
@@ -229,13 +232,15 @@ std::vector<OptionRow> outputRows() {  // NOLINT(readability-function-size): a t
              "messages included (json), or not at all (none)",
              FRAGTRACE_MEMBER(output.progress), kProgressNames, progress),
       framesRow(kNumbered),
-      number<double>("--fps",
-                     "frames per second: picture k of --frames shows the animation at k / FPS seconds",
-                     FRAGTRACE_MEMBER(output.sequence.fps), {0.001, 1e6}, kNumbered),
+      number<double>(
+          "--fps",
+          "frames per second: picture k of --frames shows the animation at k / FPS seconds; a video "
+          "shows so many, or, with a STEP, FPS / STEP",
+          FRAGTRACE_MEMBER(output.sequence.fps), {0.001, 1e6}, kNumbered),
       limit<int>(
           "--turntable",
           "render N pictures, numbers 0 to N - 1, from evenly spaced directions around the focal point, each "
-          "to --output with its number in place of ####",
+          "to --output with its number in place of ####, or all to a video",
           FRAGTRACE_MEMBER(output.sequence.turntable), {1, kMostFrame}, turntable),
       flag("--continue", "with --frames or --turntable: skip pictures that are there already",
            FRAGTRACE_MEMBER(output.sequence.keep), kNumbered),

@@ -15,7 +15,7 @@ struct OtherName {
 };
 
 /// As other renderers have it.
-constexpr std::array<OtherName, 20> kOtherNames = {{
+constexpr std::array<OtherName, 23> kOtherNames = {{
     {"--samples", "--spp"},
     {"--samples-per-pixel", "--spp"},
     {"--size", "--resolution"},
@@ -32,6 +32,9 @@ constexpr std::array<OtherName, 20> kOtherNames = {{
     {"--film-transparent", "--no-background"},
     {"--integrator", "--stage"},
     {"--tonemap", "--tone-map"},
+    {"--up-axis", "--up"},
+    {"--frame-rate", "--fps"},
+    {"--framerate", "--fps"},
     {"-v", "--version"},
     {"-V", "--version"},
     {"-v", "--verbose"},

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <glm/gtx/component_wise.hpp>
 
+#include "image/files/video_format.h"
 #include "image/format.h"
 #include "options/option_row.h"
 
@@ -31,20 +32,24 @@ bool isLinear(const Options& o) {
 }
 
 bool hasNoAlpha(const Options& o) {
-  return writes(o, {ImageFormat::Jpeg, ImageFormat::Hdr, ImageFormat::Pfm});
+  if (writes(o, {ImageFormat::Hdr, ImageFormat::Pfm})) return true;
+  return holdsDisplay(o.output.file) && !holdsDisplayAlpha(o.output.file);
 }
 
+bool isVideo(const Options& o) { return videoFormatOf(o.output.file) != nullptr; }
+
 constexpr VainRow kRows[] = {
-    {"--fps", [](const Options& o) { return !o.output.sequence.frames; }, "goes with --frames"},
+    {"--fps", [](const Options& o) { return !o.output.sequence.frames && !isVideo(o); },
+     "goes with --frames, or with a video"},
     {"--background-blur", [](const Options& o) { return o.light.hdriFile.empty(); },
      "there is no --hdri-file to blur"},
     {"--fog-density", [](const Options& o) { return !has(o.stages, Stage::Gi); }, "only stage gi has it"},
     {"--no-background", hasNoAlpha,
-     "a file of this format has no alpha, so the background is black; .png and .exr have it"},
+     "a file of this format has no alpha, so the background is black; .png, .exr and .mov have it"},
     {"--background-color", [](const Options& o) { return !o.light.background; }, "--no-background hides it"},
     {"--background-color", [](const Options& o) { return glm::compMax(*o.light.backgroundColor) > 1.0f; },
      "values above 1 are brighter than white; divide values from 0 to 255 by 255"},
-    {"--alpha", [](const Options& o) { return o.light.background || !writes(o, {ImageFormat::Png}); },
+    {"--alpha", [](const Options& o) { return o.light.background || !holdsDisplayAlpha(o.output.file); },
      "changes a .png with --no-background only"},
     {"--no-dither",
      [](const Options& o) {

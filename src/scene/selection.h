@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fragtrace {
+
+/// The axis of a file that points up in it.
+enum class UpAxis : uint8_t { X, Y, Z, MinusX, MinusY, MinusZ };
+inline constexpr std::array<std::string_view, 6> kUpAxisNames{"x", "y", "z", "-x", "-y", "-z"};
 
 /// The parts of a file that are shown. A part is selected by its name or, where none has that name, by its
 /// index.
@@ -17,6 +24,7 @@ struct SceneSelection {
   std::string materialVariant{};           ///< empty: the materials that the file shows by default
   std::vector<std::string> hiddenNodes{};  ///< by name (all that have it), JSON pointer or index; not drawn,
                                            ///< nor what is below them
+  UpAxis up = UpAxis::Y;                   ///< turns the whole file, so that this axis becomes +Y
 
   bool operator==(const SceneSelection&) const = default;
 };

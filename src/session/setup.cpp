@@ -13,6 +13,8 @@
 #include "bvh/large_first.h"
 #include "bvh/two_level.h"
 #include "image/files/process.h"
+#include "image/files/video_format.h"
+#include "image/format.h"
 #include "image/image.h"
 #include "options/option_row.h"
 #include "options/vain_options.h"
@@ -94,7 +96,9 @@ Camera fitCamera(const Camera& camera, const FittedPoints& points, const CameraO
 glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options) {
   if (options.camera.resolution) return *options.camera.resolution;
   if (camera.aspectRatio <= 0.0) return {1280, 720};
-  return {std::clamp(int(std::lround(720.0 * camera.aspectRatio)), 1, 16384), 720};
+  const VideoFormat* const video = videoFormatOf(options.output.file);
+  const int step = video != nullptr && video->evenSize ? 2 : 1;
+  return {std::clamp(int(std::lround(720.0 * camera.aspectRatio)) / step * step, step, 16384), 720};
 }
 
 double pathsOf(const RenderOptions& options, glm::ivec2 size) {

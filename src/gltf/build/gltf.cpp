@@ -141,7 +141,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
   addMaterials(document, scene);
 
   // World space.
-  const std::vector<PlacedNode> nodes = placeNodes(document, options.selection.hiddenNodes);
+  const std::vector<PlacedNode> nodes = placeNodes(document, options.selection);
   scene.nodes = namedNodes(document, nodes);
   if (options.progress) options.progress("building the meshes", 0.45);
   ShownMeshes shown = showMeshes(document, scene.materials, nodes);

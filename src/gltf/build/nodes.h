@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gltf/read/document.h"
+#include "scene/selection.h"
 
 namespace fragtrace {
 
@@ -23,10 +24,10 @@ struct PlacedNode {
 };
 
 /// The nodes of the default scene (else of scene 0, else of the whole file), parents before children, in file
-/// order; those that the user hides, by SceneSelection::hiddenNodes, too. Throws InputError for a loop, a
-/// node with two parents, and a transform that is not affine or not finite, and UsageError for a node to hide
-/// that is not in the file.
-std::vector<PlacedNode> placeNodes(const Document& document, const std::vector<std::string>& toHide);
+/// order; those that the user hides, by SceneSelection::hiddenNodes, too. All are turned as
+/// SceneSelection::up says. Throws InputError for a loop, a node with two parents, and a transform that is
+/// not affine or not finite, and UsageError for a node to hide that is not in the file.
+std::vector<PlacedNode> placeNodes(const Document& document, const SceneSelection& selection);
 
 /// Returns true if the numbers and the products of any four are finite.
 bool isMultiplicable(const glm::dmat4& matrix);

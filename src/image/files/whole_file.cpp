@@ -64,16 +64,25 @@ std::filesystem::path folderOf(const std::filesystem::path& target) {
   return target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");
 }
 
+}  // namespace
+
 std::filesystem::path partOf(const std::filesystem::path& path) {
   // A name may be as long as the file system allows (255 bytes); its part must then be cut.
   constexpr size_t kMaximumNameLength = 240;
+  const std::filesystem::path target = behindLinks(path);
   std::string name(".");
-  name += path.filename().string().substr(0, kMaximumNameLength);
+  name += target.filename().string().substr(0, kMaximumNameLength);
   name += ".part";
-  return path.parent_path() / name;
+  return target.parent_path() / name;
 }
 
-}  // namespace
+void takePart(const std::filesystem::path& path) {
+  const std::filesystem::path part = partOf(path);
+  if (::rename(part.c_str(), behindLinks(path).c_str()) == 0) return;
+  const int code = errno;
+  ::unlink(part.c_str());
+  throw RenderError("cannot write " + path.string() + ": " + systemReason(code));
+}
 
 std::vector<uint8_t> readOpenFile(int file, const MemoryBudget& memory, const BeginningCheck& check,
                                   const ReadProgress& progress) {
@@ -179,17 +188,14 @@ void replaceFile(const std::filesystem::path& path, std::span<const uint8_t> byt
     if (code != 0) throw fail(code);
     return;
   }
-  const std::filesystem::path target = behindLinks(path);
-  const std::filesystem::path part = partOf(target);
+  const std::filesystem::path part = partOf(path);
   const int file = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (file < 0) throw fail(errno);
 
-  int code = writeAndClose(file, bytes);
-  if (code == 0 && ::rename(part.c_str(), target.c_str()) != 0) code = errno;
-  if (code != 0) {
-    ::unlink(part.c_str());
-    throw fail(code);
-  }
+  const int code = writeAndClose(file, bytes);
+  if (code == 0) return takePart(path);
+  ::unlink(part.c_str());
+  throw fail(code);
 }
 
 }  // namespace fragtrace

@@ -38,6 +38,12 @@ std::vector<uint8_t> readWholeFile(const std::filesystem::path& path, uint64_t l
 /// Throws RenderError naming the path and the system's reason.
 void replaceFile(const std::filesystem::path& path, std::span<const uint8_t> bytes);
 
+/// The part of that file: .NAME.part beside what symbolic links lead to, for a program that writes it.
+std::filesystem::path partOf(const std::filesystem::path& path);
+
+/// Puts the part in the file's place, or removes it and throws RenderError naming the path and the reason.
+void takePart(const std::filesystem::path& path);
+
 /// Writes all bytes to standard output. Throws RenderError, also where its reader has gone.
 void writeToStandardOutput(std::span<const uint8_t> bytes);
 

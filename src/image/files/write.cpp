@@ -9,6 +9,7 @@
 #include "image/channels.h"
 #include "image/files/pfm.h"
 #include "image/files/process.h"
+#include "image/files/video_format.h"
 #include "image/files/whole_file.h"
 #include "image/format.h"
 #include "image/image.h"
@@ -35,20 +36,29 @@ std::vector<size_t> outputChannels(const Image& image, bool withAlpha) {
   return channels;
 }
 
-std::vector<uint8_t> encodeBytes(const Image& image, ImageFormat format, int bits) {
-  const std::vector<size_t> channels = outputChannels(image, format == ImageFormat::Png);
+/// The values of these channels, little-endian; opaque alpha follows them if wanted.
+std::vector<uint8_t> levelsOf(const Image& image, const std::vector<size_t>& channels, int bits,
+                              bool addsAlpha) {
   const float highest = bits == 16 ? 65535.0f : 255.0f;
-  const size_t count = image.values.size() / image.channelCount() * channels.size();
+  const size_t count = image.values.size() / image.channelCount() * (channels.size() + (addsAlpha ? 1 : 0));
   std::vector<uint8_t> bytes;
   bytes.reserve(count * size_t(bits / 8));
+  const auto add = [&](float value) {
+    const uint16_t level = quantize(value, highest);
+    bytes.push_back(uint8_t(level));
+    if (bits == 16) bytes.push_back(uint8_t(level >> 8));
+  };
   for (size_t first = 0; first < image.values.size(); first += image.channelCount()) {
-    for (const size_t channel : channels) {
-      const uint16_t level = quantize(image.values[first + channel], highest);
-      bytes.push_back(uint8_t(level));
-      if (bits == 16) bytes.push_back(uint8_t(level >> 8));  // this machine's order
-    }
+    for (const size_t channel : channels) add(image.values[first + channel]);
+    if (addsAlpha) add(1.0f);
   }
-  return encodeBytesByProcess(image.width, image.height, int(channels.size()), bits, bytes, format);
+  return bytes;
+}
+
+std::vector<uint8_t> encodeBytes(const Image& image, ImageFormat format, int bits) {
+  const std::vector<size_t> channels = outputChannels(image, format == ImageFormat::Png);
+  return encodeBytesByProcess(image.width, image.height, int(channels.size()), bits,
+                              levelsOf(image, channels, bits, false), format);
 }
 
 /// The nearest colour that three 8-bit mantissas with one exponent hold (Ward, "Real Pixels", Graphics Gems
@@ -109,6 +119,7 @@ Encoded encode(const Image& image, const std::filesystem::path& path, const Enco
       image.values.size() != size_t(image.width) * size_t(image.height) * image.channelCount())
     throw std::runtime_error("the picture is empty, or its values do not fill it");
 
+  if (const auto form = pixelFormOf(path)) return {pixelsOf(image, *form), 0};
   const auto format = formatOfName(path);
   if (!format) throw std::runtime_error("the name must end in .png, .jpg, .exr, .hdr or .pfm");
   if (format == ImageFormat::Pfm) return {encodePfm(image), 0};
@@ -134,6 +145,11 @@ uint64_t bytesOfPixel(std::optional<ImageFormat> format, size_t channelCount, co
 }
 
 }  // namespace
+
+std::vector<uint8_t> pixelsOf(const Image& image, const PixelForm& form) {
+  const std::vector<size_t> channels = outputChannels(image, form.alpha);
+  return levelsOf(image, channels, form.bits, form.alpha && channels.size() == 3);
+}
 
 size_t writeImage(const std::filesystem::path& path, const Image& image, const Encoding& encoding) {
   const Encoded encoded = encodeNamed(image, path, encoding);

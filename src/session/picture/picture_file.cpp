@@ -8,6 +8,7 @@
 #include "image/display/heatmap.h"
 #include "image/display/lines.h"
 #include "image/display/tone_map.h"
+#include "image/files/video_format.h"
 #include "image/format.h"
 #include "render/film/debug_picture.h"
 #include "scene/projection.h"
@@ -46,7 +47,7 @@ std::string lostInPfm(const RenderOptions& options, const Image& linear) {
   std::string lost;
   for (const std::string& layer : layers) lost += (lost.empty() ? "" : ", ") + layer;
   const auto add = [&](const char* more) { lost += (lost.empty() ? "" : " and ") + std::string(more); };
-  if (isDisplayFormat(options.output.file)) add("what only a display has (exposure, tone curve, boxes)");
+  if (holdsDisplay(options.output.file)) add("what only a display has (exposure, tone curve, boxes)");
   if (!linear.attributes.empty()) add("what merge needs");
   return lost;
 }
@@ -74,12 +75,15 @@ std::vector<PictureLine> treeLines(const RenderOptions& options, const LoadedSce
 }
 
 void checkPictureWritable(const RenderOptions& options, glm::ivec2 size) {
+  if (videoFormatOf(options.output.file) != nullptr) return;  // checkVideo() has tried
   checkImageWritable(options.output.file, size.x, size.y, channelsOf(options), options.output.encoding,
                      !options.output.toStandardOutput);
 }
 
 std::string rescuePicture(const RenderOptions& options, const Image& linear, const std::string& reason) {
-  if (options.output.toStandardOutput || formatOfName(options.output.file) == ImageFormat::Pfm) return reason;
+  const bool isVideo = videoFormatOf(options.output.file) != nullptr;
+  if (options.output.toStandardOutput || isVideo || formatOfName(options.output.file) == ImageFormat::Pfm)
+    return reason;
   const std::filesystem::path path = rescuePath(options.output.file);
   try {
     writeImage(path, linear);
@@ -109,13 +113,12 @@ void writeOut(const RenderOptions& options, const Image& image) {
 
 }  // namespace
 
-void writePicture(const RenderOptions& options, const Image& linear, std::span<const PictureLine> lines) {
-  if (!isDisplayFormat(options.output.file)) return writeOut(options, linear);
+Image displayedPicture(const RenderOptions& options, const Image& linear,
+                       std::span<const PictureLine> lines) {
   const bool colors = showsColors(options);
-  const bool keepsAlpha = formatOfName(options.output.file) == ImageFormat::Png;
   Image display =
-      toDisplay(keepsAlpha ? linear : withoutAlpha(linear), colors ? 0.0 : options.output.exposure,
-                colors ? ToneMap::Linear : options.output.toneMap);
+      toDisplay(holdsDisplayAlpha(options.output.file) ? linear : withoutAlpha(linear),
+                colors ? 0.0 : options.output.exposure, colors ? ToneMap::Linear : options.output.toneMap);
   if (options.output.alpha == AlphaOf::Display) display = forBlendedValues(std::move(display));
   const bool hasSteps =
       formatOfName(options.output.file) == ImageFormat::Jpeg || options.output.encoding.pngBits == 8;
@@ -124,7 +127,12 @@ void writePicture(const RenderOptions& options, const Image& linear, std::span<c
     dither(display);
   }
   drawLines(display, lines, linear.placement.value_or(Placement{{0, 0}, {linear.width, linear.height}}));
-  writeOut(options, display);
+  return display;
+}
+
+void writePicture(const RenderOptions& options, const Image& linear, std::span<const PictureLine> lines) {
+  if (!holdsDisplay(options.output.file)) return writeOut(options, linear);
+  writeOut(options, displayedPicture(options, linear, lines));
 }
 
 }  // namespace fragtrace

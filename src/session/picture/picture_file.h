@@ -24,6 +24,9 @@ Image shownPicture(const RenderOptions& options, const FilmPixels& pixels, const
 std::vector<PictureLine> treeLines(const RenderOptions& options, const LoadedScene& loaded,
                                    const Camera& camera, glm::ivec2 size);
 
+/// The picture as a display shows it, with lines over it, for the options' output.
+Image displayedPicture(const RenderOptions& options, const Image& linear, std::span<const PictureLine> lines);
+
 /// Must be called before the first sample: throws RenderError if a picture of that size could not be written.
 void checkPictureWritable(const RenderOptions& options, glm::ivec2 size);
 

@@ -6,6 +6,8 @@
 #include <glm/gtx/rotate_vector.hpp>
 #include <string>
 
+#include "image/files/video_format.h"
+
 namespace fragtrace {
 
 namespace {
@@ -40,6 +42,12 @@ std::filesystem::path namedFile(const std::filesystem::path& pattern, const std:
 
 FrameRange rangeOf(const SequenceOptions& sequence) {
   return sequence.turntable > 0 ? FrameRange{0, sequence.turntable - 1, 1} : sequence.frames.value();
+}
+
+double picturesPerSecond(const SequenceOptions& sequence) { return sequence.fps / rangeOf(sequence).step; }
+
+bool isStream(const OutputOptions& output) {
+  return output.toStandardOutput || videoFormatOf(output.file) != nullptr;
 }
 
 int frameCount(const SequenceOptions& sequence) {

@@ -26,6 +26,12 @@ std::filesystem::path namedFile(const std::filesystem::path& pattern, const std:
 /// The numbers of the sequence's pictures; isSequence() must hold.
 FrameRange rangeOf(const SequenceOptions& sequence);
 
+/// The speed at which a video of the sequence shows its pictures: that of the animation.
+double picturesPerSecond(const SequenceOptions& sequence);
+
+/// Returns true if the pictures follow each other in one file, or on standard output.
+bool isStream(const OutputOptions& output);
+
 int frameCount(const SequenceOptions& sequence);
 
 /// The picture of that index, from 0; the options are of a sequence. Small scenes do not become shader text

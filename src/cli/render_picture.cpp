@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "cli/render_picture.h"
+
+#include <cstdio>
+
+#include "base/count_text.h"
+#include "base/errors.h"
+#include "base/report.h"
+#include "cli/leave.h"
+#include "session/interrupt.h"
+#include "session/outputs.h"
+#include "session/picture/finished_picture.h"
+#include "session/picture/picture_file.h"
+#include "session/picture/video.h"
+
+namespace fragtrace {
+
+namespace {
+
+void sayWhatWasDone(const RenderOptions& options, const std::string& name, const Statistics& stats) {
+  std::string noise;
+  if (stats.adaptive) {
+    char text[96];
+    std::snprintf(text, sizeof text, ", 95 %% of the pixels within %.3g %% (estimated)",
+                  100.0 * stats.adaptive->error);
+    const bool tells = stats.adaptive->known && stats.adaptive->error <= 1.0;
+    noise = tells ? text : stats.adaptive->known ? ", noise above 100 % (estimated)" : ", error unknown";
+  }
+  if (stats.denoise && !stats.denoise->filter.empty()) {
+    char text[32];
+    std::snprintf(text, sizeof text, " in %.2f s", stats.denoise->filterMs / 1000.0);
+    noise += ", " + stats.denoise->filter + text;
+  }
+  sayHowItEnded(options, stats);
+  if (!stats.complete) say(options, "interrupted: what was finished is written");
+  reportEvent("picture", {{"width", stats.size.x},
+                          {"height", stats.size.y},
+                          {"samples", samplesPerPixel(stats)},
+                          {"complete", stats.complete}});
+  // Standard output is the statistics' or the picture's alone.
+  const bool taken = isStandardOutput(options.output.statsFile) || options.output.toStandardOutput;
+  if (options.output.quiet || (taken ? reportsAsJson() : standardOutputIsClosed())) return;
+  char samples[32];
+  std::snprintf(samples, sizeof samples, "%.4g", samplesPerPixel(stats));
+  std::fprintf(taken ? stderr : stdout, "%s: %d x %d, %s per pixel in %.2f s (%.2f million paths/s)%s\n",
+               name.c_str(), stats.size.x, stats.size.y, countText(samples, "sample").c_str(),
+               stats.times.renderMs / 1000.0, megaPathsPerSecond(stats), noise.c_str());
+}
+
+}  // namespace
+
+Outcome drawAndWrite(const PictureJob& job, const std::vector<PictureLine>& boxes,
+                     const Destination& destination, Device& device, Statistics& stats) {
+  const RenderOptions& options = job.options;
+  // Who goes on with a sequence later takes a picture that is there for a whole one.
+  const int most = job.showsProgress ? 1 : 0;
+  PhaseTimer firstDraw("first draw");
+  DrawingPlan plan = planDrawing(job, stats);
+  stats.phases.push_back(firstDraw.end());
+
+  // Step: draw.
+  checkPictureWritable(options, job.loaded.region.size);
+  countInterrupts();
+  CheckpointKeeper keeper(options);
+  std::optional<Image> drawn = drawSamples(job, plan, device, keeper, most, stats);
+  if (!drawn) return Outcome::None;
+
+  // Step: write. What has been drawn is not lost from here on.
+  try {
+    if (!finishPicture(*drawn, job, plan, device, most, stats)) return Outcome::None;
+    PhaseTimer writing("write");
+    if (destination.video != nullptr)
+      addFrame(*destination.video, displayedPicture(options, *drawn, boxes));
+    else
+      writePicture(options, *drawn, boxes);
+    stats.phases.push_back(writing.end());
+  } catch (const std::exception& error) {
+    throw RenderError(rescuePicture(options, *drawn, error.what()));
+  }
+  if (stats.complete) keeper.remove();
+  if (!options.output.statsFile.empty()) replaceText(options.output.statsFile, statisticsText(stats));
+  sayWhatWasDone(options, destination.name, stats);
+  return stats.complete ? Outcome::Complete : Outcome::Partial;
+}
+
+std::string nameOf(const OutputOptions& output) {
+  return output.toStandardOutput ? "standard output" : output.file.string();
+}
+
+nlohmann::ordered_json eventContext(const RenderOptions& options) {
+  return {{"output", options.output.toStandardOutput ? "-" : options.output.file.string()}};
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// One picture of `render`, from the scene on the device to its file.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "bvh/tree_boxes.h"
+#include "session/picture/finished_picture.h"
+#include "session/statistics.h"
+
+namespace fragtrace {
+
+struct Video;
+
+/// Where a finished picture goes.
+struct Destination {
+  std::string name;        ///< for messages
+  Video* video = nullptr;  ///< none: the output of the options
+};
+
+/// A picture is written, written as far as it was drawn, or not written.
+enum class Outcome : uint8_t { Complete, Partial, None };
+
+/// Draws, finishes and writes. `boxes` are drawn over it. Throws RenderError, UsageError, InputError (of a
+/// checkpoint).
+Outcome drawAndWrite(const PictureJob& job, const std::vector<PictureLine>& boxes,
+                     const Destination& destination, Device& device, Statistics& stats);
+
+/// The name of the output in messages.
+std::string nameOf(const OutputOptions& output);
+
+/// The context of a picture's events: its file.
+nlohmann::ordered_json eventContext(const RenderOptions& options);
+
+}  // namespace fragtrace

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#include "cli/render_sequence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "base/count_text.h"
+#include "base/errors.h"
+#include "base/report.h"
+#include "cli/leave.h"
+#include "cli/render_picture.h"
+#include "image/files/process.h"
+#include "options/camera_text.h"
+#include "session/interrupt.h"
+#include "session/outputs.h"
+#include "session/picture/denoising.h"
+#include "session/picture/picture_file.h"
+#include "session/picture/sequence.h"
+#include "session/picture/video.h"
+#include "session/sequence_camera.h"
+#include "session/tracer.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// State that the pictures of a sequence share, or that one leaves to the next.
+struct SequenceRun {
+  Device device;
+  Tracer tracer;
+  std::optional<LoadedScene> loaded;       ///< the scene of the picture before
+  std::optional<RefittableTree> tree;      ///< the latest tree, where the next picture may refit it
+  std::shared_ptr<KeptDocument> document;  ///< the document that is posed for each picture
+  Statistics prepared;                     ///< time spent on a turntable's scene
+  std::unique_ptr<Video> video;            ///< that all pictures go to, if they do
+};
+
+/// Returns true if the next picture may refit this one's tree. `merge` tells scenes apart by their arrays,
+/// and a small tree is built as fast: in both cases each picture has the bits of a single command, whatever
+/// was drawn before.
+bool keepsTree(const RenderOptions& options, const Scene& scene) {
+  constexpr size_t kLeastTriangles = 4096;
+  return !holdsLayers(options) && !keepsCheckpoint(options) && options.output.debugView == DebugView::None &&
+         scene.triangles.size() >= kLeastTriangles;
+}
+
+/// Pictures after the end of an animation are all the same.
+void warnBeyondEnd(const RenderOptions& options, const SequenceOptions& sequence, const Scene& scene) {
+  const std::optional<double> length = animationLength(scene, options.selection);
+  const int last = rangeOf(sequence).last;
+  if (!length || last <= std::ceil(*length * sequence.fps)) return;
+  char text[128];
+  std::snprintf(
+      text, sizeof text,
+      "warning: --frames: the animation ends after %.4g s, at picture %d; those after it show its end",
+      *length, int(std::ceil(*length * sequence.fps)));
+  say(options, text);
+}
+
+/// The scene as the picture shows it, on the device. A turntable loads it once; else the environment stays.
+Statistics prepareFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOptions& sequence) {
+  const RenderOptions& options = frame.options;
+  const RenderOptions drawn = withGuides(options);
+  const bool turntable = sequence.turntable > 0;
+  const bool first = run.tracer.renderer == nullptr;
+  if (!first && turntable) return run.prepared;
+  Statistics stats;
+  SceneBefore before;
+  Environment environment;
+  if (run.loaded && run.loaded->environment.kind == Surroundings::Map) {
+    environment = std::move(run.loaded->environment);
+    before.environment = &environment;
+  }
+  if (run.tree) before.tree = &*run.tree;
+  const Volume volume = run.loaded ? run.loaded->scene.volume : Volume();
+  before.volume = &volume;
+  if (!turntable) before.document = &run.document;
+  run.loaded.reset();
+  run.loaded = loadScene(drawn, stats, {}, FilmOf::Part, before);
+  if (!stats.treeRefitted) {
+    run.tree.reset();
+    if (!turntable && keepsTree(options, run.loaded->scene))
+      run.tree = refittable(run.loaded->bvh, run.loaded->scene);
+  }
+  if (first) {
+    if (!turntable) warnBeyondEnd(options, sequence, run.loaded->scene);
+    openContext(options, frameCount(sequence) * pathsOf(options, run.loaded->region.size), run.device, stats);
+    run.tracer = makeTracer(*run.device.context, *run.loaded, drawn, stats);
+    run.prepared = stats;
+    run.prepared.phases.clear();
+  } else {
+    replaceScene(run.tracer, *run.device.context, *run.loaded, drawn, stats);
+  }
+  return stats;
+}
+
+Outcome drawFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOptions& sequence) {
+  const RenderOptions& options = frame.options;
+  checkOutputs(outputsOf(options), inputsOf(options));
+  nlohmann::ordered_json context = eventContext(options);
+  context.update({{"frame", frame.number},
+                  {"first_frame", rangeOf(sequence).first},
+                  {"last_frame", rangeOf(sequence).last}});
+  setReportContext(context);
+  Statistics stats = prepareFrame(run, frame, sequence);
+  LoadedScene& loaded = *run.loaded;
+  const Camera camera = loaded.camera;
+  if (sequence.turntable > 0) {
+    const glm::dvec3 focalPoint = turningPoint(camera, loaded.overrides, loaded.scene.bounds);
+    loaded.camera = turnedCamera(camera, focalPoint, frame.turn);
+    loaded.view = makeView(options, loaded, loaded.camera);
+  }
+  const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);
+  if (!options.output.treeLevel) releaseGeometry(loaded);
+  Destination destination{nameOf(options.output)};
+  if (isStream(options.output)) {
+    destination.name += ", picture " + std::to_string(frame.number);
+    if (!run.video && !options.output.toStandardOutput)
+      run.video = startVideo(options.output.file, loaded.region.size, picturesPerSecond(sequence));
+    destination.video = run.video.get();
+  }
+  const Outcome outcome =
+      drawAndWrite({options, loaded, run.tracer, false}, boxes, destination, run.device, stats);
+  loaded.camera = camera;
+  return outcome;
+}
+
+/// Returns true if there is a complete picture by that name. Files are replaced as a whole, so one with
+/// contents is complete.
+bool isWhole(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(path, error) && std::filesystem::file_size(path, error) > 0;
+}
+
+/// What became of a sequence's pictures.
+struct SequenceCounts {
+  int all = 0;
+  int drawn = 0;
+  int failed = 0;
+  int skipped = 0;
+};
+
+/// Draws all pictures that are wanted. One that fails is said, and the others are drawn; but a stream ends
+/// there.
+void drawFrames(const RenderOptions& options, SequenceRun& run, SequenceCounts& counts) {
+  const SequenceOptions& sequence = options.output.sequence;
+  const bool isStreamed = isStream(options.output);
+  for (int i = 0; i < counts.all && interrupts() == 0 && !(isStreamed && counts.failed > 0); ++i) {
+    const SequenceFrame frame = frameOf(options, i);
+    if (sequence.keep && isWhole(frame.options.output.file)) {
+      ++counts.skipped;
+      continue;
+    }
+    try {
+      counts.drawn += drawFrame(run, frame, sequence) == Outcome::Complete;
+    } catch (const UsageError&) {
+      throw;  // it would be the same for every picture
+    } catch (const ContextLost&) {
+      throw;
+    } catch (const std::exception& reason) {
+      // A turntable's scene would be the same for every picture.
+      const bool isInput = dynamic_cast<const InputError*>(&reason) != nullptr;
+      if (isInput && sequence.turntable > 0 && !run.loaded) throw;
+      reportError("picture " + std::to_string(frame.number) + ": " + reason.what());
+      ++counts.failed;
+    }
+  }
+}
+
+/// The video holds what was drawn, however the drawing ended. Returns false if there is none.
+bool endVideo(const RenderOptions& options, SequenceRun& run) {
+  if (!run.video || run.video->encoder < 0 || run.video->count == 0) return false;
+  try {
+    finishVideo(*run.video);
+  } catch (const RenderError&) {
+    if (interrupts() == 0) throw;
+    return false;
+  }
+  char text[96];
+  const glm::ivec2 size = run.video->size;
+  const double perSecond = picturesPerSecond(options.output.sequence);
+  std::snprintf(text, sizeof text, ": %s of %d x %d, %.4g s at %.4g per second",
+                countText(size_t(run.video->count), "picture").c_str(), size.x, size.y,
+                run.video->count / perSecond, perSecond);
+  say(options, nameOf(options.output) + text);
+  return true;
+}
+
+/// Says how far the pictures of a stream came, and returns the status.
+int sayHowStreamEnded(const RenderOptions& options, const SequenceCounts& counts, bool isKept) {
+  const bool isCut = interrupts() > 0 && (counts.drawn + counts.failed < counts.all || !isKept);
+  std::string held = "nothing is written";
+  if (isKept && counts.drawn > 0)
+    held = std::to_string(counts.drawn) + " of " + countText(size_t(counts.all), "picture") +
+           (options.output.toStandardOutput ? " went to " : " are in ") + nameOf(options.output);
+  if (counts.failed > 0)
+    reportError(held);
+  else if (isCut)
+    say(options, "interrupted: " + held);
+  return isCut ? kInterruptedStatus : counts.failed > 0 ? 1 : 0;
+}
+
+/// Says what is missing, and returns the status.
+int sayHowSequenceEnded(const RenderOptions& options, const SequenceCounts& counts) {
+  const std::string all = " of " + countText(size_t(counts.all), "picture") + " ";
+  const int missing = counts.all - counts.skipped - counts.drawn - counts.failed;
+  if (counts.skipped > 0) say(options, std::to_string(counts.skipped) + all + "were there already");
+  if (counts.failed > 0) reportError(std::to_string(counts.failed) + all + "failed");
+  if (missing > 0)
+    say(options, "interrupted: " + std::to_string(missing) + all + "are missing; --continue draws them");
+  return missing > 0 ? kInterruptedStatus : counts.failed > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+int runSequence(const RenderOptions& options) {
+  const SequenceOptions& sequence = options.output.sequence;
+  SequenceRun run;
+  RenderOptions settled = options;
+  if (sequence.frames) {
+    settled.camera.overrides = overridesOfAllPoses(options, run.document);
+    if (settled.camera.overrides != options.camera.overrides)
+      say(options, "one camera shows the whole animation: " + cameraText(settled));
+  }
+  run.device.oidn = openDenoiser(settled);
+  passOnWhatIsSaid([](const std::string&) {});  // they would all say the same
+  countInterrupts();
+  if (options.output.file.extension() != ".pfm") startImageProcess();
+  const RenderOptions firstOptions = frameOf(settled, 0).options;
+  checkOutputs(outputsOf(firstOptions), inputsOf(firstOptions));  // a wrong folder would be wrong for all
+  if (videoFormatOf(options.output.file) != nullptr) checkVideo(options.output.file);
+  SequenceCounts counts;
+  counts.all = frameCount(sequence);
+  try {
+    drawFrames(settled, run, counts);
+  } catch (...) {
+    endVideo(options, run);
+    throw;
+  }
+  const bool isKept = endVideo(options, run) || options.output.toStandardOutput;
+  return leave(isStream(options.output) ? sayHowStreamEnded(options, counts, isKept)
+                                        : sayHowSequenceEnded(options, counts));
+}
+
+}  // namespace fragtrace
