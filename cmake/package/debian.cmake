@@ -38,6 +38,7 @@ set(CPACK_FRAGTRACE_BUILD ${CMAKE_BINARY_DIR})
 # OpenGL is opened at run time: by EGL with Mesa's software driver, or by OSMesa.
 set(CPACK_FRAGTRACE_DEPENDS "libegl1 | libosmesa6, libgl1-mesa-dri | libosmesa6")
 set(CPACK_FRAGTRACE_RECOMMENDS "libosmesa6, libgl1, fonts-dejavu-core")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS ffmpeg)  # for videos alone, and large
 if(glfw3_VERSION VERSION_GREATER_EQUAL 3.4)  # a title bar on Wayland
   string(APPEND CPACK_FRAGTRACE_RECOMMENDS ", libdecor-0-plugin-1-gtk | libdecor-0-plugin-1-cairo")
 endif()

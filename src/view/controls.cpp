@@ -289,6 +289,7 @@ bool changeWindow(ViewState& state, const Control& control, const Movement& m) {
 constexpr std::pair<Action, Errand> kErrands[] = {
     {Action::CenterOn, Errand::CenterOn},
     {Action::Inspect, Errand::Inspect},
+    {Action::Measure, Errand::Measure},
     {Action::CopyCommand, Errand::CopyCommand},
     {Action::PasteCommand, Errand::PasteCommand},
     {Action::Undo, Errand::Undo},

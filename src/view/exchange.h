@@ -143,6 +143,7 @@ struct PickRequest {
   size_t side = 0;
   glm::dvec2 place{0.0};           ///< parts of width and height, from the top left
   bool center = false;             ///< the camera is to be centred on it
+  bool measures = false;           ///< its distance from the selected point is wanted
   bool clear = false;              ///< nothing is selected any more
   std::optional<uint32_t> node{};  ///< this one and what is below it, rather than a place (SceneNode::index)
   uint64_t number = 0;             ///< number of the latest selection that was asked for
@@ -155,6 +156,7 @@ struct PickAnswer {
   std::vector<std::string> lines;  ///< description of the hit, in words
   BoundsDouble bounds;             ///< bounds of all that its node draws, world space
   std::optional<uint32_t> node;    ///< the selected node
+  std::optional<glm::dvec3> end{};  ///< the point that was measured to, world space
 };
 
 /// A small picture of an environment.

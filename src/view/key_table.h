@@ -53,6 +53,7 @@ enum class Action : uint8_t {
   NextAnimation,  ///< argument: +1 or -1
   // Window.
   Inspect,
+  Measure,
   ToggleOverview,
   ToggleSplit,
   FlipSides,

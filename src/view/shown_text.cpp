@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "view/shown_text.h"
 
+#include <cstdio>
+#include <glm/glm.hpp>
 #include <regex>
 #include <vector>
 
@@ -43,6 +45,14 @@ std::string shownText(std::string_view text, size_t most) {
 std::string withoutOptions(const std::string& text) {
   static const std::regex option(R"( \(--[a-z-]+\))");
   return std::regex_replace(text, option, "");
+}
+
+std::string distanceText(const glm::dvec3& from, const glm::dvec3& to) {
+  const glm::dvec3 way = to - from;
+  char text[160];
+  std::snprintf(text, sizeof text, "distance %.4g m: x %.4g, y %.4g, z %.4g", glm::length(way), way.x, way.y,
+                way.z);
+  return text;
 }
 
 }  // namespace fragtrace

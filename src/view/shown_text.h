@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/vec3.hpp>
 #include <string>
 #include <string_view>
 
@@ -18,5 +19,8 @@ std::string shownText(std::string_view text, size_t most);
 
 /// Text for the command line, as a window says it: without options in brackets, " (--option)".
 std::string withoutOptions(const std::string& text);
+
+/// "distance 5 m: x 3, y 0, z -4", of places in metres.
+std::string distanceText(const glm::dvec3& from, const glm::dvec3& to);
 
 }  // namespace fragtrace

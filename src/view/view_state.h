@@ -82,6 +82,7 @@ enum class Errand : uint8_t {
   None,
   CenterOn,
   Inspect,
+  Measure,
   SelectNode,  ///< Task::index, as SceneNode::index
   Deselect,
   CopyCommand,

@@ -6,7 +6,7 @@ import json
 import math
 import struct
 
-from support import SCENES, Case, main, run
+from support import SCENES, SMALL, Case, main, run
 
 VIEW = ["--resolution", "96,64", "--spp", "16", "--camera-position", "2,1.5,5", "--camera-focal-point", "0.6,1.3,0",
         "--background-color", "0.2,0.3,0.4", "--quiet"]
@@ -179,6 +179,21 @@ class Selections(Case):
         empty.write_text(json.dumps({"asset": {"version": "2.0"}}))
         for scene, cameras in ((SCENES / "plastics.gltf", "1: "), (empty, "none\n")):
             self.assertRegex(run("info", scene).stdout, rf"(?s)GPU memory .*\n  cameras     {cameras}", scene)
+
+    def test_the_up_axis_is_turned_to_y(self):
+        """As a node does that stands above all others."""
+        plain = json.loads(run("info", SCENES / "transforms.gltf", "--json").stdout)["scene"]["bounds"]
+        found = json.loads(run("info", SCENES / "transforms.gltf", "--json", "--up", "-z").stdout)["scene"]["bounds"]
+        (x, y, z), (right, top, front) = plain["min"], plain["max"]
+        self.assertEqual(found, {"min": [x, -front, y], "max": [right, -z, top]})
+        root = json.loads((SCENES / "lights.gltf").read_text())
+        root["nodes"].append({"children": root["scenes"][0]["nodes"], "matrix": [1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1]})
+        root["scenes"][0]["nodes"] = [len(root["nodes"]) - 1]
+        turned = self.folder / "turned.gltf"
+        turned.write_text(json.dumps(root))
+        for name, scene, options in (("node", turned, []), ("option", SCENES / "lights.gltf", ["--up", "Z"])):
+            self.renders(scene, "-o", self.folder / f"{name}.pfm", *SMALL, *options)
+        self.assertEqual((self.folder / "node.pfm").read_bytes(), (self.folder / "option.pfm").read_bytes())
 
     def test_nodes_are_listed_and_hidden(self):
         scene = SCENES / "plastics.gltf"

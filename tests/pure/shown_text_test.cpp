@@ -30,6 +30,10 @@ TEST(ShownText, AWindowNamesNoOptions) {
             "no light: the studio lights it; more (--a b) (c)");
 }
 
+TEST(ShownText, ADistanceHasItsComponents) {
+  EXPECT_EQ(distanceText({1, 2, 3}, {4, 2, -1}), "distance 5 m: x 3, y 0, z -4");
+}
+
 TEST(ShownText, ControlCharactersAreSpaces) { EXPECT_EQ(shownText("a\tb\r\x1b[0m\nc", 99), "a b  [0m\nc"); }
 
 }  // namespace

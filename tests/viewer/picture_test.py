@@ -60,6 +60,22 @@ class Display(Case):
 
 
 class Camera(Case):
+    def measures(self, viewer, picked):
+        """Shift+click says how far it is from the point picked before, and a click on another point how far it is is gone."""
+        place = lambda lines: [float(x) for x in next(line for line in lines if line.startswith("at "))[3:].split(";")[0].split(",")]
+        viewer.at(50, 95)
+        viewer.xdotool("keydown", "shift", "click", 1, "keyup", "shift")
+        said = viewer.until(lambda s: s["measured"], "the distance")["measured"]
+        self.assertEqual(viewer.status()["pick"], picked)  # which stays
+        viewer.xdotool("click", 1)
+        there = viewer.until(lambda s: s["pick"] and s["pick"] != picked, "the other point")
+        self.assertIsNone(there["measured"])
+        way = [b - a for a, b in zip(place(picked), place(there["pick"]))]
+        numbers = [float(x) for x in re.findall(r"-?[\d.]+(?:e-\d+)?", said)]
+        for found, expected in zip(numbers, [math.hypot(*way), *way], strict=True):
+            self.assertAlmostEqual(found, expected, delta=2e-3)
+        self.assertGreater(numbers[0], 0.1)
+
     def test_an_orbited_view_is_rendered_exactly_by_its_options(self):
         viewer = self.view("plastics", *FEW)
         before = viewer.status()["camera"]
@@ -82,6 +98,7 @@ class Camera(Case):
         viewer.xdotool("click", 1)
         picked = viewer.until(lambda s: s["pick"], "what is under the cursor")["pick"]
         self.assertTrue(any("roughness" in line for line in picked), picked)
+        self.measures(viewer, picked)
         viewer.keys_at_once("ctrl+c", "f")  # the first is done before the second
         viewer.rest(lambda s: s["camera"] != status["camera"], "framed")
         viewer.key("ctrl+v")

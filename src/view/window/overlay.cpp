@@ -10,6 +10,7 @@
 
 #include "view/presets.h"
 #include "view/progress.h"
+#include "view/shown_text.h"
 #include "view/window/draw/text.h"
 #include "view/window/draw/theme.h"
 #include "view/window/figures.h"
@@ -187,6 +188,7 @@ void drawNewsLines(const ViewFacts& facts, double now) {
     ImGui::PopStyleVar();
   }
   if (!facts.pick) return;
+  if (facts.pick->end) drawText(distanceText(facts.pick->point, *facts.pick->end), kMostLineCharacters);
   for (const std::string& line : facts.pick->lines) drawText(line, kMostLineCharacters);
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/summary.h"
 #include "image/files/whole_file.h"
+#include "view/shown_text.h"
 
 namespace fragtrace {
 
@@ -128,6 +129,8 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["focus"] = facts.focus;
   json["places"] = facts.places;
   json["pick"] = facts.pick ? Json(facts.pick->lines) : Json();
+  json["measured"] =
+      facts.pick && facts.pick->end ? Json(distanceText(facts.pick->point, *facts.pick->end)) : Json();
   const BoundsDouble& b = state.selected;
   json["selected"] =
       b.empty() ? Json()

@@ -8,6 +8,7 @@
 
 #include "view/picture/pixel_value.h"
 #include "view/progress.h"
+#include "view/shown_text.h"
 #include "view/window/draw/text.h"
 #include "view/window/pixel_values.h"
 
@@ -48,6 +49,7 @@ std::vector<std::string> firstTexts(const ViewState& state, const ViewFacts& fac
                         ? printed("error %.2f %% of %.2f %%", 100.0 * s.error, 100.0 * o.sampling.noise)
                         : printed("error %.2f %%", 100.0 * s.error));
   }
+  if (facts.pick && facts.pick->end) texts.push_back(distanceText(facts.pick->point, *facts.pick->end));
   return texts;
 }
 

@@ -69,13 +69,19 @@ void Window::executeOnScene(const Task& task) {
   ask();
   switch (task.errand) {
     case Errand::CenterOn:
-    case Errand::Inspect: {
+    case Errand::Inspect:
+    case Errand::Measure: {
       if (sideAt(state_, task.place) >= kMostSides) return;
       const glm::dvec2 place = magnifiedPlace(state_, task.place);
       const bool center = task.errand == Errand::CenterOn;
-      if (!center) ++picksAsked_;
-      return exchange_.pick(
-          {.side = sideAt(state_, task.place), .place = place, .center = center, .number = picksAsked_});
+      // Without a first point, this one is it.
+      const bool measures = task.errand == Errand::Measure && facts_.pick && facts_.pick->hit;
+      if (!center && !measures) ++picksAsked_;
+      return exchange_.pick({.side = sideAt(state_, task.place),
+                             .place = place,
+                             .center = center,
+                             .measures = measures,
+                             .number = picksAsked_});
     }
     case Errand::SelectNode:
       return exchange_.pick({.node = uint32_t(task.index), .number = ++picksAsked_});
@@ -292,6 +298,11 @@ void Window::takePick(PickAnswer answer) {
     if (!answer.hit) return;
     state_.pose = centerOn(state_.pose, answer.point);
     state_.posed = true;
+    return;
+  }
+  if (answer.request.measures) {
+    if (!answer.hit) return say("nothing is there");
+    if (facts_.pick) facts_.pick->end = answer.point;
     return;
   }
   if (!awaited) return;
