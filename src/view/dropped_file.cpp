@@ -47,7 +47,7 @@ Drop takeDrop(const RenderOptions& shown, std::span<const std::filesystem::path>
     options.camera.overrides = {};
     options.camera.index.reset();
     options.camera.sceneOrigin.reset();
-    options.selection = {};
+    options.selection = {.up = options.selection.up};
   }
   if (environment) {
     options.light.hdriFile = *environment;

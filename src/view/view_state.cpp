@@ -152,7 +152,7 @@ RenderOptions resetAll(ViewState& state, const RenderOptions& start) {
   RenderOptions wanted = state.scene ? state.scene->options : start;
   const std::filesystem::path scene = wanted.scene;
   takeScene(wanted, start);
-  if (scene != start.scene) wanted.selection = {};
+  if (scene != start.scene) wanted.selection = {.up = start.selection.up};
   wanted.scene = scene;
   return wanted;
 }

@@ -32,6 +32,15 @@ TEST(Drop, ASceneAndAnEnvironmentAreBothTaken) {
   }
 }
 
+/// The user's word on the axis is of all files of that program.
+TEST(Drop, OfTheSelectionTheUpAxisStays) {
+  const std::vector<std::filesystem::path> files{"a.glb"};
+  RenderOptions shown;
+  shown.selection.up = UpAxis::Z;
+  shown.selection.scene = "second";
+  EXPECT_EQ(takeDrop(shown, files).load->selection, SceneSelection{.up = UpAxis::Z});
+}
+
 TEST(Drop, APictureOfLinearRadianceMayBeAReference) {
   for (const char* name : {"a.exr", "b.PFM"}) EXPECT_TRUE(mayBeReference(name)) << name;
   for (const char* name : {"a.hdr", "b.png", "c.glb", "exr"}) EXPECT_FALSE(mayBeReference(name)) << name;

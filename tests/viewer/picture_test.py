@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """What the window shows and writes is what `render` draws: every toggle, camera, size and tone map."""
+import math
+import re
 import shlex
 import signal
 import time
@@ -61,12 +63,13 @@ class Display(Case):
 
 class Camera(Case):
     def measures(self, viewer, picked):
-        """Shift+click says how far it is from the point picked before, and a click on another point how far it is is gone."""
+        """Shift+click says how far it is from the point that was clicked, until the next click."""
         place = lambda lines: [float(x) for x in next(line for line in lines if line.startswith("at "))[3:].split(";")[0].split(",")]
-        viewer.at(50, 95)
+        viewer.at(130, 50)  # beside the lines about the first
         viewer.xdotool("keydown", "shift", "click", 1, "keyup", "shift")
-        said = viewer.until(lambda s: s["measured"], "the distance")["measured"]
+        said = viewer.until(lambda s: s["measured"], "the distance", 10)["measured"]
         self.assertEqual(viewer.status()["pick"], picked)  # which stays
+        time.sleep(0.5)  # else it is a double click
         viewer.xdotool("click", 1)
         there = viewer.until(lambda s: s["pick"] and s["pick"] != picked, "the other point")
         self.assertIsNone(there["measured"])
