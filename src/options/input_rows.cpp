@@ -113,7 +113,7 @@ std::vector<OptionRow> inputRows() {
       hiddenRow(),
       choice("--up",
              "axis of the file that points up, {}: the whole scene is turned so that this axis becomes +Y, "
-             "about X for z (-Y becomes the front, +Z, as in Blender), else about Z",
+             "about X for z (whose -Y becomes the front, as in Blender) and -z, else about Z",
              FRAGTRACE_MEMBER(selection.up), kUpAxisNames, kScene),
       memoryRow(),
       limit<int>("--texture-limit",
