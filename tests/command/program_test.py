@@ -100,7 +100,7 @@ class StandardOutput(Case):
     def test_what_needs_a_file_is_refused(self):
         for words, says in (((), "needs --format"), (("--format", "tiff"), "none of png"), (("--format", "exr", "--checkpoint", 1), "--checkpoint"),
                             (("--format", "exr", "--resume"), "--resume"), (("--format", "exr", "--stats", "-"), "--stats"),
-                            (("--format", "png", "--turntable", 3), "####"), (("--format", "png", "--aov", "samples"), ".exr")):
+                            (("--format", "png", "--turntable", 3), "--format rgb24"), (("--format", "png", "--aov", "samples"), ".exr")):
             self.fails(2, "render", BOX, "-o", "-", *SIZE, *words, says=[says], cwd=self.folder)
         self.fails(2, "render", BOX, "-o", self.folder / "x.png", "--format", "png", says=["--format: needs --output -"])
 
