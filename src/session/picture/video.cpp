@@ -31,6 +31,7 @@ std::string reasonOf(int code) { return std::generic_category().message(code); }
 /// Ctrl+C of the terminal does not reach the process. Returns the error of posix_spawnp, or 0.
 int spawnEncoder(std::vector<std::string> words, int frames, Video& video) {
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
