@@ -111,6 +111,13 @@ void writeOut(const RenderOptions& options, const Image& image) {
   sayClamped(options, write(options.output.file, image, options.output.encoding));
 }
 
+/// Bits a channel of an output that holdsDisplay().
+int bitsOf(const OutputOptions& output) {
+  if (const auto form = pixelFormOf(output.file)) return form->bits;
+  if (const VideoFormat* const video = videoFormatOf(output.file)) return video->pixels.bits;
+  return formatOfName(output.file) == ImageFormat::Jpeg ? 8 : output.encoding.pngBits;
+}
+
 }  // namespace
 
 Image displayedPicture(const RenderOptions& options, const Image& linear,
@@ -120,9 +127,7 @@ Image displayedPicture(const RenderOptions& options, const Image& linear,
       toDisplay(holdsDisplayAlpha(options.output.file) ? linear : withoutAlpha(linear),
                 colors ? 0.0 : options.output.exposure, colors ? ToneMap::Linear : options.output.toneMap);
   if (options.output.alpha == AlphaOf::Display) display = forBlendedValues(std::move(display));
-  const bool hasSteps =
-      formatOfName(options.output.file) == ImageFormat::Jpeg || options.output.encoding.pngBits == 8;
-  if (options.output.dither && hasSteps && !colors) {
+  if (options.output.dither && bitsOf(options.output) == 8 && !colors) {
     display.placement = linear.placement;
     dither(display);
   }
