@@ -152,8 +152,10 @@ struct PickRequest {
 struct PickAnswer {
   PickRequest request;
   bool hit = false;
+  glm::dvec3 point{0.0};            ///< world space
+  std::vector<std::string> lines;   ///< description of the hit, in words
+  BoundsDouble bounds;              ///< bounds of all that its node draws, world space
   std::optional<uint32_t> node;     ///< the selected node
-  std::optional<glm::dvec3> end{};  ///< the point that was measured to, world space
   std::optional<glm::dvec3> end{};  ///< the point that was measured to, world space
 };
 
