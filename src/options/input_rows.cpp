@@ -111,10 +111,11 @@ std::vector<OptionRow> inputRows() {
           "them by 'all', each to --output with its name in place of #",
           FRAGTRACE_MEMBER(selection.materialVariant), kScene),
       hiddenRow(),
-      choice("--up",
-             "axis of the file that points up, {}: the whole scene is turned so that this axis becomes +Y, "
-             "about X for z (whose -Y becomes the front, as in Blender) and -z, else about Z",
-             FRAGTRACE_MEMBER(selection.up), kUpAxisNames, kScene),
+      choice(
+          "--up",
+          "axis that points up in the scene's own space; the scene is turned so that it becomes +Y, about X "
+          "for z (whose -Y becomes the front, as in Blender) and -z, else about Z",
+          FRAGTRACE_MEMBER(selection.up), kUpAxisNames, kScene),
       memoryRow(),
       limit<int>("--texture-limit",
                  "maximum width and height of textures in pixels; larger ones are scaled down",

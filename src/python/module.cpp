@@ -147,7 +147,7 @@ nb::tuple displayed(const GivenValues& values, const std::vector<std::string>& c
   if (!std::isfinite(exposure)) throw UsageError("exposure: is not a finite number");
   if (!toneMap) throw UsageError("tone_map: '" + curve + "' is none of " + joined(toneMapNames()));
   Image display = toDisplay(imageOfArray(values, channels), exposure, *toneMap);
-  if (dithers) dither(display);
+  if (dithers) dither(display, {0, 0});
   return pictureTuple(display);
 }
 

@@ -2,6 +2,7 @@
 // Programs of tests: pure shader files and a main() of their own.
 #pragma once
 
+#include <regex>
 #include <string>
 
 #include "base/errors.h"
@@ -23,11 +24,12 @@ inline std::string probePrelude() {
       "#version 450 core\nconst bool kAnisotropy = false;\nconst bool kSobol = true;\nconst bool kWatertight "
       "= true;\nconst bool kIterative = "
       "true;\nconst bool kShadowCatcher = false;\nconst uint kPixelOverWhite = 4u;\n";
-  for (const char* file : {"random.glsl", "sampling.glsl", "luminance.glsl", "intersect.glsl", "perlin.glsl",
-                           "fresnel.glsl", "ggx.glsl", "film_pixel.glsl"}) {
+  for (const char* file : {"mix_bits.glsl", "random.glsl", "sampling.glsl", "luminance.glsl",
+                           "intersect.glsl", "perlin.glsl", "fresnel.glsl", "ggx.glsl", "film_pixel.glsl"}) {
     text += shaderText(file);
   }
-  return text;
+  // Included files are above.
+  return std::regex_replace(text, std::regex("#include [^\n]*\n"), "");
 }
 
 inline GlProgram buildComputeProgram(const std::string& text) {

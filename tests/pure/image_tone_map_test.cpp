@@ -161,7 +161,7 @@ TEST(ToneMap, AlphaForBlendedValuesShowsOverWhiteWhatLightShows) {
 std::pair<double, double> ditheredLevel(float level) {
   Image picture{
       256, 256, {"R", "G", "B", "A"}, std::vector<float>(size_t{256} * 256 * 4, level / 255.0F), {}};
-  dither(picture);
+  dither(picture, {0, 0});
   double sum = 0.0;
   double squares = 0.0;
   for (size_t i = 0; i < picture.values.size(); ++i) {
@@ -196,9 +196,9 @@ TEST(ImageDither, LevelsOf8BitsAreKept) {
 TEST(ImageDither, ARegionHasTheNoiseOfTheWholePicture) {
   const std::vector<std::string> channels{"R", "G", "B"};
   Image whole{8, 8, channels, std::vector<float>(size_t{8} * 8 * 3, 0.3F), {}};
-  Image region{3, 2, channels, std::vector<float>(size_t{3} * 2 * 3, 0.3F), {}, Placement{{4, 5}, {8, 8}}};
-  dither(whole);
-  dither(region);
+  Image region{3, 2, channels, std::vector<float>(size_t{3} * 2 * 3, 0.3F), {}};
+  dither(whole, {0, 0});
+  dither(region, {4, 5});
   for (int y = 0; y < 2; ++y) {
     for (int i = 0; i < 9; ++i) EXPECT_EQ(region.pixel(0, y)[i], whole.pixel(4, 5 + y)[i]);
   }

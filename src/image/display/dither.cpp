@@ -17,10 +17,9 @@ using uint = uint32_t;
 
 }  // namespace
 
-void dither(Image& display) {
+void dither(Image& display, glm::ivec2 corner) {
   const auto channels = findColorChannels(display);
   if (!channels) return;
-  const glm::ivec2 corner = display.placement ? display.placement->corner : glm::ivec2(0);
   for (int y = 0; y < display.height; ++y) {
     for (int x = 0; x < display.width; ++x) {
       float* pixel = display.pixel(x, y);

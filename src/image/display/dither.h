@@ -6,7 +6,8 @@
 namespace fragtrace {
 
 /// Adds noise of one step of 8 bits to the colours of a picture of toDisplay(), for a format of 8 bits
-/// (shaders/picture/dither.glsl). It depends on the place in the whole picture alone. Alpha stays.
-void dither(Image& display);
+/// (shaders/picture/dither.glsl). It depends on the place in the whole picture alone, where the first pixel
+/// is at `corner`. Alpha stays.
+void dither(Image& display, glm::ivec2 corner);
 
 }  // namespace fragtrace

@@ -11,6 +11,7 @@
 
 #include "base/errors.h"
 #include "image/channels.h"
+#include "image/display/dither.h"
 
 namespace fragtrace {
 namespace {
@@ -185,6 +186,7 @@ Image forBlendedValues(Image display) {
 
 Image toDefaultDisplay(const Image& linear) {
   Image display = toDisplay(linear, 0, ToneMap::Neutral);
+  dither(display, linear.placement.value_or(Placement()).corner);
   for (float& value : display.values)
     value = std::round(value * 255.0F) * (1 / 255.0F);  // the value that a reader of the file gets
 

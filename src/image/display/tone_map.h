@@ -37,8 +37,8 @@ Image toDisplay(const Image& linear, double exposureEv, ToneMap toneMap);
 Image forBlendedValues(Image display);
 
 /// The .png of a linear picture with default options, as readImage reads it: toDisplay at exposure 0 with the
-/// neutral curve, rounded to 8 bits. Only colour that is not finite becomes NaN, so that no comparison takes
-/// a broken picture for a good one. Throws as toDisplay does.
+/// neutral curve, dithered and rounded to 8 bits. Only colour that is not finite becomes NaN, so that no
+/// comparison takes a broken picture for a good one. Throws as toDisplay does.
 Image toDefaultDisplay(const Image& linear);
 
 }  // namespace fragtrace

@@ -127,11 +127,9 @@ Image displayedPicture(const RenderOptions& options, const Image& linear,
       toDisplay(holdsDisplayAlpha(options.output.file) ? linear : withoutAlpha(linear),
                 colors ? 0.0 : options.output.exposure, colors ? ToneMap::Linear : options.output.toneMap);
   if (options.output.alpha == AlphaOf::Display) display = forBlendedValues(std::move(display));
-  if (options.output.dither && bitsOf(options.output) == 8 && !colors) {
-    display.placement = linear.placement;
-    dither(display);
-  }
-  drawLines(display, lines, linear.placement.value_or(Placement{{0, 0}, {linear.width, linear.height}}));
+  const Placement place = linear.placement.value_or(Placement{{0, 0}, {linear.width, linear.height}});
+  if (options.output.dither && bitsOf(options.output) == 8 && !colors) dither(display, place.corner);
+  drawLines(display, lines, place);
   return display;
 }
 
