@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Pictures come to the window on the device, where it has the tracing thread's driver, and else through the host: the same pictures."""
+import time
+
 from support import Case, main, pixels_of
 
 SIZE = ["--resolution", "320,240", "--spp", "8", "--tone-map", "linear"]
@@ -22,6 +24,20 @@ class Sharing(Case):
                 self.assertNotEqual(moved, rendered)
                 self.same(moved, pixels_of(viewer.press_for_file("F12", ".png")), ties=4)
                 self.ends_well(viewer, viewer.close())
+
+    def test_while_something_moves_the_window_is_drawn_for_new_pictures(self):
+        viewer = self.view("cornell-box", "--resolution", "640,480", "--spp", "8")
+        viewer.rest()
+        viewer.at(100, 200)
+        viewer.xdotool("mousedown", 1)
+        began, before = time.monotonic(), viewer.status()
+        for step in range(100):
+            viewer.at(100 + 2 * step, 200)
+        seconds, after = time.monotonic() - began, viewer.status()
+        viewer.xdotool("mouseup", 1)
+        came = after["pictures"] - before["pictures"]
+        self.assertLessEqual(after["frames"] - before["frames"], came + 4 * seconds + 5)
+        self.ends_well(viewer, viewer.close())
 
     def test_verbose_says_which(self):
         for options, said in (([], "pictures stay on the device: "), (["--rendering-backend", "egl"], "pictures are copied: they are drawn by ")):

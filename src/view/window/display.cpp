@@ -63,12 +63,19 @@ double Display::keepValues(size_t number, PictureValues& values, const PixelArea
   return side.reader.keep(values, side.traced, side.number, side.size, area, now);
 }
 
+bool Display::allReady() const {
+  return std::ranges::all_of(
+      sides_, [](const Side& side) { return side.waiting.slot < 0 || isSignalled(side.waiting.ready); });
+}
+
+bool Display::hasNews() const {
+  return (waits() && allReady()) ||
+         std::ranges::any_of(sides_, [](const Side& side) { return side.size.x > 0 && !side.fresh; });
+}
+
 /// Shows the pictures that wait, if all are ready: those of two sides show the same moment.
 void Display::adopt() {
-  const auto ready = [](const Side& side) {
-    return side.waiting.slot < 0 || isSignalled(side.waiting.ready);
-  };
-  if (!std::ranges::all_of(sides_, ready)) return;
+  if (!allReady()) return;
   for (size_t number = 0; number < kMostSides; ++number) {
     Side& side = sides_[number];
     if (side.waiting.slot < 0) continue;

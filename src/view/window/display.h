@@ -41,6 +41,8 @@ class Display {
   bool shows(size_t side) const { return sides_[side].size.x > 0; }
   /// Returns true if the tracing thread still draws a picture that was taken.
   bool waits() const;
+  /// Returns true if the next draw() shows another picture than the one before.
+  bool hasNews() const;
   /// Keeps these values of a side's picture, and says when to be asked again, as ValueReader does.
   double keepValues(size_t side, PictureValues& values, const PixelArea& area, double now);
   /// Pixels of the picture that is shown.
@@ -71,6 +73,7 @@ class Display {
     bool fresh = false;    ///< the display shows the traced picture,
     DisplaySide settings;  ///< shown like this
   };
+  bool allReady() const;
   void adopt();
   static void show(Side& side, GLuint traced, glm::ivec2 size, bool asItIs);
   void giveBack(size_t side, SharedTexture& texture);

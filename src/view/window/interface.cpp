@@ -115,6 +115,8 @@ void Interface::end() {
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
+void Interface::discard() { ImGui::EndFrame(); }
+
 bool Interface::holding() { return ImGui::IsAnyItemActive(); }
 
 bool Interface::waiting() { return !keyQueue().empty() || isBehind(); }

@@ -22,6 +22,8 @@ class Interface {
   /// Between these two what is to be seen is put together; the latter draws it.
   void begin();
   void end();
+  /// Ends it in place of end(), and draws nothing.
+  static void discard();
 
   /// Closes the list, or picker of colours, that was opened last; false: none is open.
   static bool closePopup();

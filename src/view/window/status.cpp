@@ -94,6 +94,7 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["asked"] = report.asked;
   json["answered"] = report.answered;
   json["pictures"] = report.pictures;
+  json["frames"] = report.frames;
   json["overview"] = state.overview;
   json["split"] = state.split;
   json["bar"] = state.bar;

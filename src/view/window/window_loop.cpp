@@ -24,6 +24,10 @@ constexpr double kFrameSeconds = 1.0 / 60;
 /// If another thread's glfwPostEmptyEvent() has read events from the connection, GLFW 3.3 on X11 sleeps
 /// although they wait. So an event is late by this at most. Ten looks a second are no load.
 constexpr double kLongestSleep = 0.1;
+// While something moves, the window is drawn for each new picture, for which it looks so often, or after this
+// time.
+constexpr double kLookSeconds = 0.004;
+constexpr double kSameSeconds = 0.25;
 constexpr double kStatusSeconds = 0.05;  // between two status files
 constexpr const char* kStarting = "starting";
 constexpr glm::ivec2 kWindowSize{1280, 720};
@@ -145,11 +149,11 @@ void Window::wait() {
   if (input_.active() || state_.playback.playing) atMost(kFrameSeconds);
   if (askedMoving_) atMost(changed_ + kMovingSeconds - now);
   if (now >= again_) frames_ = std::max(frames_, 1);
-  atMost(again_ - now);
+  if (!skipped_) atMost(again_ - now);
   if (now >= fades_) frames_ = std::max(frames_, 2);  // the box of messages fits them one frame later
   atMost(fades_ - now);
   if (statusWaits_) atMost(statusTime_ + kStatusSeconds - now);
-  if (frames_ > 0 && !iconified()) atMost(0.0);
+  if (frames_ > 0 && !iconified()) atMost(skipped_ ? kLookSeconds : 0.0);
   if (seconds > 0.0)
     glfwWaitEventsTimeout(seconds);
   else
@@ -290,6 +294,11 @@ void Window::draw() {
   if (panel) execute(drawPanel(state_, facts_, layout));
   execute(said);
   askForThumbnails();
+  // Software would draw the same picture again, with the processors that trace the next one.
+  skipped_ = askedMoving_ && !display_.hasNews() && now - drawn_ < kSameSeconds;
+  if (skipped_) return Interface::discard();
+  drawn_ = now;
+  ++report_.frames;
   std::array<DisplaySide, kMostSides> sides;
   for (size_t i = 0; i < kMostSides; ++i) {
     const OutputOptions& output =
