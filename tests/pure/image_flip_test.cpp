@@ -12,6 +12,7 @@
 
 #include "base/errors.h"
 #include "image/compare/difference.h"
+#include "image/display/dither.h"
 #include "image/display/tone_map.h"
 
 namespace fragtrace {
@@ -138,7 +139,8 @@ TEST(ImageFlip, IsNoneOfTheMetricsOfSinglePixels) {
 TEST(ImageToneMap, TheDefaultDisplayIsNeutralIn8BitsAndShowsWhatIsBroken) {
   const float infinity = std::numeric_limits<float>::infinity();
   const Image linear{3, 1, {"R", "G", "B"}, {0.18F, 0.5F, 3, 0.2F, infinity, 1, NAN, 0.1F, 2}, {}};
-  const Image curve = toDisplay(linear, 0, ToneMap::Neutral);
+  Image curve = toDisplay(linear, 0, ToneMap::Neutral);
+  dither(curve, {0, 0});
   const Image display = toDefaultDisplay(linear);
   for (const size_t i : {0, 1, 2, 3, 5, 7, 8}) {
     EXPECT_NEAR(display.values[i] * 255, std::round(display.values[i] * 255), 1e-4) << i;

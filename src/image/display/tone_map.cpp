@@ -188,7 +188,8 @@ Image toDefaultDisplay(const Image& linear) {
   Image display = toDisplay(linear, 0, ToneMap::Neutral);
   dither(display, linear.placement.value_or(Placement()).corner);
   for (float& value : display.values)
-    value = std::round(value * 255.0F) * (1 / 255.0F);  // the value that a reader of the file gets
+    value = std::round(std::clamp(value, 0.0F, 1.0F) * 255.0F) *
+            (1 / 255.0F);  // the value that a reader of the file gets
 
   const auto channels = findColorChannels(linear).value();  // toDisplay has thrown where there are none
   const size_t pixelCount = size_t(linear.width) * size_t(linear.height);
