@@ -104,9 +104,9 @@ class Window {
   bool statusWaits_ = false;
   bool newReference_ = false;  ///< its size is not yet compared with the picture's
   bool prepared_ = false;      ///< the display
+  bool skipped_ = false;       ///< the latest frame would have shown the picture before
   int frames_ = 0;             ///< still to be drawn
-  double drawn_ = -1e30;       ///< when the latest was drawn
-  bool skipped_ = false;       ///< the latest would have shown the picture before
+  double drawn_ = -1e30;       ///< when the latest frame was drawn
   double changed_ = -1.0;      ///< when the traced picture was last changed
   double again_ = 1e30;        ///< when a picture or its values may have come
   double fades_ = 1e30;        ///< when a message is to be drawn paler
