@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -20,31 +19,19 @@
 
 #include "base/message.h"
 #include "base/plugin.h"
+#include "base/spawn.h"
 
 namespace fragtrace {
 namespace {
 
-/// Starts a process. Returns the error of posix_spawn, or 0. Signals of the terminal do not reach the child,
-/// whose output is dropped.
-int spawn(const std::filesystem::path& path, std::string argument, int socket, pid_t& process) {
-  posix_spawn_file_actions_t actions;
-  posix_spawnattr_t attributes;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawnattr_init(&attributes);
-  posix_spawn_file_actions_adddup2(&actions, socket, kWorkerSocket);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+/// The files of a child, whose output is dropped; a sanitizer's report is not.
+std::vector<std::pair<int, int>> filesOf(int socket) {
+  std::vector<std::pair<int, int>> files = {
+      {kWorkerSocket, socket}, {STDIN_FILENO, kNoFile}, {STDOUT_FILENO, kNoFile}};
 #ifndef __SANITIZE_ADDRESS__
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  files.emplace_back(STDERR_FILENO, kNoFile);
 #endif
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  std::string name = path.string();
-  char* const arguments[] = {name.data(), argument.data(), nullptr};
-  const int error = ::posix_spawn(&process, path.c_str(), &actions, &attributes, arguments, environ);
-  posix_spawn_file_actions_destroy(&actions);
-  posix_spawnattr_destroy(&attributes);
-  return error;
+  return files;
 }
 
 /// Seconds of processor time that a process has taken.
@@ -89,7 +76,8 @@ std::unique_ptr<Child> startChild(const std::string& name, const std::string& ar
     ::close(sockets[1]);
     sockets[1] = moved;
   }
-  const int error = spawn(path, argumentPath.string(), sockets[1], child->process);
+  const int error =
+      spawnProcess(path, {path.string(), argumentPath.string()}, filesOf(sockets[1]), child->process);
   ::close(sockets[1]);
   if (error != 0) {
     child->process = -1;

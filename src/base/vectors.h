@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What GLM lacks: finite vectors, norms of matrices, luminance.
+// GLM has none of these: finite vectors, norms of matrices, luminance.
 #pragma once
 
 #include <algorithm>

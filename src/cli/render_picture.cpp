@@ -52,7 +52,7 @@ void sayWhatWasDone(const RenderOptions& options, const std::string& name, const
 Outcome drawAndWrite(const PictureJob& job, const std::vector<PictureLine>& boxes,
                      const Destination& destination, Device& device, Statistics& stats) {
   const RenderOptions& options = job.options;
-  // Who goes on with a sequence later takes a picture that is there for a whole one.
+  // --continue skips the pictures of a sequence that are there, so a partial one must not be.
   const int most = job.showsProgress ? 1 : 0;
   PhaseTimer firstDraw("first draw");
   DrawingPlan plan = planDrawing(job, stats);

@@ -14,7 +14,7 @@ namespace fragtrace {
 
 struct Video;
 
-/// Where a finished picture goes.
+/// A finished picture goes to a video, or to the output of the options.
 struct Destination {
   std::string name;        ///< for messages
   Video* video = nullptr;  ///< none: the output of the options

@@ -135,7 +135,7 @@ bool isWhole(const std::filesystem::path& path) {
   return std::filesystem::is_regular_file(path, error) && std::filesystem::file_size(path, error) > 0;
 }
 
-/// What became of a sequence's pictures.
+/// Numbers of a sequence's pictures.
 struct SequenceCounts {
   int all = 0;
   int drawn = 0;

@@ -52,18 +52,6 @@ OptionRow noDefaultLightRow() {
   return row;
 }
 
-OptionRow backgroundRow() {
-  OptionRow row =
-      memberRow("--no-background", "hide the environment map from the camera, and write alpha",
-                FRAGTRACE_MEMBER(light.background), {.effect = Effect::Picture, .attribute = "background"});
-  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
-    app.add_flag_callback(
-        r.name, [&raw] { raw.options.light.background = false; }, r.help);
-  };
-  row.value = [](const RenderOptions& o) { return AttributeValue(o.light.background); };
-  return row;
-}
-
 /// The plane is moved without loading the scene again.
 OptionRow catcherHeightRow() {
   return memberRow("--shadow-catcher HEIGHT", "", FRAGTRACE_MEMBER(light.catcherHeight),
@@ -125,7 +113,8 @@ std::vector<OptionRow> lightRows() {
            {.effect = Effect::Picture, .renewal = Renewal::Scene, .attribute = "studio"}),
       catcherRow(),
       catcherHeightRow(),
-      backgroundRow(),
+      offFlag("--no-background", "hide the environment map from the camera, and write alpha",
+              FRAGTRACE_MEMBER(light.background), {.effect = Effect::Picture, .attribute = "background"}),
       numbers<double>("--background-color",
                       "linear R,G,B that the camera sees where there is no surface, instead of the "
                       "environment map; it lights nothing",

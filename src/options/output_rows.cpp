@@ -92,20 +92,6 @@ OptionRow pngDepthRow() {
   return row;
 }
 
-OptionRow ditherRow() {
-  OptionRow row =
-      memberRow("--no-dither",
-                "round the values of a .png or .jpg of 8 bits without the noise of one step that "
-                "keeps gradients free of bands",
-                FRAGTRACE_MEMBER(output.dither), {.effect = Effect::Display, .group = OptionGroup::Encoding});
-  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
-    app.add_flag_callback(
-        r.name, [&raw] { raw.options.output.dither = false; }, r.help);
-  };
-  row.value = [](const RenderOptions& o) { return AttributeValue(o.output.dither); };
-  return row;
-}
-
 constexpr int kMostFrame = 9'999'999;
 
 /// A:B or A:B:STEP.
@@ -210,7 +196,11 @@ std::vector<OptionRow> outputRows() {  // NOLINT(readability-function-size): a t
            FRAGTRACE_MEMBER(output.encoding.half),
            {.effect = Effect::Display, .group = OptionGroup::Encoding}),
       pngDepthRow(),
-      ditherRow(),
+      offFlag(
+          "--no-dither",
+          "round the values of a .png or .jpg of 8 bits without the noise of one step that keeps gradients "
+          "free of bands",
+          FRAGTRACE_MEMBER(output.dither), {.effect = Effect::Display, .group = OptionGroup::Encoding}),
       choice("--alpha",
              "for which programs a .png is: those that blend light (linear), or those that blend sRGB "
              "values, as browsers do (display); then shadows look right over white, and are weaker over dark "

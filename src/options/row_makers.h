@@ -67,6 +67,18 @@ OptionRow flag(const char* name, std::string help, Member member, OptionTraits t
   return row;
 }
 
+/// A flag that turns off what is on by default.
+template <typename Member>
+OptionRow offFlag(const char* name, std::string help, Member member, OptionTraits traits) {
+  OptionRow row = memberRow(name, std::move(help), member, traits);
+  row.add = [member](CLI::App& app, const OptionRow& r, RawRender& raw) {
+    app.add_flag_callback(
+        r.name, [member, &raw] { member(raw.options) = false; }, r.help);
+  };
+  row.value = [member](const RenderOptions& o) { return AttributeValue(bool(member(o))); };
+  return row;
+}
+
 /// A number, or a std::optional one. `shown`: --help names its default, which else means none.
 template <typename Number, typename Member>
 OptionRow numberRow(const char* name, std::string help, Member member,

@@ -19,8 +19,6 @@
 namespace fragtrace {
 namespace {
 
-std::string systemReason(int code) { return std::generic_category().message(code); }
-
 /// The errno of the first failing call, or 0.
 int writeAll(int file, std::span<const uint8_t> bytes) {
   int error = 0;
@@ -65,6 +63,8 @@ std::filesystem::path folderOf(const std::filesystem::path& target) {
 }
 
 }  // namespace
+
+std::string systemReason(int code) { return std::generic_category().message(code); }
 
 std::filesystem::path partOf(const std::filesystem::path& path) {
   // A name may be as long as the file system allows (255 bytes); its part must then be cut.

@@ -2,7 +2,6 @@
 #include "session/picture/video.h"
 
 #include <fcntl.h>
-#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,10 +11,10 @@
 #include <csignal>
 #include <cstring>
 #include <sstream>
-#include <system_error>
 #include <vector>
 
 #include "base/errors.h"
+#include "base/spawn.h"
 #include "image/files/whole_file.h"
 #include "options/option_text.h"
 #include "session/interrupt.h"
@@ -25,31 +24,6 @@ namespace fragtrace {
 namespace {
 
 constexpr const char* kEncoder = "ffmpeg";
-
-std::string reasonOf(int code) { return std::generic_category().message(code); }
-
-/// Ctrl+C of the terminal does not reach the process. Returns the error of posix_spawnp, or 0.
-int spawnEncoder(std::vector<std::string> words, int frames, Video& video) {
-  std::vector<char*> arguments;
-  arguments.reserve(words.size() + 1);
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawnattr_t attributes;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawnattr_init(&attributes);
-  posix_spawn_file_actions_adddup2(&actions, frames, STDIN_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, video.said, STDERR_FILENO);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  const int error =
-      ::posix_spawnp(&video.encoder, kEncoder, &actions, &attributes, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  posix_spawnattr_destroy(&attributes);
-  if (error != 0) video.encoder = -1;
-  return error;
-}
 
 void closeFile(int& file) {
   if (file >= 0) ::close(file);
@@ -127,7 +101,7 @@ void writeFrame(Video& video, const std::vector<uint8_t>& bytes) {
     } else {
       const int code = errno;  // of a pipe that nobody reads, most likely
       awaitEncoder(video);
-      fail(video, std::string(kEncoder) + " takes no more frames: " + reasonOf(code));
+      fail(video, std::string(kEncoder) + " takes no more frames: " + systemReason(code));
     }
   }
   ++video.count;
@@ -166,14 +140,17 @@ std::unique_ptr<Video> start(const std::filesystem::path& file, glm::ivec2 size,
   words.push_back("file:" + (isTrial ? "/dev/null" : video->part.string()));
   int pipe[2] = {-1, -1};
   video->said = ::memfd_create("messages of the encoder", MFD_CLOEXEC);
-  if (video->said < 0 || ::pipe2(pipe, O_CLOEXEC) != 0) fail(*video, reasonOf(errno));
+  if (video->said < 0 || ::pipe2(pipe, O_CLOEXEC) != 0) fail(*video, systemReason(errno));
   video->frames = pipe[1];
-  const int error = spawnEncoder(std::move(words), pipe[0], *video);
+  const int error = spawnProcess(
+      kEncoder, std::move(words),
+      {{STDIN_FILENO, pipe[0]}, {STDOUT_FILENO, kNoFile}, {STDERR_FILENO, video->said}}, video->encoder);
+  if (error != 0) video->encoder = -1;
   ::close(pipe[0]);
   if (error == ENOENT)
     throw UsageError("--output " + file.string() + ": the program ffmpeg makes videos, and PATH has none " +
                      "(Debian's package ffmpeg); #### in the name of a .png makes numbered pictures");
-  if (error != 0) fail(*video, std::string(kEncoder) + " cannot be started: " + reasonOf(error));
+  if (error != 0) fail(*video, std::string(kEncoder) + " cannot be started: " + systemReason(error));
   return video;
 }
 

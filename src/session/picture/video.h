@@ -12,7 +12,7 @@
 
 namespace fragtrace {
 
-/// What has not been finished is dropped when this is destroyed: the process is ended, and its part removed.
+/// The destructor drops a video that is not finished: it ends the process and removes the part.
 struct Video {
   std::filesystem::path file;
   const VideoFormat* format = nullptr;
