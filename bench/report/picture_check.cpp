@@ -112,12 +112,14 @@ void measure(const FilmPixels& picture, const FilmPixels& other, CheckAgainst ag
 }
 
 /// Says what these figures show to be wrong; empty if nothing is.
-std::string verdict(const PictureCheck& check, CheckAgainst against, bool oneSample) {
+std::string verdict(const PictureCheck& check, CheckAgainst against, uint32_t leastSamples) {
   if (against == CheckAgainst::SameSamples) {
-    if (check.differing <= kMostDiffering) return "";
-    return percent(check.differing) + " of the pixels differ, although their samples are the same";
+    const double more = std::max(1.0, double(leastSamples) / kDifferingSamples);
+    if (check.differing > kMostDiffering * more)
+      return percent(check.differing) + " of the pixels differ, although their samples are the same";
+    if (more == 1.0) return "";
   }
-  if (oneSample) return "one sample per pixel does not tell its noise";
+  if (leastSamples < 2) return "one sample per pixel does not tell its noise";
   if (!(check.meanErrors <= kMostMeanErrors)) {
     char text[64];
     std::snprintf(text, sizeof text, "its mean is %.3g standard errors off", check.meanErrors);
@@ -135,9 +137,8 @@ PictureCheck checkPicture(const FilmPixels& picture, const FilmPixels& other, Ch
   check.wrong = whyNotComparable(picture, other);
   if (!check.wrong.empty()) return check;
   measure(picture, other, against, check);
-  const bool oneSample =
-      std::ranges::any_of(picture.pixels, [](const FilmPixel& p) { return p.samples < 2; });
-  check.wrong = verdict(check, against, oneSample);
+  const uint32_t leastSamples = std::ranges::min(picture.pixels, {}, &FilmPixel::samples).samples;
+  check.wrong = verdict(check, against, leastSamples);
   return check;
 }
 

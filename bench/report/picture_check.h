@@ -31,7 +31,10 @@ inline constexpr double kBlockErrors = 4.0;  ///< standard errors: of 16,000 blo
 inline constexpr double kMostFarBlocks =
     0.01;  ///< part of the blocks: samples with rare bright ones are no Gauss
 inline constexpr double kMostMeanErrors = 5.0;  ///< standard errors of the mean: one of 1.7 million by chance
-inline constexpr double kMostDiffering = 0.005;  ///< part of the pixels; the same samples only
+/// Part of the pixels, where the samples are the same. Each sample is a chance that rounding sends a path
+/// another way, so that the part grows with the samples: beyond kDifferingSamples in proportion.
+inline constexpr double kMostDiffering = 0.005;
+inline constexpr double kDifferingSamples = 64.0;  ///< per pixel
 
 /// Checks a picture. Pixels that are not numbers or have no sample, and pictures of different sizes, are
 /// wrong. The noise of a picture with less than two samples per pixel is not known: only SameSamples can then

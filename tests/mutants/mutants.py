@@ -16,7 +16,7 @@ from types import SimpleNamespace
 
 from memory import Memory, tree_of
 from rows import ROWS, check
-from suite import Compiler, drawing_tests
+from suite import Compiler, drawing_tests, unknown_tests
 from trial import Trial
 
 HERE = Path(__file__).resolve().parent
@@ -67,7 +67,7 @@ def main():
     chosen = options.parse_args()
     source, build = HERE.parent.parent, chosen.build.resolve()
 
-    if wrong := check(source / "shaders"):
+    if wrong := check(source / "shaders") + unknown_tests(source, ROWS):
         print("\n".join(wrong))
         return 1
     if chosen.check:

@@ -111,7 +111,7 @@ def likely(name):
 
 # Headers that compile shaders; what they name is not what a test looks at.
 COMPILING = {"glsl.h", "glsl_files.h", "glsl_functions.h", "glsl_lights.h", "glsl_lights_files.h"}
-INCLUDE = re.compile(r'^#include "(\w+\.(?:h|glsl))"', re.M)
+INCLUDE = re.compile(r'^#include "([\w/]+\.(?:h|glsl))"', re.M)
 
 
 def drawing_tests(build):
@@ -123,15 +123,15 @@ def drawing_tests(build):
 
 
 def texts_of(path, folders, skip=()):
-    """Texts of a file and of all that it includes from these folders, by name."""
-    found, queue = {}, [path]
+    """Texts of a file and of all that it includes from these folders, by the name that includes it."""
+    found, queue = {}, [(path.name, path)]
     while queue:
-        path = queue.pop()
-        found[path.name] = path.read_text()
-        for name in INCLUDE.findall(found[path.name]):
+        name, path = queue.pop()
+        found[name] = path.read_text()
+        for name in INCLUDE.findall(found[name]):
             places = [folder / name for folder in folders if (folder / name).exists()]
             if places and name not in found and name not in skip:
-                queue.append(places[0])
+                queue.append((name, places[0]))
     return found
 
 
@@ -148,6 +148,14 @@ def pure_tests(source, fault):
         if re.search(r"\b(?:%s)\s*\(" % "|".join(calls), own):
             names.append("pure." + path.stem)
     return names
+
+
+def unknown_tests(source, faults):
+    """Those tests of LIKELY in C++ that call none of the functions at fault: the files that compile shaders have changed their form."""
+    hinted = {name: begin for begin, names in LIKELY.items() for name in names if name.startswith("pure.")}
+    sees = lambda name, begin: any(name in pure_tests(source, fault) for fault in faults if fault.name.startswith(begin))
+    return [f"suite.py: {name} sees no fault" for name, begin in sorted(hinted.items()) if not sees(name, begin)]
+
 
 
 class Compiler:

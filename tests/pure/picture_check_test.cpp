@@ -95,6 +95,19 @@ TEST(PictureCheck, OfTheSameSamplesFewPixelsMayDiffer) {
   EXPECT_NE(checkPicture(noisy(6, 1), noisy(7, 1), CheckAgainst::OtherSamples).wrong, "");
 }
 
+TEST(PictureCheck, OfTheSameSamplesMorePixelsMayDifferTheMoreSamplesTheyHave) {
+  const auto checked = [](int samples, size_t every, double factor) {
+    const FilmPixels other = noisy(6, samples);
+    FilmPixels picture = other;
+    for (size_t i = 0; i < picture.pixels.size(); i += every) picture.pixels[i].sum *= factor;
+    return checkPicture(picture, other, CheckAgainst::SameSamples).wrong;
+  };
+  EXPECT_NE(checked(64, 100, 1.01).find("differ"), std::string::npos);
+  EXPECT_EQ(checked(256, 100, 1.01), "");
+  EXPECT_NE(checked(256, 40, 1.01).find("differ"), std::string::npos);
+  EXPECT_NE(checked(256, 100, 200.0).find("mean"), std::string::npos) << checked(256, 100, 200.0);
+}
+
 TEST(PictureCheck, PixelsThatAreNoPictureAreWrong) {
   const FilmPixels other = noisy(8, 8);
   FilmPixels picture = other;
