@@ -68,8 +68,9 @@ void finishFence(void* fence) {
   constexpr GLuint64 kShort = 200'000;  // ns; short draws are not made longer
   const auto sync = static_cast<GLsync>(fence);
   GLenum state = glClientWaitSync(sync, GL_SYNC_FLUSH_COMMANDS_BIT, kShort);
-  while (state == GL_TIMEOUT_EXPIRED) {
-    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  // A look at the fence takes 15 us of a processor. The pauses are a twentieth of the time that has gone by.
+  for (std::chrono::microseconds pause(100); state == GL_TIMEOUT_EXPIRED; pause += pause / 20) {
+    std::this_thread::sleep_for(pause);
     state = glClientWaitSync(sync, 0, 0);
   }
   if (state != GL_ALREADY_SIGNALED && state != GL_CONDITION_SATISFIED) glFinish();

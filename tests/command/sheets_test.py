@@ -7,6 +7,7 @@ import math
 from materials_test import quad
 from support import Case, main
 
+NARROW = ["--camera-view-angle", 1, "--bounces", "unlimited"]
 SPECULAR = {"KHR_materials_specular": {"specularFactor": 0}}
 
 
@@ -67,6 +68,22 @@ class Sheets(Case):
         """Nor does a roof let the other light through."""
         lamp = sheet(emissiveFactor=[1, 1, 1])
         self.assertEqual(self.stack([(sheet((1, 1, 1)), 0, 3), (sheet(), 3.96, 2), (lamp, 4, 1), (sheet(), 5, 30)], size=16, spp=64), [0, 0, 0])
+
+    def test_fog_behind_a_sheet_is_that_before_it_once_more(self):
+        """Beer's law goes on behind a sheet that half of the light passes, and takes no flight twice."""
+        black = sheet(alpha=0.5, alphaMode="BLEND")
+        for seen in self.stack([(black, 0, 3)], *NARROW, "--background-color", "1,1,1", "--fog-density", 0.8, "--fog-color", "0,0,0", "--fog-distance", 1, size=64):
+            self.assert_share(seen, 0.5 * math.exp(-0.8 * 2), 64 * 64 * 64)
+
+    def test_a_path_that_began_in_an_open_solid_is_scattered_there(self):
+        """The back of a sheet says that 2.2 m of a medium, which scatters nearly nothing on, lie before it."""
+        solid = {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1},
+                 "KHR_materials_volume": {"thicknessFactor": 1, "attenuationColor": [0.3] * 3, "attenuationDistance": 2.2},
+                 "KHR_materials_scatter": {"scatterStrengthFactor": 1, "multiscatterColorFactor": [1e-4] * 3}}
+        material = {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0}, "extensions": SPECULAR | solid}
+        lamp = sheet(emissiveFactor=[1, 1, 1])
+        for seen in self.stack([(material, 0, 3), (lamp, 3, 9)], *NARROW, "--camera-position", "0,0,-2.2", "--camera-focal-point", "0,0,0", size=64):
+            self.assert_share(seen, 0.3, 64 * 64 * 64)
 
 
 if __name__ == "__main__":

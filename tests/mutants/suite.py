@@ -15,6 +15,7 @@ LIKELY = {
     "media/flight.": ("pure.shader_media_test",),
     "media/fog.": ("pure.shader_media_test",),
     "media/volume.": ("pure.shader_volume_test", "command.Volumes"),
+    "media/medium.": ("command.Media", "command.Sheets", "command.Volumes", "milk.gi", "inside.gi"),
     "media/": ("command.Media", "command.Volumes", "milk.gi", "phase.gi", "inside.gi", "foggy.gi"),
     "material_layers.addThinScattering": ("command.Media",),
     "bsdf.diffuseColor": ("command.Media",),
