@@ -13,7 +13,6 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
-#include <system_error>
 
 #include "base/count_text.h"
 #include "base/errors.h"
@@ -129,7 +128,7 @@ EndedProcess startAndAwait(std::vector<std::string> words) {
       ::posix_spawn(&process, program.c_str(), &actions, &attributes, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   posix_spawnattr_destroy(&attributes);
-  if (error != 0) throw RenderError("fragtrace cannot be started: " + std::generic_category().message(error));
+  if (error != 0) throw RenderError("fragtrace cannot be started: " + systemReason(error));
   int status = 0;
   rusage used{};
   while (::wait4(process, &status, WNOHANG, &used) == 0) {

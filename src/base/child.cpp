@@ -15,8 +15,8 @@
 #include <ctime>
 #include <filesystem>
 #include <stdexcept>
-#include <system_error>
 
+#include "base/errors.h"
 #include "base/message.h"
 #include "base/plugin.h"
 #include "base/spawn.h"
@@ -67,7 +67,7 @@ std::unique_ptr<Child> startChild(const std::string& name, const std::string& ar
   const std::filesystem::path argumentPath = ownFile(argument);
   int sockets[2] = {-1, -1};
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, sockets) != 0)
-    throw std::runtime_error("no socket for " + name + ": " + std::generic_category().message(errno));
+    throw std::runtime_error("no socket for " + name + ": " + systemReason(errno));
   auto child = std::make_unique<Child>();
   child->socket = sockets[0];
   // dup2 of a descriptor to itself would leave it closed on exec.
@@ -82,7 +82,7 @@ std::unique_ptr<Child> startChild(const std::string& name, const std::string& ar
   if (error != 0) {
     child->process = -1;
     ::close(child->socket);
-    throw std::runtime_error(path.string() + " cannot be started (" + std::generic_category().message(error) +
+    throw std::runtime_error(path.string() + " cannot be started (" + systemReason(error) +
                              ")");
   }
   return child;

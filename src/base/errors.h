@@ -3,8 +3,13 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
+#include <system_error>
 
 namespace fragtrace {
+
+/// The system's words for an errno.
+inline std::string systemReason(int code) { return std::generic_category().message(code); }
 
 /// Rendering, comparing or writing failed: exit status 1.
 struct RenderError : std::runtime_error {

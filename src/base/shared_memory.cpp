@@ -10,7 +10,8 @@
 #include <cstring>
 #include <new>
 #include <stdexcept>
-#include <system_error>
+
+#include "base/errors.h"
 
 namespace fragtrace {
 namespace {
@@ -63,7 +64,7 @@ void SharedMemory::fail() {
   // Shared memory counts as a file.
   throw std::runtime_error(
       code == EFBIG ? "the limit of the shell on the size of a file is too low (ulimit -f)"
-                    : "no memory to share with a process of ours: " + std::generic_category().message(code));
+                    : "no memory to share with a process of ours: " + systemReason(code));
 }
 
 bool sendWithFile(int socket, std::span<const uint8_t> body, int file) {

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "base/errors.h"
@@ -36,7 +35,7 @@ void becomeBenchProgram(std::span<const char* const> asked) {
   }
   words.push_back(nullptr);
   ::execv(path.c_str(), words.data());
-  throw RenderError(path + " cannot be started: " + std::generic_category().message(errno));
+  throw RenderError(path + " cannot be started: " + systemReason(errno));
 }
 
 RunCommand addBench(CLI::App&) { return {}; }

@@ -15,6 +15,18 @@ def mean(picture, channel=0):
     return statistics.fmean(pixel[channel] for row in picture for pixel in row)
 
 
+def half_space(albedo):
+    """The radiance that a half-space which scatters alike in all directions sends back along its normal, under white light from everywhere:
+    1 - sqrt(1 - albedo) H(1), with the H function of Chandrasekhar (Radiative Transfer, 1950, chapter 5) by iteration."""
+    left, count = math.sqrt(1 - albedo), 200
+    cosines = [(i + 0.5) / count for i in range(count)]
+    h = [1.0] * count
+    at = lambda mu: 1 / (left + albedo / 2 * sum(c * v / (mu + c) for c, v in zip(cosines, h)) / count)
+    for _ in range(60):
+        h = [at(mu) for mu in cosines]
+    return 1 - left * at(1)
+
+
 class Media(Case):
     def ball(self, radius=0.6, **material):
         """The ball of scenes/cloud.gltf alone before nothing, with other extensions of its material: None leaves one out."""
@@ -68,6 +80,24 @@ class Media(Case):
                 self.assertAlmostEqual(mean(self.seen(scene, *WHITE, spp=256)), 1, delta=0.002, msg=str((material, anisotropy)))
         fog = ["--fog-density", 2, "--fog-height", 0.3, "--fog-anisotropy", 0.6]
         self.assertAlmostEqual(mean(self.seen(self.ball(1e-4, scatter=None), *WHITE, *fog, "--fog-distance", 1)), 1, delta=1e-3)
+
+    def test_a_half_space_has_the_albedo_of_its_h_function(self):
+        """A ball of 1,200 mean free paths, which its curvature makes 0.1 % brighter; standard errors 0.22 to 0.10 %."""
+        albedos = (0.5, 0.9, 0.99)
+        roots = [math.sqrt(1 - albedo) for albedo in albedos]
+        # The draft's s = 4.09712 + 4.20863 r - sqrt(9.59217 + 41.6808 r + 17.7126 r^2), solved for the colour r.
+        colors = [self.root(lambda r: 4.09712 + 4.20863 * r - math.sqrt(9.59217 + 41.6808 * r + 17.7126 * r * r) - s) for s in roots]
+        scene = self.ball(volume=self.volume([math.exp(-1)] * 3, 1 / 2000), scatter={"scatterStrengthFactor": 1, "multiscatterColorFactor": colors})
+        seen = self.seen(scene, *WHITE, "--camera-view-angle", 0.1, spp=1024)
+        for channel, albedo in enumerate(albedos):
+            self.assertAlmostEqual(mean(seen, channel) / half_space(albedo), 1, delta=0.008, msg=str(albedo))
+
+    def root(self, falling):
+        low, high = 0.0, 1.0
+        for _ in range(60):
+            middle = (low + high) / 2
+            low, high = (middle, high) if falling(middle) > 0 else (low, middle)
+        return low
 
     def test_positive_anisotropy_is_forward(self):
         """A light behind the ball is brighter with 0.9 than with -0.9, and one before it the other way round."""

@@ -9,8 +9,8 @@
 #include <array>
 #include <cerrno>
 #include <stdexcept>
-#include <system_error>
 
+#include "base/errors.h"
 #include "gltf/read/diagnostics.h"
 #include "image/limits.h"
 
@@ -148,7 +148,7 @@ std::vector<uint8_t> readUri(const FileAccess& access, std::string_view uri, con
   // Opening a pipe to which nobody writes would wait without end.
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   try {
-    if (file < 0) throw std::runtime_error("cannot be opened: " + std::generic_category().message(errno));
+    if (file < 0) throw std::runtime_error("cannot be opened: " + systemReason(errno));
     return readRegularFile(file, access, memory);
   } catch (const std::runtime_error& error) {
     // A data URI whose first letters are wrong is such a name, too.

@@ -64,8 +64,6 @@ std::filesystem::path folderOf(const std::filesystem::path& target) {
 
 }  // namespace
 
-std::string systemReason(int code) { return std::generic_category().message(code); }
-
 std::filesystem::path partOf(const std::filesystem::path& path) {
   // A name may be as long as the file system allows (255 bytes); its part must then be cut.
   constexpr size_t kMaximumNameLength = 240;

@@ -13,9 +13,6 @@
 
 namespace fragtrace {
 
-/// The system's words for an errno.
-std::string systemReason(int code);
-
 /// Checks the first bytes of a file (64 KiB, or all of a shorter one) before more is read. `size` is the
 /// file's, or 0 for a pipe. Returns the largest number of bytes to read; it may throw.
 using BeginningCheck = std::function<uint64_t(std::span<const uint8_t> first, uint64_t size)>;

@@ -68,7 +68,7 @@ VolumeSource volumeFile(const std::string& text);
 
 /// A grid in the scene.
 struct Volume {
-  VolumeSource source;
+  VolumeSource source{};
   std::vector<uint8_t> file{};             ///< its bytes, where the scene's loader has read it
   std::shared_ptr<const VolumeGrid> grid;  ///< null: there is none
   glm::dmat4 toWorld{1.0};                 ///< from the file's space, metres

@@ -19,7 +19,7 @@ struct GridDescription {
   glm::ivec3 voxels{0};    ///< of the box of its active voxels
   uint64_t activeVoxels = 0;
   double largest = 0.0;  ///< of its values, by listGrids(), as the next
-  BoundsDouble box;      ///< of its bricks above 0, in the file's own space; may be empty
+  BoundsDouble box{};    ///< of its bricks above 0, in the file's own space; may be empty
 };
 
 /// The grids of a file, of which there is one at least. Those of densities are decoded. Throws InputError,

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <memory>
 #include <string_view>
-#include <system_error>
 
+#include "base/errors.h"
 #include "gl/dynamic_library.h"
 
 namespace fragtrace {
@@ -122,7 +122,7 @@ struct Held {
 
 /// Why a call failed; empty where nobody was there to answer it.
 std::string reasonOf(const BusLibrary& library, int result, BusError& error) {
-  std::string reason = std::generic_category().message(-result);
+  std::string reason = systemReason(-result);
   if (error.name != nullptr) {
     const std::string_view name = error.name;
     const bool nobody = name == "org.freedesktop.DBus.Error.ServiceUnknown" ||
