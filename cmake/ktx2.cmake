@@ -10,6 +10,8 @@ set(basisu ${FRAGTRACE_KTX2_SOURCES}/vendor/basis_universal)
 if(NOT EXISTS ${basisu}/transcoder/basisu_transcoder.cpp)
   return()
 endif()
+# Where the sources are removed, the build is configured once more.
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${basisu}/transcoder/basisu_transcoder.cpp)
 add_library(basisu STATIC EXCLUDE_FROM_ALL ${basisu}/transcoder/basisu_transcoder.cpp ${basisu}/zstd/zstddeclib.c)
 set_target_properties(basisu PROPERTIES UNITY_BUILD OFF)
 target_include_directories(basisu SYSTEM INTERFACE ${basisu}/transcoder)

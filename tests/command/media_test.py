@@ -27,6 +27,17 @@ def half_space(albedo):
     return 1 - left * at(1)
 
 
+def color_of(albedo):
+    """The multiscatterColorFactor of a single-scattering albedo: the draft's s = sqrt(1 - albedo) = 4.09712 + 4.20863 r -
+    sqrt(9.59217 + 41.6808 r + 17.7126 r^2), solved for r."""
+    low, high = 0.0, 1.0
+    for _ in range(60):
+        r = (low + high) / 2
+        s = 4.09712 + 4.20863 * r - math.sqrt(9.59217 + 41.6808 * r + 17.7126 * r * r)
+        low, high = (r, high) if s > math.sqrt(1 - albedo) else (low, r)
+    return low
+
+
 class Media(Case):
     def ball(self, radius=0.6, **material):
         """The ball of scenes/cloud.gltf alone before nothing, with other extensions of its material: None leaves one out."""
@@ -84,20 +95,40 @@ class Media(Case):
     def test_a_half_space_has_the_albedo_of_its_h_function(self):
         """A ball of 1,200 mean free paths, which its curvature makes 0.1 % brighter; standard errors 0.22 to 0.10 %."""
         albedos = (0.5, 0.9, 0.99)
-        roots = [math.sqrt(1 - albedo) for albedo in albedos]
-        # The draft's s = 4.09712 + 4.20863 r - sqrt(9.59217 + 41.6808 r + 17.7126 r^2), solved for the colour r.
-        colors = [self.root(lambda r: 4.09712 + 4.20863 * r - math.sqrt(9.59217 + 41.6808 * r + 17.7126 * r * r) - s) for s in roots]
-        scene = self.ball(volume=self.volume([math.exp(-1)] * 3, 1 / 2000), scatter={"scatterStrengthFactor": 1, "multiscatterColorFactor": colors})
+        scene = self.ball(volume=self.volume([math.exp(-1)] * 3, 1 / 2000), scatter={"scatterStrengthFactor": 1, "multiscatterColorFactor": [color_of(a) for a in albedos]})
         seen = self.seen(scene, *WHITE, "--camera-view-angle", 0.1, spp=1024)
         for channel, albedo in enumerate(albedos):
             self.assertAlmostEqual(mean(seen, channel) / half_space(albedo), 1, delta=0.008, msg=str(albedo))
 
-    def root(self, falling):
-        low, high = 0.0, 1.0
-        for _ in range(60):
-            middle = (low + high) / 2
-            low, high = (middle, high) if falling(middle) > 0 else (low, middle)
-        return low
+    def test_what_is_scattered_once_is_an_integral_over_ray_and_lamp(self):
+        """scenes/inside.gltf with its lamp alone, in a medium that scatters a thousandth: along the ray through the picture's middle."""
+        gltf = json.loads((SCENES / "inside.gltf").read_text())
+        gltf["nodes"] = [node for node in gltf["nodes"] if node["name"] in ("box", "lamp", "camera")]
+        gltf["scenes"] = [{"nodes": [0, 1, 2]}]
+        albedo, box = 1e-3, gltf["meshes"][gltf["nodes"][0]["mesh"]]["primitives"][0]["material"]
+        extensions = gltf["materials"][box]["extensions"]
+        extensions["KHR_materials_scatter"]["multiscatterColorFactor"] = [color_of(albedo)] * 3
+        volume = extensions["KHR_materials_volume"]
+        scene = self.folder / "once.gltf"
+        scene.write_text(json.dumps(gltf))
+        seen = self.seen(str(scene.with_suffix("")), "--camera-position", "0,0.9,2.6", "--camera-focal-point", "0,0.7,0", "--camera-view-angle", 0.1,
+                         "--bounces", "unlimited", "--no-default-light", spp=1024, size="8,8")
+        length = math.hypot(0.2, 2.6)
+        direction = (0, -0.2 / length, -2.6 / length)
+        steps, end, side = 200, 4.1 * length / 2.6, 12  # the box ends at z = -1.5; the lamp is 0.6 m wide
+        for channel, radiance in enumerate((8, 7.5, 7)):
+            extinction = -math.log(volume["attenuationColor"][channel]) / volume["attenuationDistance"]
+            sum_over = 0.0
+            for i in range(steps):
+                t = (i + 0.5) / steps * end
+                x, y, z = (a + t * b for a, b in zip((0, 0.9, 2.6), direction))
+                for u in range(side):
+                    for v in range(side):
+                        to = (0.2 + 0.6 * ((u + 0.5) / side - 0.5) - x, 1.6 - y, 0.6 * ((v + 0.5) / side - 0.5) - z)
+                        r = math.hypot(*to)
+                        sum_over += math.exp(-extinction * (t + r)) * to[1] / r**3
+            wanted = albedo * extinction * radiance / (4 * math.pi) * sum_over * end / steps * 0.36 / side**2
+            self.assertAlmostEqual(mean(seen, channel) / wanted, 1, delta=0.003)
 
     def test_positive_anisotropy_is_forward(self):
         """A light behind the ball is brighter with 0.9 than with -0.9, and one before it the other way round."""
