@@ -33,6 +33,9 @@ void checkCommand(const CLI::App& app, std::optional<std::string> word) {
   if (!word) throw UsageError(app.get_name() + " needs a command: " + joined(names) + "; --help says more");
   if (word->starts_with('-') || std::ranges::find(names, *word) != names.end()) return;
   const bool atFirst = app.get_parent() == nullptr;
+  std::error_code error;
+  if (atFirst && std::filesystem::is_directory(*word, error))
+    throw UsageError("'" + *word + "' is a folder; name the .gltf or .glb in it");
   const std::string meant = nearestName(*word, names);
   throw UsageError("'" + *word + "' is no command of " + app.get_name() +
                    (atFirst ? ", and no file: " : ": ") + joined(names) +

@@ -36,7 +36,7 @@ bool isSameButForCase(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, {}, lower, lower);
 }
 
-size_t indexOfPart(const char* option, const std::string& wanted, const std::vector<std::string>& names) {
+std::optional<size_t> findPart(const std::string& wanted, const std::vector<std::string>& names) {
   const auto named = std::find(names.begin(), names.end(), wanted);
   if (named != names.end()) return size_t(named - names.begin());
   size_t index = 0;
@@ -46,6 +46,11 @@ size_t indexOfPart(const char* option, const std::string& wanted, const std::vec
   const auto isAlike = [&](const std::string& name) { return isSameButForCase(name, wanted); };
   if (std::ranges::count_if(names, isAlike) == 1)
     return size_t(std::ranges::find_if(names, isAlike) - names.begin());
+  return std::nullopt;
+}
+
+size_t indexOfPart(const char* option, const std::string& wanted, const std::vector<std::string>& names) {
+  if (const auto index = findPart(wanted, names)) return *index;
   const std::string known = listOfParts(names);
   throw UsageError(std::string(option) + ": " + inQuotes(wanted) + " is not in the file, which has " +
                    (known.empty() ? "none" : known));

@@ -2,6 +2,7 @@
 // Parts of a file that the user names: scenes, animations, material variants, cameras.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,7 +22,10 @@ std::string listOfParts(const std::vector<std::string>& names);
 bool isSameButForCase(std::string_view a, std::string_view b);
 
 /// The index of the part that the user named: by its name, else by its index, else by the only name that is
-/// the same without regard to case. Throws UsageError, which begins with `option` and lists the names.
+/// the same without regard to case; none if there is no such part.
+std::optional<size_t> findPart(const std::string& wanted, const std::vector<std::string>& names);
+
+/// The same. Throws UsageError, which begins with `option` and lists the names.
 size_t indexOfPart(const char* option, const std::string& wanted, const std::vector<std::string>& names);
 
 }  // namespace fragtrace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/parts.h"
 #include "view/view_state.h"
 
 namespace fragtrace {
@@ -10,13 +11,7 @@ namespace fragtrace {
 int shownAnimation(const ViewState& state) {
   if (!state.scene || state.scene->animationNames.empty()) return -1;
   const std::string& wanted = state.sides[0].selection.animation;
-  if (wanted.empty()) return 0;
-  const std::vector<std::string>& names = state.scene->animationNames;
-  const auto named = std::ranges::find(names, wanted);
-  if (named != names.end()) return int(named - names.begin());
-  const bool isNumber = wanted.find_first_not_of("0123456789") == std::string::npos;
-  const size_t index = isNumber ? std::stoul(wanted) : 0;
-  return index < names.size() ? int(index) : 0;
+  return wanted.empty() ? 0 : int(findPart(wanted, state.scene->animationNames).value_or(0));
 }
 
 double animationLength(const ViewState& state) {

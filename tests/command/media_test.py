@@ -4,6 +4,7 @@
 import copy
 import json
 import math
+import pathlib
 import statistics
 
 from support import SCENES, Case, main, run
@@ -92,6 +93,22 @@ class Media(Case):
         fog = ["--fog-density", 2, "--fog-height", 0.3, "--fog-anisotropy", 0.6]
         self.assertAlmostEqual(mean(self.seen(self.ball(1e-4, scatter=None), *WHITE, *fog, "--fog-distance", 1)), 1, delta=1e-3)
 
+    def test_white_media_are_not_seen_between_walls_that_shine(self):
+        """The walls are sampled as lamps, unlike the white light of everywhere: both ways to their light count, each with its weight."""
+        for ior, anisotropy in ((1, 0.5), (1.5, 0)):
+            ball = json.loads(pathlib.Path(self.ball(ior={"ior": ior}, volume=self.volume(), scatter={
+                "scatterStrengthFactor": 1, "scatterAnisotropy": anisotropy}) + ".gltf").read_text())
+            room = json.loads((SCENES / "closed-furnace.gltf").read_text())
+            room["materials"][0] |= {"emissiveFactor": [1, 1, 1]}
+            room["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = [0, 0, 0, 1]
+            room["materials"] += ball["materials"]
+            room["nodes"].append(ball["nodes"][0] | {"extras": {"shape": 0, "material": 1}})
+            room["scenes"][0]["nodes"] = [0, 1, 2]
+            room |= {"extensions": ball["extensions"], "extensionsUsed": ball["extensionsUsed"]}
+            (self.folder / "room.gltf").write_text(json.dumps(room))
+            seen = self.seen(str(self.folder / "room"), "--bounces", "unlimited", "--camera-view-angle", 20, "--camera-focal-point", "0,0,0", spp=512)
+            self.assertAlmostEqual(mean(seen), 1, delta=0.003, msg=str(ior))
+
     def test_a_half_space_has_the_albedo_of_its_h_function(self):
         """A ball of 1,200 mean free paths, which its curvature makes 0.1 % brighter; standard errors 0.22 to 0.10 %."""
         albedos = (0.5, 0.9, 0.99)
@@ -110,9 +127,12 @@ class Media(Case):
         extensions["KHR_materials_scatter"]["multiscatterColorFactor"] = [color_of(albedo)] * 3
         volume = extensions["KHR_materials_volume"]
         scene = self.folder / "once.gltf"
-        scene.write_text(json.dumps(gltf))
-        seen = self.seen(str(scene.with_suffix("")), "--camera-position", "0,0.9,2.6", "--camera-focal-point", "0,0.7,0", "--camera-view-angle", 0.1,
-                         "--bounces", "unlimited", "--no-default-light", spp=1024, size="8,8")
+
+        def picture(spp):
+            scene.write_text(json.dumps(gltf))
+            return self.seen(str(scene.with_suffix("")), "--camera-position", "0,0.9,2.6", "--camera-focal-point", "0,0.7,0", "--camera-view-angle", 0.1,
+                             "--bounces", "unlimited", "--no-default-light", spp=spp, size="8,8")
+        seen = picture(1024)
         length = math.hypot(0.2, 2.6)
         direction = (0, -0.2 / length, -2.6 / length)
         steps, end, side = 200, 4.1 * length / 2.6, 12  # the box ends at z = -1.5; the lamp is 0.6 m wide
@@ -129,6 +149,9 @@ class Media(Case):
                         sum_over += math.exp(-extinction * (t + r)) * to[1] / r**3
             wanted = albedo * extinction * radiance / (4 * math.pi) * sum_over * end / steps * 0.36 / side**2
             self.assertAlmostEqual(mean(seen, channel) / wanted, 1, delta=0.003)
+        # A boundary that bends light throws some back. In such a medium the lamp is found by chance alone.
+        extensions["KHR_materials_ior"] = {"ior": 1.33}
+        self.assertAlmostEqual(mean(picture(8192), 2) / wanted, 1.09, delta=0.15)
 
     def test_positive_anisotropy_is_forward(self):
         """A light behind the ball is brighter with 0.9 than with -0.9, and one before it the other way round."""

@@ -85,6 +85,15 @@ TEST(GltfFiles, MissingImageIsRefusedByName) {
   EXPECT_NE(refusal.find("nowhere.png cannot be opened: No such file"), std::string::npos) << refusal;
 }
 
+TEST(GltfFiles, NamesFromWindowsAreExplained) {
+  const TemporaryFolder folder;
+  folder.write("Wood.PNG", "x");
+  std::string refusal = refusalOf(folder.write("a.gltf", withTexture({{"uri", "wood.png"}}).text()));
+  EXPECT_NE(refusal.find("No such file or directory; Wood.PNG lies there"), std::string::npos) << refusal;
+  refusal = refusalOf(withTexture({{"uri", "maps\\wood.png"}}));
+  EXPECT_NE(refusal.find("has a backslash, where glTF has /"), std::string::npos) << refusal;
+}
+
 TEST(GltfFiles, MissingFileIsRefusedInOneLine) {
   const TemporaryFolder folder;
   EXPECT_EQ(refusalOf(folder.path() / "none.gltf"), "none.gltf: cannot be opened: No such file or directory");
@@ -122,8 +131,13 @@ TEST(GltfFiles, WhatIsNotGltfIsRefused) {
   EXPECT_TRUE(refusalOf(folder.write("a.gltf", "{\"asset\":")).starts_with("a.gltf: the JSON is broken: "));
   EXPECT_TRUE(
       refusalOf(folder.write("a.gltf", "{\n \"asset\": 1e309}")).ends_with("'1e309' at line 2, column 15"));
-  EXPECT_NE(refusalOf(folder.write("a.gltf", "{\"asset\":{\"version\":\"1.0\"}}")).find("/asset/version"),
-            std::string::npos);
+  EXPECT_EQ(refusalOf(folder.write("a.gltf", "PK\3\4 and so on")),
+            "a.gltf: is a ZIP archive, which is to be unpacked first");
+  EXPECT_EQ(refusalOf(folder.write("a.gltf", "<!DOCTYPE html>")),
+            "a.gltf: is a page of the web or XML, not the model itself");
+  // The version comes before what 2.0 has in other forms.
+  EXPECT_EQ(refusalOf(folder.write("a.gltf", R"({"asset":{"version":"1.0"},"meshes":{"cube":{}}})")),
+            "a.gltf: /asset/version: glTF \"1.0\" is not supported, only 2.x is");
 }
 
 TEST(GltfFiles, WhatIsNotGltfIsRefusedBeforeItIsRead) {

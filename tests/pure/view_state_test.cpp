@@ -131,6 +131,11 @@ TEST(ViewState, AnAnimationGoesOnByTheTimeThatPassesAndBeginsAgainOrStops) {
   press(state, Action::NextAnimation, 1);
   EXPECT_EQ(shownAnimation(state), 1);
   EXPECT_EQ(animationLength(state), 1.0);
+  state.sides[0].selection.animation = "WALK";
+  EXPECT_EQ(shownAnimation(state), 0);
+  state.sides[0].selection.animation = "RUN";
+  EXPECT_EQ(shownAnimation(state), 1);
+  state.sides[0].selection.animation = "1";
   EXPECT_EQ(state.scene->options.selection, state.sides[0].selection);
 }
 

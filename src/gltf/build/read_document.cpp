@@ -321,6 +321,7 @@ KeptDocument readDocument(const std::filesystem::path& path, const GltfOptions& 
   takeMemory(document, "", container.binary.size());
   json root = parseJson(container.json, document.memory, diagnostics);
   container.json = std::string();
+  checkVersion(root, diagnostics);
   checkSchema(root, diagnostics);
   checkValidity(root, diagnostics);
   checkExtensions(root, diagnostics);

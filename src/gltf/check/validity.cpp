@@ -119,11 +119,9 @@ Version versionOf(const std::string& text, const std::string& place, const Diagn
   diagnostics.refuse(place, inQuotes(text) + " is not a version such as 2.0");
 }
 
-void checkVersion(const json& asset, const Diagnostics& diagnostics) {
-  const auto& text = asset["version"].get_ref<const std::string&>();
-  const Version version = versionOf(text, "/asset/version", diagnostics);
-  if (version.major != 2)
-    diagnostics.refuse("/asset/version", "glTF " + inQuotes(text) + " is not supported, only 2.x is");
+/// Refuses a version that is less than the file asks for.
+void checkLeastVersion(const json& asset, const Diagnostics& diagnostics) {
+  const Version version = versionOf(asset["version"].get_ref<const std::string&>(), "/asset/version", diagnostics);
   if (!asset.contains("minVersion")) return;
   const auto& least = asset["minVersion"].get_ref<const std::string&>();
   const Version minVersion = versionOf(least, "/asset/minVersion", diagnostics);
@@ -231,8 +229,16 @@ void checkNode(const json& node, const std::string& place, Diagnostics& diagnost
 
 }  // namespace
 
+void checkVersion(const json& root, const Diagnostics& diagnostics) {
+  const json& version = memberOf(memberOf(root, "asset"), "version");
+  if (!version.is_string()) return;
+  const auto& text = version.get_ref<const std::string&>();
+  if (versionOf(text, "/asset/version", diagnostics).major != 2)
+    diagnostics.refuse("/asset/version", "glTF " + inQuotes(text) + " is not supported, only 2.x is");
+}
+
 void checkValidity(const json& root, Diagnostics& diagnostics) {
-  checkVersion(root["asset"], diagnostics);
+  checkLeastVersion(root["asset"], diagnostics);
   checkExtensionLists(root, diagnostics);
   Walk(root, diagnostics).visit(root, "");
   forEachIn(root, "cameras",

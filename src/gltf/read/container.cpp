@@ -27,6 +27,31 @@ bool isBinary(std::span<const uint8_t> bytes) {
   return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
 }
 
+/// A kind of file that people take for glTF, by its first bytes, and what to do.
+struct ForeignFile {
+  std::string_view beginning;
+  const char* reason;
+};
+constexpr ForeignFile kForeignFiles[] = {
+    {"PK\x03\x04", "is a ZIP archive, which is to be unpacked first"},
+    {"\x1f\x8b", "is compressed by gzip, and to be unpacked first"},
+    {"version https://git-lfs", "is a pointer of Git LFS; `git lfs pull` brings the file itself"},
+    {"<", "is a page of the web or XML, not the model itself"},
+    {"\xff\xfe", "is UTF-16, and glTF is UTF-8"},
+    {"\xfe\xff", "is UTF-16, and glTF is UTF-8"},
+    {"Kaydara FBX", "is FBX, not glTF; Blender opens it and writes a .glb"},
+    {"\x89PNG", "is a picture, not glTF"},
+    {"\xff\xd8\xff", "is a picture, not glTF"},
+};
+
+std::string whyNotGltf(std::string_view text, const std::string& file) {
+  if (text.empty()) return "is empty, not glTF";
+  if (file.ends_with(".nvdb")) return "is not glTF; --volume places it in a scene";
+  for (const ForeignFile& foreign : kForeignFiles)
+    if (text.starts_with(foreign.beginning)) return foreign.reason;
+  return "is not glTF: neither JSON nor a .glb";
+}
+
 /// Refuses files that are not glTF by their first bytes, and a .glb by its header. Returns how many bytes of
 /// the file are worth reading: a .glb's length and one more byte, which shows that there are more.
 uint64_t checkBeginning(std::span<const uint8_t> bytes, uint64_t size, const Diagnostics& diagnostics) {
@@ -36,10 +61,7 @@ uint64_t checkBeginning(std::span<const uint8_t> bytes, uint64_t size, const Dia
     const size_t start = text.find_first_not_of(" \t\r\n", mark);
     const bool mayFollow = start == std::string_view::npos && size != bytes.size();
     if (!mayFollow && (start == std::string_view::npos || text[start] != '{'))
-      diagnostics.refuse("", bytes.empty() ? "is empty, not glTF"
-                             : diagnostics.file().ends_with(".nvdb")
-                                 ? "is not glTF; --volume places it in a scene"
-                                 : "is not glTF: neither JSON nor a .glb");
+      diagnostics.refuse("", whyNotGltf(text, diagnostics.file()));
     return std::numeric_limits<uint64_t>::max();
   }
   if (bytes.size() < kHeaderSize) diagnostics.refuse("", "truncated .glb: it ends inside its header");

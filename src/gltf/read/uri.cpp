@@ -101,11 +101,22 @@ std::vector<uint8_t> readRegularFile(int file, const FileAccess& access, const M
   if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) {
     reason = "is not a regular file";
   } else if (!access.allowExternal && !isBelow(file, access.folder)) {
-    reason = "is a link out of the scene's folder (--allow-external-files)";
+    reason = "is a link out of the scene's folder (--allow-external-files reads it)";
   }
   if (reason.empty()) return readOpenFile(file, memory, {}, access.progress);
   ::close(file);
   throw std::runtime_error(reason);
+}
+
+/// "; wood.png lies there" where a file of the folder has the same name but for the case of its letters;
+/// systems that do not tell the two apart write such files.
+std::string likeNamed(const std::filesystem::path& path) {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(path.parent_path(), error)) {
+    const std::string name = entry.path().filename().string();
+    if (isSameButForCase(name, path.filename().string())) return "; " + name + " lies there";
+  }
+  return "";
 }
 
 }  // namespace
@@ -140,15 +151,17 @@ std::vector<uint8_t> readUri(const FileAccess& access, std::string_view uri, con
   const std::string decoded = percentDecoded(uri);
   if (decoded.empty() || hasScheme(uri) || decoded.find('\0') != std::string::npos)
     throw std::runtime_error("the URI " + inQuotes(uri) + " is neither a data URI nor a relative path");
+  if (decoded.find('\\') != std::string::npos && !std::filesystem::exists(pathOfUri(access, uri)))
+    throw std::runtime_error("the URI " + inQuotes(uri) + " has a backslash, where glTF has /");
   if (!access.allowExternal && leadsOut(decoded)) {
     throw std::runtime_error("the URI " + inQuotes(uri) +
-                             " leads out of the scene's folder (--allow-external-files)");
+                             " leads out of the scene's folder (--allow-external-files reads it)");
   }
   const std::filesystem::path path = pathOfUri(access, uri);
   // Opening a pipe to which nobody writes would wait without end.
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   try {
-    if (file < 0) throw std::runtime_error("cannot be opened: " + systemReason(errno));
+    if (file < 0) throw std::runtime_error("cannot be opened: " + systemReason(errno) + likeNamed(path));
     return readRegularFile(file, access, memory);
   } catch (const std::runtime_error& error) {
     // A data URI whose first letters are wrong is such a name, too.

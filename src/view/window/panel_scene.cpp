@@ -11,16 +11,12 @@ namespace {
 std::optional<std::string> choosePart(const char* id, const char* none, const std::vector<std::string>& names,
                                       const std::string& current) {
   const auto nameOf = [&](size_t i) { return partText(i, names[i]); };
-  const auto isCurrent = [&](size_t i) {
-    return !current.empty() && (names[i] == current || std::to_string(i) == current);
-  };
-  std::string shown = none;
-  for (size_t i = names.size(); i-- > 0;) shown = isCurrent(i) ? nameOf(i) : shown;
+  const std::optional<size_t> now = current.empty() ? std::nullopt : findPart(current, names);
   std::optional<std::string> chosen;
-  if (!ImGui::BeginCombo(id, shown.c_str())) return chosen;
-  if (ImGui::Selectable(none, shown == none)) chosen = "";
+  if (!ImGui::BeginCombo(id, now ? nameOf(*now).c_str() : none)) return chosen;
+  if (ImGui::Selectable(none, !now)) chosen = "";
   for (size_t i = 0; i < names.size(); ++i) {
-    if (ImGui::Selectable(nameOf(i).c_str(), isCurrent(i))) chosen = std::to_string(i);
+    if (ImGui::Selectable(nameOf(i).c_str(), now == i)) chosen = std::to_string(i);
   }
   ImGui::EndCombo();
   return chosen;
