@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "view/view_state.h"
+
+namespace fragtrace {
+
+/// A material's values, a line each: those that the user sees first, and of the others those that are not the
+/// defaults.
+std::vector<std::string> materialLines(const Material& material);
+
+/// The material at that index of the scene's, with the numbers that are set.
+Material shownMaterial(const ViewState& state, size_t index);
+
+/// The lines of the answer, and the values of the material as it is now.
+std::vector<std::string> pickLines(const ViewState& state, const PickAnswer& answer);
+
+}  // namespace fragtrace
