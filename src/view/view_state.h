@@ -154,10 +154,6 @@ bool isHidden(const ViewState& state, size_t node);
 /// Hides it with all that is below it, or shows it again, on both sides. Others of its name stay as they are.
 void hideNode(ViewState& state, size_t node, bool hidden);
 
-/// Sets numbers of the scene's materials or lights on both sides. `inFile` are the file's at that place: they
-/// end what was set there.
-void setNumber(ViewState& state, SetNumber number, const SetNumber& inFile);
-
 /// Closes a panel that has lost its room beside the picture, and opens it again with the room.
 void fitPanel(ViewState& state, bool hasRoom);
 

@@ -13,9 +13,9 @@ bool ViewTracer::setSurfaces(const TraceRequest& request) {
   const auto isText = [](const RenderOptions& side) {
     return side.device.traversal == TraversalMethod::Literals;
   };
-  // An animation may drive the same numbers.
+  // An animation may drive the same numbers, and lines are built anew for another camera.
   if (!sameMoment(wanted, loadedOptions_.selection) || wanted.animationTime ||
-      std::ranges::any_of(request.sides, isText))
+      !loaded_->scene.strokes.empty() || std::ranges::any_of(request.sides, isText))
     return false;
   const auto traits = [&](const Scene& scene) {
     return traitsOf(scene, loaded_->environment.kind, !loaded_->environment.backdrop.values.empty());

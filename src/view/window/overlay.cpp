@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "view/material_lines.h"
+#include "view/set_by_eye.h"
 #include "view/presets.h"
 #include "view/progress.h"
 #include "view/shown_text.h"

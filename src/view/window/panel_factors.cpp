@@ -4,7 +4,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "gltf/edit/factors.h"
-#include "view/material_lines.h"
+#include "view/set_by_eye.h"
 #include "view/window/draw/text.h"
 #include "view/window/panel_parts.h"
 

@@ -7,7 +7,7 @@
 
 #include "base/summary.h"
 #include "image/files/whole_file.h"
-#include "view/material_lines.h"
+#include "view/set_by_eye.h"
 #include "view/shown_text.h"
 
 namespace fragtrace {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Materials and lights with the numbers that the viewer's user sets.
 #pragma once
 
 #include <string>
@@ -7,6 +8,10 @@
 #include "view/view_state.h"
 
 namespace fragtrace {
+
+/// Sets numbers of the scene's materials or lights on both sides. `inFile` are the file's at that place: they
+/// end what was set there.
+void setNumber(ViewState& state, SetNumber number, const SetNumber& inFile);
 
 /// A material's values, a line each: those that the user sees first, and of the others those that are not the
 /// defaults.

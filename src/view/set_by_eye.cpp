@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "view/material_lines.h"
+#include "view/set_by_eye.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -58,6 +59,15 @@ std::vector<std::string> materialLines(const Material& m) {
   if (m.unlit) lines.emplace_back("unlit");
   if (m.doubleSided) lines.emplace_back("double-sided");
   return lines;
+}
+
+void setNumber(ViewState& state, SetNumber number, const SetNumber& inFile) {
+  std::vector<SetNumber> set = state.sides[0].selection.set;
+  std::erase_if(set, [&](const SetNumber& one) { return one.pointer == number.pointer; });
+  const auto sameFloat = [](double a, double b) { return float(a) == float(b); };
+  if (!std::ranges::equal(number.values, inFile.values, sameFloat)) set.push_back(std::move(number));
+  for (RenderOptions& side : state.sides) side.selection.set = set;
+  state.scene->options.selection = state.sides[0].selection;
 }
 
 Material shownMaterial(const ViewState& state, size_t index) {
