@@ -19,8 +19,7 @@ GltfBuilder coated() {
   GltfBuilder builder;
   builder.addTriangle()["material"] = 0;
   builder.root["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_lights_punctual"};
-  builder.root["materials"] = {
-      {{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatFactor", 0.5}}}}}}};
+  builder.root["materials"] = {{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatFactor", 0.5}}}}}}};
   builder.root["extensions"]["KHR_lights_punctual"]["lights"] = {
       {{"type", "point"}, {"color", {0.25, 0.5, 0.1}}, {"intensity", 543.5141306588226}}};
   builder.root["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
@@ -63,13 +62,14 @@ TEST(SetNumbers, NeedAPlaceOfTheFileAndItsWidth) {
 
 TEST(SetNumbers, MakeTheSceneThatWouldBeLoaded) {
   const std::string coat = "/materials/0/extensions/KHR_materials_clearcoat/clearcoat";
-  const std::vector<SetNumber> all = {{kRoughness, {0.3}},
-                                      {"/materials/0/pbrMetallicRoughness/metallicFactor", {0.7}},
-                                      {"/materials/0/pbrMetallicRoughness/baseColorFactor", {0.1, 0.2, 0.3, 1}},
-                                      {coat + "Factor", {0.25}},
-                                      {coat + "RoughnessFactor", {0.125}},
-                                      {kIntensity, {7.1}},
-                                      {"/extensions/KHR_lights_punctual/lights/0/color", {0.9, 0.1, 0.3}}};
+  const std::vector<SetNumber> all = {
+      {kRoughness, {0.3}},
+      {"/materials/0/pbrMetallicRoughness/metallicFactor", {0.7}},
+      {"/materials/0/pbrMetallicRoughness/baseColorFactor", {0.1, 0.2, 0.3, 1}},
+      {coat + "Factor", {0.25}},
+      {coat + "RoughnessFactor", {0.125}},
+      {kIntensity, {7.1}},
+      {"/extensions/KHR_lights_punctual/lights/0/color", {0.9, 0.1, 0.3}}};
   const Scene file = loadWith({});
   Scene scene = file;
   ASSERT_TRUE(setByEye(scene, file.materials, file.lightSources, all));
@@ -82,10 +82,10 @@ TEST(SetNumbers, MakeTheSceneThatWouldBeLoaded) {
 TEST(SetNumbers, OfAnotherKindOfMaterialAskForAnotherScene) {
   const Scene file = loadWith({});
   Scene scene = file;
-  for (const SetNumber& set : {SetNumber{"/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor", {0}},
-                               SetNumber{"/materials/0/emissiveFactor", {1, 1, 1}},
-                               SetNumber{kRoughness, {0.01}},  // a mirror
-                               SetNumber{"/materials/0/alphaCutoff", {0.25}}}) {
+  for (const SetNumber& set :
+       {SetNumber{"/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor", {0}},
+        SetNumber{"/materials/0/emissiveFactor", {1, 1, 1}}, SetNumber{kRoughness, {0.01}},  // a mirror
+        SetNumber{"/materials/0/alphaCutoff", {0.25}}}) {
     EXPECT_FALSE(setByEye(scene, file.materials, file.lightSources, {{set}})) << set.pointer;
   }
   EXPECT_EQ(numbersOf(scene), numbersOf(file));

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "view/set_by_eye.h"
 #include "view/presets.h"
 #include "view/progress.h"
+#include "view/set_by_eye.h"
 #include "view/shown_text.h"
 #include "view/window/draw/text.h"
 #include "view/window/draw/theme.h"
