@@ -148,7 +148,7 @@ void setNumber(std::string& text, const SetNumber& set, bool isArray) {
     if (!entry) {
       std::string value = valueText(set.values, isArray);
       for (size_t inner = parts.size() - 1; inner > i; --inner)
-        value = "{" + nlohmann::json(parts[inner]).dump() + ": " + value + "}";
+        value.insert(0, "{" + nlohmann::json(parts[inner]).dump() + ": ").append("}");
       return insertMember(text, at, entries, parts[i], value);
     }
     if (i + 1 == parts.size()) return replaceValue(text, entry->value, set.values);
