@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "base/errors.h"
 #include "options/option_table.h"
 #include "options/row_makers.h"
 
@@ -60,6 +65,50 @@ OptionRow hiddenRow() {
   return row;
 }
 
+/// "POINTER=1,2"
+SetNumber setNumberIn(const std::string& text) {
+  const size_t equals = text.rfind('=');
+  SetNumber set{text.substr(0, equals), {}};
+  std::istringstream numbers(equals == std::string::npos ? "" : text.substr(equals + 1));
+  for (std::string word; std::getline(numbers, word, ',');) {
+    const std::optional<double> number = numberIn(word);
+    if (!number || !std::isfinite(*number)) throw UsageError("--set: '" + word + "' is no number");
+    set.values.push_back(*number);
+  }
+  if (!set.pointer.starts_with('/') || set.values.empty())
+    throw UsageError("--set: '" + text + "' is not of the form PLACE=NUMBERS");
+  return set;
+}
+
+OptionRow setRow() {
+  OptionRow row = memberRow(
+      "--set",
+      "number to draw in place of the file's, as JSON pointer and value, such as "
+      "/materials/0/pbrMetallicRoughness/roughnessFactor=0.25; several with commas where the file has an "
+      "array; can be given several times",
+      FRAGTRACE_MEMBER(selection.set), {.effect = Effect::Picture, .renewal = Renewal::Scene});
+  row.examples = {"/materials/0/pbrMetallicRoughness/roughnessFactor=0.25"};
+  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
+    const auto take = [&raw](const std::vector<std::string>& texts) {
+      raw.options.selection.set.clear();
+      for (const std::string& text : texts) raw.options.selection.set.push_back(setNumberIn(text));
+    };
+    app.add_option_function<std::vector<std::string>>(r.name, take, r.help)
+        ->type_name("PLACE=NUMBERS")
+        ->allow_extra_args(false);
+  };
+  row.words = [](const RenderOptions& o) {
+    std::vector<std::string> words;
+    for (const SetNumber& set : o.selection.set) {
+      words.push_back(set.pointer);
+      const char* separator = "=";
+      for (const double value : set.values) words.back() += std::exchange(separator, ",") + exactText(value);
+    }
+    return words;
+  };
+  return row;
+}
+
 OptionRow memoryRow() {
   OptionRow row =
       memberRow("--memory-limit",
@@ -111,6 +160,7 @@ std::vector<OptionRow> inputRows() {
           "them by 'all', each to --output with its name in place of #",
           FRAGTRACE_MEMBER(selection.materialVariant), kScene),
       hiddenRow(),
+      setRow(),
       choice(
           "--up",
           "axis that points up in the scene's own space; the scene is turned so that it becomes +Y, about X "

@@ -40,6 +40,7 @@ struct KeptArrays {
     bool light = false;       ///< appendEnvironmentLight()
   };
   std::optional<KeptEnvironment> environment;  ///< environment map; there is one a sequence
+  bool geometry = false;  ///< tree, leaves, faces and vertices are as packed before, as are all pictures
 };
 
 }  // namespace fragtrace

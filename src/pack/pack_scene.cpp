@@ -23,6 +23,10 @@ namespace fragtrace {
 
 namespace {
 
+constexpr std::array kGeometryBindings{
+    layout::kNodesBinding,     layout::kLeavesBinding,   layout::kFacesBinding, layout::kNormalsBinding,
+    layout::kTexcoordsBinding, layout::kTangentsBinding, layout::kColorsBinding};
+
 template <typename Row>
 Words packVertices(size_t count, Row&& row) {
   Words words;
@@ -212,12 +216,8 @@ size_t GpuScene::bytes() const {
 }
 
 size_t GpuScene::geometryBytes() const {
-  using namespace layout;
   size_t words = 0;
-  for (const uint32_t binding : {kNodesBinding, kLeavesBinding, kFacesBinding, kNormalsBinding,
-                                 kTexcoordsBinding, kTangentsBinding, kColorsBinding}) {
-    words += buffers[binding].size();
-  }
+  for (const uint32_t binding : kGeometryBindings) words += buffers[binding].size();
   return words * sizeof(uint32_t);
 }
 
@@ -290,6 +290,20 @@ void packMaterials(const Scene& scene, const Bvh& bvh, const ShaderVariant& vari
   if (has(traits, Trait::ObjectNumbers)) appendObjectNumbers(scene, bvh, materials);
 }
 
+/// Tree, leaves, faces and vertices, unless they are on the device as they are.
+void packGeometry(const Scene& scene, const Bvh& bvh, const TraitSet& traits, bool kept, GpuScene& packed) {
+  using namespace layout;
+  if (kept) {
+    for (const uint32_t binding : kGeometryBindings) packed.unchanged[binding] = true;
+    return;
+  }
+  packed.buffers[kNodesBinding] = packNodes(bvh, packed.grid);
+  if (!scene.instances.empty()) appendInstances(scene, bvh, packed.buffers[kNodesBinding]);
+  packed.buffers[kLeavesBinding] = packLeaves(scene, bvh);
+  packed.buffers[kFacesBinding] = packFaces(scene, bvh, has(traits, Trait::Creases));
+  packAttributes(scene.vertices, traits, packed);
+}
+
 }  // namespace
 
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
@@ -301,16 +315,13 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   packed.grid = makeGrid(bvh.bounds);
   packed.leafCount = uint32_t(bvh.leaves.size());
   const double radius = 0.5f * glm::length(bvh.bounds.extent());
-  packed.buffers[kNodesBinding] = packNodes(bvh, packed.grid);
-  if (!scene.instances.empty()) appendInstances(scene, bvh, packed.buffers[kNodesBinding]);
-  packed.buffers[kLeavesBinding] = packLeaves(scene, bvh);
-  packed.buffers[kFacesBinding] = packFaces(scene, bvh, has(traits, Trait::Creases));
-  packAttributes(scene.vertices, traits, packed);
+  const bool keepsGeometry = kept != nullptr && kept->geometry;
+  packGeometry(scene, bvh, traits, keepsGeometry, packed);
 
   // Step: lights; the environment shares light samples with the rest by power.
   const VolumeGrid* grid = has(traits, Trait::DensityGrid) ? scene.volume.grid.get() : nullptr;
   if (kept != nullptr && (kept->images != imagesOf(scene) || kept->grid != grid))
-    *kept = {imagesOf(scene), {}, grid, {}, kept->environment};
+    *kept = {imagesOf(scene), {}, grid, {}, kept->environment, kept->geometry};
   TexturePacker textures(scene, textureSide, kept != nullptr ? kept->textures : PlacedTextures(), progress);
   const std::vector<glm::vec3> radiance = meanRadiance(scene, traits, textures);
   std::vector<uint32_t> slots;
@@ -336,9 +347,10 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   }
 
   packMaterials(scene, bvh, variant, emitters.materialPdf, textures, packed);
-  if (kept != nullptr && !kept->textures.empty()) {
+  if (kept != nullptr && (keepsGeometry || !kept->textures.empty())) {
     if (!textures.allKnown()) {  // one that no picture before has shown: all of them are placed anew
       kept->textures.clear();
+      kept->geometry = false;
       if (!packed.unchanged[kEnvironmentBinding]) kept->environment.reset();
       return packScene(scene, bvh, environment, variant, textureSide, kept, progress);
     }

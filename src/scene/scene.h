@@ -101,7 +101,9 @@ inline constexpr float kInfiniteIor = 1e6f;
 /// specification's.
 struct Material {
   std::string name;
-  uint32_t number = 0;  ///< number of the glTF material, from 1; the default one comes last
+  uint32_t number = 0;                    ///< number of the glTF material, from 1; the default one comes last
+  std::string place{};                    ///< JSON pointer; empty: the default one
+  std::vector<std::string> extensions{};  ///< those that the file gives it
   glm::vec4 baseColorFactor{1.0f};
   float metallicFactor = 1.0f;
   float roughnessFactor = 1.0f;
@@ -260,7 +262,22 @@ struct Light {
   float range = std::numeric_limits<float>::infinity();  ///< local space
   float innerConeAngle = 0.0f;
   float outerConeAngle = 0.7853981634f;
+  uint32_t source = 0;  ///< index into Scene::lightSources
 };
+
+/// A punctual light as the file describes it; nodes place it.
+struct LightSource {
+  std::string name;
+  LightType type = LightType::Point;
+  glm::dvec3 color{1.0};
+  double intensity = 1.0;  ///< in the file's units
+};
+
+/// Light::intensity of such a light.
+inline glm::vec3 intensityOf(const LightSource& source, const LocalSpace& space) {
+  const double scale = source.type == LightType::Directional ? 1.0 : 1.0 / (space.unit * space.unit);
+  return glm::vec3(source.color * source.intensity * scale);
+}
 
 /// A camera in world space, in double precision, so that it loses no digits before recentring.
 struct Camera {
@@ -350,7 +367,8 @@ struct Scene {
   std::vector<Texture> textures;
   std::vector<EncodedImage> images;
   std::vector<Light> lights;
-  std::vector<Camera> cameras;  ///< cameras in the order in which nodes are visited; world space
+  std::vector<LightSource> lightSources;  ///< all of the file
+  std::vector<Camera> cameras;            ///< cameras in the order in which nodes are visited; world space
   std::vector<PrimitiveOrigin> origins;
   std::vector<SceneNode> nodes;          ///< parents before what is below them
   std::vector<SharedMesh> sharedMeshes;  ///< their triangles and vertices stand behind all others

@@ -14,8 +14,16 @@ namespace fragtrace {
 enum class UpAxis : uint8_t { X, Y, Z, MinusX, MinusY, MinusZ };
 inline constexpr std::array<std::string_view, 6> kUpAxisNames{"x", "y", "z", "-x", "-y", "-z"};
 
-/// The parts of a file that are shown. A part is selected by its name or, where none has that name, by its
-/// index.
+/// Numbers that stand in place of the file's.
+struct SetNumber {
+  std::string pointer;         ///< JSON pointer, such as /materials/0/pbrMetallicRoughness/roughnessFactor
+  std::vector<double> values;  ///< one, or as many as the array has there
+
+  bool operator==(const SetNumber&) const = default;
+};
+
+/// The parts of a file that are shown, and what is changed in it. A part is selected by its name or, where
+/// none has that name, by its index.
 struct SceneSelection {
   std::string scene{};                     ///< empty: the file's default scene
   std::string animation{};                 ///< empty: the first one; only with a time
@@ -24,20 +32,27 @@ struct SceneSelection {
   std::string materialVariant{};           ///< empty: the materials that the file shows by default
   std::vector<std::string> hiddenNodes{};  ///< by name (all that have it), JSON pointer or index; not drawn,
                                            ///< nor what is below them
+  std::vector<SetNumber> set{};            ///< of several for one place the last counts
   UpAxis up = UpAxis::Y;                   ///< turns the whole file, so that this axis becomes +Y
 
   bool operator==(const SceneSelection&) const = default;
 };
 
 /// Returns true if both show the same nodes at the same time of the same animation.
-inline bool samePose(const SceneSelection& a, const SceneSelection& b) {
+inline bool sameMoment(const SceneSelection& a, const SceneSelection& b) {
   return a.animation == b.animation && a.animationTime == b.animationTime && a.hiddenNodes == b.hiddenNodes;
+}
+
+/// The same, with the same numbers in place of the file's.
+inline bool samePose(const SceneSelection& a, const SceneSelection& b) {
+  return sameMoment(a, b) && a.set == b.set;
 }
 
 inline void takePose(SceneSelection& selection, const SceneSelection& from) {
   selection.animation = from.animation;
   selection.animationTime = from.animationTime;
   selection.hiddenNodes = from.hiddenNodes;
+  selection.set = from.set;
 }
 
 }  // namespace fragtrace

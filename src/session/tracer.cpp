@@ -260,13 +260,20 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
 }
 
 void replaceScene(Tracer& tracer, const Context& context, const LoadedScene& loaded,
-                  const RenderOptions& options, Statistics& stats) {
+                  const RenderOptions& options, Statistics& stats, bool surfacesAlone) {
   const ShaderVariant everything = chooseVariants(tracer, loaded, options, stats);
   PhaseTimer timer("pack");
+  tracer.kept.geometry = surfacesAlone;
   GpuScene packed = packScene(loaded.scene, loaded.bvh, loaded.environment, everything, tracer.textureSide,
                               &tracer.kept, loaded.decoding);
+  tracer.kept.geometry = false;
   describe(stats, context, packed, timer.end());
-  if (tracer.sceneHash != 0) tracer.sceneHash = sceneHash(packed, tracer.arrayHashes);
+  const std::array<uint64_t, layout::kSceneBufferCount> before = tracer.arrayHashes;
+  if (tracer.sceneHash != 0) {
+    tracer.sceneHash = sceneHash(packed, tracer.arrayHashes);
+    for (size_t i = 0; i < before.size(); ++i)
+      packed.unchanged[i] = packed.unchanged[i] || before[i] == tracer.arrayHashes[i];
+  }
   settleVariants(tracer, loaded, packed, options, context, stats);
   PhaseTimer uploading("upload");
   tracer.renderer->replaceScene(std::move(packed));

@@ -38,8 +38,9 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
                   Statistics& stats);
 
 /// The next scene of a sequence: packs and uploads what has changed. `loaded` is of the same file and options
-/// but for the time of its animation. Throws as makeTracer().
+/// but for the time of its animation; or, if surfaces alone have changed, but for numbers of its materials
+/// and lights that leave its geometry as it is. Throws as makeTracer().
 void replaceScene(Tracer& tracer, const Context& context, const LoadedScene& loaded,
-                  const RenderOptions& options, Statistics& stats);
+                  const RenderOptions& options, Statistics& stats, bool surfacesAlone = false);
 
 }  // namespace fragtrace

@@ -298,6 +298,7 @@ constexpr std::pair<Action, Errand> kErrands[] = {
     {Action::Reload, Errand::Reload},
     {Action::Open, Errand::Open},
     {Action::SaveAs, Errand::SaveAs},
+    {Action::SaveModel, Errand::SaveModel},
     {Action::Screenshot, Errand::Screenshot},
     {Action::WriteExr, Errand::WriteExr},
     {Action::Close, Errand::Close},

@@ -74,6 +74,10 @@ void Exchange::save(SaveRequest request) {
   order([&](Orders& o) { o.saves.push_back(std::move(request)); });
 }
 
+void Exchange::saveModel(std::filesystem::path path) {
+  order([&](Orders& o) { o.model = std::move(path); });
+}
+
 void Exchange::pick(PickRequest request) {
   order([&](Orders& o) { o.pick = request; });
 }
@@ -131,7 +135,7 @@ Orders Exchange::wait(double seconds) {
   std::unique_lock lock(mutex_);
   const auto anything = [this] {
     return orders_.request || orders_.load || orders_.cancelLoad || !orders_.saves.empty() || orders_.pick ||
-           orders_.reference || !orders_.thumbnails.empty() || orders_.quit || nudged_;
+           orders_.model || orders_.reference || !orders_.thumbnails.empty() || orders_.quit || nudged_;
   };
   ordered_.wait_for(lock, std::chrono::duration<double>(seconds), anything);
   nudged_ = false;

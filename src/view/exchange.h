@@ -94,12 +94,6 @@ struct TracedPicture {
   SideStatistics statistics;
 };
 
-/// A material's name, and its values in words.
-struct ViewedMaterial {
-  std::string name;
-  std::vector<std::string> lines;
-};
-
 /// The scene that is drawn, as far as the window knows it.
 struct ViewedScene {
   RenderOptions options;  ///< options of the load
@@ -112,8 +106,9 @@ struct ViewedScene {
   bool map = false;                                 ///< an environment map lights it
   std::vector<std::filesystem::path> environments;  ///< files near it that may
   std::vector<SceneNode> nodes;                     ///< nodes as they were loaded
-  std::vector<ViewedMaterial> materials;
-  std::vector<std::string> sceneNames;  ///< as in Scene, as are the next three
+  std::vector<Material> materials;                  ///< those of the file, without what is set in their place
+  std::vector<LightSource> lights;                  ///< as the materials
+  std::vector<std::string> sceneNames;              ///< as in Scene, as are the next three
   std::vector<std::string> materialVariants;
   std::vector<std::string> animationNames;
   std::vector<std::optional<double>> animationSeconds;
@@ -152,11 +147,12 @@ struct PickRequest {
 struct PickAnswer {
   PickRequest request;
   bool hit = false;
-  glm::dvec3 point{0.0};            ///< world space
-  std::vector<std::string> lines;   ///< description of the hit, in words
-  BoundsDouble bounds;              ///< bounds of all that its node draws, world space
-  std::optional<uint32_t> node;     ///< the selected node
-  std::optional<glm::dvec3> end{};  ///< the point that was measured to, world space
+  glm::dvec3 point{0.0};             ///< world space
+  std::vector<std::string> lines;    ///< description of the hit, in words
+  BoundsDouble bounds;               ///< bounds of all that its node draws, world space
+  std::optional<uint32_t> node;      ///< the selected node
+  std::optional<uint32_t> material;  ///< material at the place, an index into ViewedScene::materials
+  std::optional<glm::dvec3> end{};   ///< the point that was measured to, world space
 };
 
 /// A small picture of an environment.
@@ -187,6 +183,7 @@ struct Orders {
   std::optional<RenderOptions> load;
   bool cancelLoad = false;
   std::vector<SaveRequest> saves;
+  std::optional<std::filesystem::path> model;      ///< file to be written with the numbers that are set
   std::optional<std::filesystem::path> reference;  ///< file to be delivered as side B; empty: side B ends
   std::optional<PickRequest> pick;
   std::vector<std::filesystem::path> thumbnails;  ///< environments, of which pictures are wanted
@@ -204,6 +201,8 @@ class Exchange {
   void load(const RenderOptions& options);
   void cancelLoad();
   void save(SaveRequest request);
+  /// Writes the scene's file, with the numbers that the latest request sets, to that path.
+  void saveModel(std::filesystem::path path);
   void pick(PickRequest request);
   void makeThumbnails(std::vector<std::filesystem::path> environments);
   void compareWith(std::filesystem::path reference);

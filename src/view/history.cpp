@@ -15,6 +15,7 @@ Settings settingsOf(const ViewState& state) {
     SceneSelection kept;
     kept.hiddenNodes = side.selection.hiddenNodes;
     kept.materialVariant = side.selection.materialVariant;
+    kept.set = side.selection.set;
     side.selection = kept;
   }
   return settings;
@@ -33,6 +34,7 @@ void take(ViewState& state, const Settings& settings) {
   for (size_t i = 0; i < 2; ++i) {
     if (!state.sides[i].scene.empty()) takeScene(state.sides[i], before[0]);
     state.sides[i].selection.hiddenNodes = settings.sides[i].selection.hiddenNodes;
+    state.sides[i].selection.set = settings.sides[i].selection.set;
   }
   if (state.scene) state.scene->options.selection = state.sides[0].selection;
   // As in showAnimation(): nothing but the user moves the camera of a scene that is posed.

@@ -128,6 +128,7 @@ void addWindow(std::vector<Control>& rows) {
   add(Press, key::kUp, 0, Action::Reload, "read scene and shaders again");
   add(Press, 'O', kControl, Action::Open, "open a scene or an environment");
   add(Press, 'S', kControl, Action::SaveAs, "write the picture under a name");
+  add(Press, 'S', kControl | kShift, Action::SaveModel, "write the model with the numbers set in the panel");
   add(Press, key::kF12, 0, Action::Screenshot, "write the picture as .png");
   add(Press, key::kF12, kShift, Action::WriteExr, "write the accumulated radiance as .exr");
   add(Press, key::kEscape, 0, Action::Close,

@@ -68,6 +68,7 @@ enum class Action : uint8_t {
   Reload,
   Open,
   SaveAs,
+  SaveModel,
   Screenshot,
   WriteExr,
   Close,  ///< closes an open window; if none is open, the viewer

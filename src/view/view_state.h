@@ -103,6 +103,7 @@ enum class Errand : uint8_t {
   Reload,
   Screenshot,
   SaveAs,
+  SaveModel,
   WriteExr,
   Close,  ///< closes what is open beside the sheet, or the selection, or else asks whether to quit
   Quit

@@ -2,13 +2,11 @@
 #include "gltf/build/animation.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "gltf/check/schema.h"
-#include "gltf/check/schema_checker.h"
+#include "gltf/build/numbers.h"
 #include "gltf/read/accessor.h"
 
 namespace fragtrace {
@@ -79,29 +77,6 @@ std::vector<double> blended(std::vector<double> from, std::vector<double> to, do
   }
   for (size_t i = 0; i < from.size(); ++i) from[i] = blend.a * from[i] + blend.b * to[i];
   return from;
-}
-
-/// Returns true if all but the last part of the pointer is in the document. A material has
-/// pbrMetallicRoughness in any case.
-bool isOfSomething(const json& root, std::string_view pointer) {
-  const json* value = &root;
-  while (true) {
-    const std::string_view part = cutPart(pointer);
-    if (pointer.empty()) return value->is_object();
-    if (value->is_array()) {
-      size_t index = 0;
-      const auto parsed = std::from_chars(part.data(), part.data() + part.size(), index);
-      const bool isIndex = parsed.ec == std::errc{} && parsed.ptr == part.data() + part.size() &&
-                           (part == "0" || part[0] != '0');
-      if (!isIndex || index >= value->size()) return false;
-      value = &(*value)[index];
-      continue;
-    }
-    const auto member = value->is_object() ? value->find(std::string(part)) : value->end();
-    if (!value->is_object() || member == value->end())
-      return value->is_object() && part == "pbrMetallicRoughness";
-    value = &*member;
-  }
 }
 
 std::optional<Interpolation> interpolationNamed(const std::string& name) {
@@ -175,8 +150,8 @@ void checkRotations(const Keyframes& keys, const Channel& channel, Diagnostics& 
 
 void applyChannel(Document& document, const Channel& channel, double seconds, json& root) {
   if (channel.target.empty()) return;  // checkMotion() has said so
-  const std::optional<NumberRule> rule = numberRuleAt(channel.target);
-  if (!rule || !isOfSomething(root, channel.target)) {
+  const std::optional<NumberRule> rule = numberRuleIn(root, channel.target);
+  if (!rule) {
     document.diagnostics.warn(channel.place + "/target",
                               "is nothing that can be animated; the channel is ignored");
     return;
@@ -187,14 +162,7 @@ void applyChannel(Document& document, const Channel& channel, double seconds, js
   const std::vector<double> values = valuesAt(keys, seconds);
   if (keys.isRotation && lengthOf(values) == 0.0)
     document.diagnostics.refuse(channel.place + "/sampler", "gives no rotation at that time");
-  json& place = root[json::json_pointer(channel.target)];
-  if (rule->isFlag) {
-    place = values[0] != 0.0;
-  } else if (rule->isArray) {
-    place = values;
-  } else {
-    place = values[0];
-  }
+  writeNumbers(root, channel.target, *rule, values);
 }
 
 }  // namespace

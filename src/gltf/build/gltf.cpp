@@ -139,6 +139,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
   scene.animationSeconds = document.animationSeconds;
   scene.materialVariants = document.materialVariants;
   addMaterials(document, scene);
+  scene.lightSources = lightSources(document);
 
   // World space.
   const std::vector<PlacedNode> nodes = placeNodes(document, options.selection);

@@ -21,7 +21,21 @@ void readSpot(const tinygltf::SpotLight& spot, const std::string& place, const D
   light.outerConeAngle = float(std::min(spot.outerConeAngle, kRightAngle));
 }
 
+LightSource sourceOf(const tinygltf::Light& described) {
+  LightSource source{.name = described.name, .intensity = described.intensity};
+  if (described.type == "directional") source.type = LightType::Directional;
+  if (described.type == "spot") source.type = LightType::Spot;
+  for (int c = 0; c < 3 && !described.color.empty(); ++c) source.color[c] = described.color.at(size_t(c));
+  return source;
+}
+
 }  // namespace
+
+std::vector<LightSource> lightSources(const Document& document) {
+  std::vector<LightSource> sources;
+  for (const tinygltf::Light& described : document.model.lights) sources.push_back(sourceOf(described));
+  return sources;
+}
 
 std::optional<Light> lightAt(Document& document, const PlacedNode& node, const LocalSpace& space) {
   const tinygltf::Node& source = document.model.nodes.at(size_t(node.index));
@@ -40,11 +54,9 @@ std::optional<Light> lightAt(Document& document, const PlacedNode& node, const L
   } else if (described.type != "point") {
     document.diagnostics.refuse(place + "/type", inQuotes(described.type) + " is not a kind of light");
   }
-  // The intensity is that at a distance of 1 in local space.
-  const double scale = light.type == LightType::Directional ? 1.0 : 1.0 / (space.unit * space.unit);
+  light.source = uint32_t(index);
+  light.intensity = intensityOf(sourceOf(described), space);
   for (int c = 0; c < 3; ++c) {
-    const double color = described.color.empty() ? 1.0 : described.color.at(size_t(c));
-    light.intensity[c] = float(color * described.intensity * scale);
     if (!std::isfinite(light.intensity[c]) || light.intensity[c] < 0.0f) {
       document.diagnostics.refuse(place, "colour times intensity is negative or too large");
     }

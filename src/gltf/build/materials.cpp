@@ -70,6 +70,8 @@ Material readMaterial(Document& document, TextureTable& textures, size_t index) 
   const MaterialPart part(document.diagnostics, textures, pointerTo("materials", index), kNothing);
   Material result;
   result.name = source.name;
+  result.place = pointerTo("materials", index);
+  for (const auto& extension : source.extensions) result.extensions.push_back(extension.first);
   // Both may be given: specular-glossiness is what is meant, the other for who does not know it.
   if (extensionOf(source, "KHR_materials_pbrSpecularGlossiness") == nullptr)
     readMetallicRoughness(source.pbrMetallicRoughness, part.below("pbrMetallicRoughness", kNothing), result);

@@ -12,6 +12,9 @@ namespace fragtrace {
 /// The node's camera in world space, free of the node's scale; none if the node has no camera.
 std::optional<Camera> cameraAt(const Document& document, const PlacedNode& node);
 
+/// The file's KHR_lights_punctual lights, in its order.
+std::vector<LightSource> lightSources(const Document& document);
+
 /// The node's KHR_lights_punctual light in local space. Throws InputError for one that is too bright there.
 std::optional<Light> lightAt(Document& document, const PlacedNode& node, const LocalSpace& space);
 

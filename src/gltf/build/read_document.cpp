@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "gltf/build/animation.h"
+#include "gltf/build/numbers.h"
 #include "gltf/check/extensions.h"
 #include "gltf/check/schema.h"
 #include "gltf/check/validity.h"
@@ -291,8 +292,7 @@ tinygltf::Model parseModel(json& root, Buffers& buffers, const Diagnostics& diag
   return model;
 }
 
-/// Poses the document as the user asked: writes the animated values into the JSON and parses it again, so
-/// that readers of the model need not know of animations.
+/// Writes the animated values into the JSON.
 void pose(const std::vector<Animation>& animations, const SceneSelection& selection, json& root,
           Document& document) {
   if (animations.empty() && selection.animation.empty()) {
@@ -303,6 +303,10 @@ void pose(const std::vector<Animation>& animations, const SceneSelection& select
                            ? 0
                            : indexOfPart("--animation", selection.animation, document.animationNames);
   applyAnimation(document, animations[index], *selection.animationTime, root);
+}
+
+/// Parses the JSON again, which has changed, so that readers of the model need not know of that.
+void parseAgain(json& root, Document& document) {
   Buffers buffers;
   for (tinygltf::Buffer& buffer : document.model.buffers) buffers.push_back(std::move(buffer.data));
   document.model = parseModel(root, buffers, document.diagnostics);
@@ -348,11 +352,11 @@ KeptDocument readDocument(const std::filesystem::path& path, const GltfOptions& 
 }
 
 Document posed(KeptDocument read, const SceneSelection& selection) {
-  if (selection.animationTime) {
-    pose(read.animations, selection, read.root, read.document);
-  } else if (!selection.animation.empty()) {
+  if (!selection.animationTime && !selection.animation.empty())
     throw UsageError("--animation: needs --animation-time");
-  }
+  writeNumbers(read.root, selection.set);
+  if (selection.animationTime) pose(read.animations, selection, read.root, read.document);
+  if (selection.animationTime || !selection.set.empty()) parseAgain(read.root, read.document);
   return std::move(read.document);
 }
 

@@ -43,6 +43,14 @@ FileQuestion saveQuestion(const std::filesystem::path& picture) {
           .filters = {fileFilter("Pictures", {kPictureExtensions.begin(), kPictureExtensions.end()})}};
 }
 
+FileQuestion saveModelQuestion(const std::filesystem::path& model) {
+  return {.save = true,
+          .title = "Save the model as",
+          .folder = model.parent_path(),
+          .name = model.filename().string(),
+          .filters = {fileFilter("Models", {lowerExtension(model)})}};
+}
+
 std::string lowerExtension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });

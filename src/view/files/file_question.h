@@ -35,6 +35,9 @@ FileQuestion openQuestion(const std::filesystem::path& folder, bool environment)
 /// For the name of a picture.
 FileQuestion saveQuestion(const std::filesystem::path& picture);
 
+/// For the name of a model, which keeps its extension.
+FileQuestion saveModelQuestion(const std::filesystem::path& model);
+
 /// The extension of a name, in lower case.
 std::string lowerExtension(const std::filesystem::path& path);
 

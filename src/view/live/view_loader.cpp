@@ -40,8 +40,11 @@ void SceneLoader::start(const RenderOptions& options) {
     try {
       SceneBefore before;
       before.document = &result.document;
+      // Numbers that the user sets are set later: the window shows the file's, too.
+      RenderOptions plain = options;
+      plain.selection.set.clear();
       result.scene =
-          std::make_unique<LoadedScene>(loadScene(options, result.stats, progress, FilmOf::Picture, before));
+          std::make_unique<LoadedScene>(loadScene(plain, result.stats, progress, FilmOf::Picture, before));
       const bool known = !hasMap(options) && options.light.defaultLight != DefaultLight::None;
       result.ownLight =
           known ? !result.stats.defaultLight : ownLight(result.scene->scene) == OwnLight::Enough;

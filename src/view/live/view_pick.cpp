@@ -34,6 +34,7 @@ void ViewTracer::answer(const PickRequest& request) {
       answer.hit = true;
       answer.point = pick->point;
       answer.lines = pickLines(scene, *pick);
+      if (pick->material < scene.materials.size()) answer.material = pick->material;
       NodeSet nodes(size_t(pick->nodeIndex) + 1);
       nodes[pick->nodeIndex] = true;
       choose(pick->nodeIndex, std::move(nodes));

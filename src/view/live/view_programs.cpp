@@ -149,18 +149,34 @@ void ViewPrograms::showPose(const RenderOptions& options) {
     takePose(program->options.selection, options.selection);
     if (!sameTree(treeOptions_, program->options)) loaded_.bvh = buildTree(loaded_.scene, program->options);
     treeOptions_ = program->options;
-    Statistics stats;
-    replaceScene(program->tracer, context_, loaded_, program->options, stats);
-    program->variant = stats.variant;
-    program->bytes = stats.sceneBytes;
-    // A pose may need another program, as for a deeper tree.
-    Renderer& renderer = *program->tracer.renderer;
-    Film tiny(kCompiledFor);
-    if (renderer.knows(program->tracer.variant))
-      renderer.use(program->tracer.variant);
-    else
-      renderer.compile(program->tracer.variant, tiny, loaded_.view);
+    replace(*program, false);
   }
+}
+
+void ViewPrograms::showSurfaces(const SceneSelection& selection) {
+  settle();
+  std::erase_if(programs_, [](const auto& p) {
+    return p.use_count() == 1 || !p->error.empty() ||
+           p->tracer.variant.traversal == TraversalMethod::Literals;
+  });
+  for (const std::shared_ptr<ViewProgram>& program : programs_) {
+    takePose(program->options.selection, selection);
+    replace(*program, true);
+  }
+}
+
+void ViewPrograms::replace(ViewProgram& program, bool surfacesAlone) const {
+  Statistics stats;
+  replaceScene(program.tracer, context_, loaded_, program.options, stats, surfacesAlone);
+  program.variant = stats.variant;
+  if (!surfacesAlone) program.bytes = stats.sceneBytes;
+  // The scene may need another program, as for a deeper tree.
+  Renderer& renderer = *program.tracer.renderer;
+  Film tiny(kCompiledFor);
+  if (renderer.knows(program.tracer.variant))
+    renderer.use(program.tracer.variant);
+  else
+    renderer.compile(program.tracer.variant, tiny, loaded_.view);
 }
 
 std::shared_ptr<ViewProgram> ViewPrograms::makeAside(const RenderOptions& part) const {

@@ -55,11 +55,15 @@ class ViewPrograms {
   /// that somebody holds draw it from now on, all others are made anew when they are asked for again. Throws
   /// as replaceScene().
   void showPose(const RenderOptions& options);
+  /// The same where surfaces and lights alone have other numbers, which the selection has: nothing else is
+  /// packed. A program whose text holds the whole scene is made anew when it is asked for again.
+  void showSurfaces(const SceneSelection& selection);
 
  private:
   std::shared_ptr<ViewProgram> make(const RenderOptions& part) const;
   std::shared_ptr<ViewProgram> makeAside(const RenderOptions& part) const;
   void keep(std::shared_ptr<ViewProgram> program);
+  void replace(ViewProgram& program, bool surfacesAlone) const;
 
   const Context& context_;
   LoadedScene& loaded_;

@@ -7,7 +7,6 @@
 #include "gl/driver_choice.h"
 #include "session/outputs.h"
 #include "session/phase_timer.h"
-#include "view/live/pick_text.h"
 #include "view/shown_text.h"
 
 namespace fragtrace {
@@ -155,6 +154,7 @@ void ViewTracer::obey(Orders orders) {
   if (!orders.thumbnails.empty()) thumbnails_.make(orders.thumbnails, start_.render.limits.memoryBytes);
   if (orders.reference) takeReference(*orders.reference);
   for (SaveRequest& save : orders.saves) saves_.push_back(std::move(save));
+  if (orders.model && loaded_) saveModel(*orders.model);
   if (orders.pick && loaded_) answer(*orders.pick);
 }
 
@@ -178,12 +178,16 @@ void ViewTracer::adoptScene() {
   loaded_ = std::move(result->scene);
   document_ = std::move(result->document);
   loadedOptions_ = result->options;
+  loadedOptions_.selection.set.clear();
+  wasText_ = false;
+  fileMaterials_ = loaded_->scene.materials;
+  fileLights_ = loaded_->scene.lightSources;
   loaded_->decoding = [this](size_t decoded, size_t count) { tellDecoded(decoded, count); };
   makePrograms();
   loadError_.clear();
   exchange_.tellError({});
   ViewedScene viewed;
-  viewed.options = loadedOptions_;
+  viewed.options = result->options;
   viewed.camera = loaded_->camera;
   viewed.cameras = loaded_->scene.cameras;
   viewed.bounds = loaded_->scene.bounds;
@@ -194,7 +198,8 @@ void ViewTracer::adoptScene() {
   viewed.map = loaded_->environment.kind == Surroundings::Map;
   viewed.environments = std::move(result->environments);
   viewed.nodes = loaded_->scene.nodes;
-  for (const Material& m : loaded_->scene.materials) viewed.materials.push_back({m.name, materialLines(m)});
+  viewed.materials = fileMaterials_;
+  viewed.lights = fileLights_;
   viewed.sceneNames = loaded_->scene.sceneNames;
   viewed.materialVariants = loaded_->scene.materialVariants;
   viewed.animationNames = loaded_->scene.animationNames;
@@ -231,7 +236,8 @@ void ViewTracer::rebuildPrograms() {
 /// time.
 RenderOptions ViewTracer::asPosed(RenderOptions options) const {
   const SceneSelection& s = options.selection;
-  const bool changes = s.animationTime || !s.hiddenNodes.empty() || !loaded_->scene.strokes.empty();
+  const bool changes = s.animationTime || !s.hiddenNodes.empty() || !loaded_->scene.strokes.empty() ||
+                       (!s.set.empty() && wasText_);
   if (changes && options.device.traversal == TraversalMethod::Auto)
     options.device.traversal = TraversalMethod::FrontToBack;
   return options;
@@ -289,9 +295,13 @@ void ViewTracer::adopt(const TraceRequest& request) {
   // The window does not know of the scene that has just been loaded.
   if (request.sides.front().scene != loadedOptions_.scene) return;
   request_ = request;
+  const auto isText = [](const Side& side) {
+    return side.program && side.program->tracer.variant.traversal == TraversalMethod::Literals;
+  };
+  wasText_ = wasText_ || std::ranges::any_of(sides_, isText);
   for (RenderOptions& side : request_.sides) side = asPosed(side);
   if (!isPosed(request_)) {
-    pose(request_);
+    if (!setSurfaces(request_)) pose(request_);
     for (Side& side : sides_) side.stale = true;
   }
   if (request.moving) keepMoving(resolution_, request.size);

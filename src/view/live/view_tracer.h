@@ -85,6 +85,9 @@ class ViewTracer {
   /// Makes it so: at that time of its animation, with lines as wide as that camera wants. Why it cannot be,
   /// the window is told.
   void pose(const TraceRequest& request);
+  /// The scene gets the numbers that the request sets for surfaces and lights. Returns false if more than
+  /// these may have to change: the scene is then to be posed.
+  bool setSurfaces(const TraceRequest& request);
   /// With the filter that can be had; why not, the window is told.
   RenderOptions withFilter(RenderOptions options);
   void adoptSide(Side& side, const RenderOptions& options);
@@ -128,6 +131,7 @@ class ViewTracer {
   Image seenOf(Side& side);
   void save(const SaveRequest& request);
   void saveBoth(const SaveRequest& request);
+  void saveModel(const std::filesystem::path& path);
   void takeReference(const std::filesystem::path& path);
   void answer(const PickRequest& request);
   void select(Selected selected);
@@ -147,7 +151,10 @@ class ViewTracer {
   std::unique_ptr<LoadedScene> loaded_;
   std::shared_ptr<KeptDocument> document_;  ///< the document that is posed
   RenderOptions loadedOptions_;             ///< options of the scene
-  CameraOverrides posedCamera_;             ///< camera that gives lines their width
+  std::vector<Material> fileMaterials_;     ///< those of the file, without what the user sets
+  std::vector<LightSource> fileLights_;
+  bool wasText_ = false;         ///< a program's text has held the whole scene
+  CameraOverrides posedCamera_;  ///< camera that gives lines their width
   std::optional<int> posedCameraIndex_;
   glm::ivec2 posedSize_{0};
   std::optional<RefittableTree> tree_;  ///< the latest tree of a moving scene

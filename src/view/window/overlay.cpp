@@ -10,6 +10,7 @@
 
 #include "view/presets.h"
 #include "view/progress.h"
+#include "view/set_by_eye.h"
 #include "view/shown_text.h"
 #include "view/window/draw/text.h"
 #include "view/window/draw/theme.h"
@@ -177,7 +178,7 @@ bool closeButton(Places& places, const std::string& name) {
   return pressed;
 }
 
-void drawNewsLines(const ViewFacts& facts, double now) {
+void drawNewsLines(const ViewState& state, const ViewFacts& facts, double now) {
   if (!facts.note.empty()) drawText(facts.note, kMostLineCharacters);
   for (size_t i = facts.messages.size(); i-- > 0;) {
     const Message& message = facts.messages[i];
@@ -189,11 +190,11 @@ void drawNewsLines(const ViewFacts& facts, double now) {
   }
   if (!facts.pick) return;
   if (facts.pick->end) drawText(distanceText(facts.pick->point, *facts.pick->end), kMostLineCharacters);
-  for (const std::string& line : facts.pick->lines) drawText(line, kMostLineCharacters);
+  for (const std::string& line : pickLines(state, *facts.pick)) drawText(line, kMostLineCharacters);
 }
 
 /// The latest news at the bottom left, the newest above.
-Errand drawNews(ViewFacts& facts, const WindowLayout& layout, double now) {
+Errand drawNews(const ViewState& state, ViewFacts& facts, const WindowLayout& layout, double now) {
   const bool seen = !std::isinf(secondsToFade(facts.messages, now));
   if (facts.note.empty() && !seen && !facts.pick) return Errand::None;
   Errand errand = Errand::None;
@@ -206,7 +207,7 @@ Errand drawNews(ViewFacts& facts, const WindowLayout& layout, double now) {
     const bool close = (seen || facts.pick) && closeButton(facts.places, "news");
     ImGui::BeginGroup();
     ImGui::PushTextWrapPos(layout.newsMost.x - style.WindowPadding.x - style.ScrollbarSize);
-    drawNewsLines(facts, now);
+    drawNewsLines(state, facts, now);
     ImGui::PopTextWrapPos();
     ImGui::EndGroup();
     addWindowPlace(facts.places, "news");
@@ -344,7 +345,7 @@ Task drawOverlay(ViewState& state, ViewFacts& facts, const WindowLayout& layout,
   if (state.overview) drawStageNames(state, facts, layout);
   if (!state.compares() && !state.overview) drawViewName(state, facts, layout);
   if (state.figures && state.scene && !state.overview) drawFigures(state, facts, layout);
-  task.errand = drawNews(facts, layout, now);
+  task.errand = drawNews(state, facts, layout, now);
   if (!state.scene && !facts.load.busy) task = drawWelcome(facts, layout);
   if (!facts.error.empty() && !facts.errorClosed) drawError(facts, layout);
   drawStatusBar(state, facts, layout);

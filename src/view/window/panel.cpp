@@ -201,6 +201,7 @@ void drawButtons(Places& places, Task& task) {
   };
   errandButton(places, "Open...", Errand::Open, task);
   next("Save as...", Errand::SaveAs);
+  next("Save model...", Errand::SaveModel);
   next("Write .exr", Errand::WriteExr);
   next("Reload", Errand::Reload);
   next("Reset all", Errand::ResetAll);
@@ -242,6 +243,11 @@ Task drawPanel(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
     };
     if (shownAnimation(state) >= 0 && open("Animation")) drawAnimation(state, places);
     if (hasParts(state) && open("File")) part(drawParts(state, facts));
+    const std::optional<uint32_t> picked = facts.pick ? facts.pick->material : std::nullopt;
+    if (picked && *picked < state.scene->materials.size() && open("Material")) {
+      ImGui::TextDisabled("%s", partText(*picked, state.scene->materials[*picked].name).c_str());
+      drawMaterial(state, places, *picked);
+    }
     if (open("Scene", false)) part(drawTree(state, facts));
     if (open("Light and display")) part(drawLight(state, facts));
     if (open("Histogram", false)) drawHistogram(state, facts);

@@ -60,6 +60,12 @@ Task drawCamera(ViewState& state, ViewFacts& facts);
 Task drawTree(ViewState& state, ViewFacts& facts);
 Task drawParts(ViewState& state, ViewFacts& facts);
 
+/// Draws sliders for the material at that index of the scene's.
+void drawMaterial(ViewState& state, Places& places, size_t index);
+/// Draws rows of all materials, and of all lights, which open.
+void drawMaterials(ViewState& state, Places& places);
+void drawLights(ViewState& state, Places& places);
+
 /// Draws the histogram of the active side's picture.
 void drawHistogram(const ViewState& state, ViewFacts& facts);
 

@@ -82,42 +82,30 @@ void drawNodes(ViewState& state, Places& places, Task& task) {
   }
 }
 
-void drawMaterials(const ViewState& state, Places& places) {
-  const std::vector<ViewedMaterial>& materials = state.scene->materials;
-  for (size_t i = 0; i < materials.size(); ++i) {
-    const ViewedMaterial& material = materials[i];
-    ImGui::PushID(int(i));
-    const std::string name = partText(i, material.name);
-    const bool open = ImGui::TreeNodeEx("##material", 0, "%s", shownText(name, kMostNameCharacters).c_str());
-    addItemPlace(places, "material " + std::to_string(i));
-    if (open) {
-      for (const std::string& line : material.lines) ImGui::TextUnformatted(line.c_str());
-      ImGui::TreePop();
-    }
-    ImGui::PopID();
-  }
-}
-
 /// As high as its rows, up to the most.
-bool beginList(const char* id, size_t rows) {
+bool beginList(const char* id, size_t rows, ImGuiWindowFlags flags = 0) {
   const float line = ImGui::GetTextLineHeightWithSpacing();
-  return ImGui::BeginChild(id, ImVec2(0.0f, line * std::min(float(rows) + 0.5f, kMostRows)), false,
-                           ImGuiWindowFlags_HorizontalScrollbar);
+  return ImGui::BeginChild(id, ImVec2(0.0f, line * std::min(float(rows) + 0.5f, kMostRows)), false, flags);
 }
 
 }  // namespace
 
 Task drawTree(ViewState& state, ViewFacts& facts) {
   Task task;
-  if (beginList("nodes", state.scene->nodes.size())) drawNodes(state, facts.places, task);
+  if (beginList("nodes", state.scene->nodes.size(), ImGuiWindowFlags_HorizontalScrollbar))
+    drawNodes(state, facts.places, task);
   ImGui::EndChild();
-  const size_t count = state.scene->materials.size();
-  const bool open =
-      ImGui::TreeNodeEx("##materials", ImGuiTreeNodeFlags_NoTreePushOnOpen, "Materials (%d)", int(count));
-  addItemPlace(facts.places, "materials");
-  if (!open) return task;
-  if (beginList("materials", size_t(kMostRows))) drawMaterials(state, facts.places);
-  ImGui::EndChild();
+  const auto list = [&](const char* name, const char* title, size_t count, auto draw) {
+    const std::string id = std::string("##") + name;
+    const bool open =
+        ImGui::TreeNodeEx(id.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen, "%s (%d)", title, int(count));
+    addItemPlace(facts.places, name);
+    if (!open) return;
+    if (beginList(name, size_t(kMostRows))) draw(state, facts.places);
+    ImGui::EndChild();
+  };
+  list("materials", "Materials", state.scene->materials.size(), drawMaterials);
+  if (!state.scene->lights.empty()) list("lights", "Lights", state.scene->lights.size(), drawLights);
   return task;
 }
 

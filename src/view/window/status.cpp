@@ -7,6 +7,7 @@
 
 #include "base/summary.h"
 #include "image/files/whole_file.h"
+#include "view/set_by_eye.h"
 #include "view/shown_text.h"
 
 namespace fragtrace {
@@ -115,6 +116,8 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["thumbnails"] = facts.thumbnails.size();
   json["reference"] = state.reference.string();
   json["hidden"] = state.sides[0].selection.hiddenNodes;
+  json["set"] = Json::object();
+  for (const SetNumber& set : state.sides[0].selection.set) json["set"][set.pointer] = set.values;
   json["hdri_rotation"] = state.sides[0].light.hdriRotationDegrees;
   json["hdri_intensity"] = state.sides[0].light.hdriIntensity;
   json["background"] = state.sides[0].light.background;
@@ -129,7 +132,7 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
                                                       : "desktop";
   json["focus"] = facts.focus;
   json["places"] = facts.places;
-  json["pick"] = facts.pick ? Json(facts.pick->lines) : Json();
+  json["pick"] = facts.pick ? Json(pickLines(state, *facts.pick)) : Json();
   json["measured"] =
       facts.pick && facts.pick->end ? Json(distanceText(facts.pick->point, *facts.pick->end)) : Json();
   const BoundsDouble& b = state.selected;

@@ -88,7 +88,8 @@ class Window {
   Interface interface_;
   Display display_;
   FileDialog dialog_;
-  bool dialogSaves_ = false;           ///< it asks for the name of a picture
+  FileQuestion question_;              ///< its latest
+  Errand asked_ = Errand::None;        ///< why: Open, SaveAs, SaveModel
   std::filesystem::path savedFolder_;  ///< folder of the latest picture written; empty: none was
   std::map<std::filesystem::path, GlTexture> thumbnails_;
   std::set<std::filesystem::path> askedThumbnails_;

@@ -54,24 +54,29 @@ void Window::save(const std::filesystem::path& name) {
   exchange_.save(std::move(request));
 }
 
-/// To open, beside the scene that is shown; to save, where a picture was saved last.
+/// To open, beside the scene that is shown; to save a picture, where one was saved last; to save the model,
+/// beside it.
 void Window::askForFile(const Task& task) {
-  dialogSaves_ = task.errand == Errand::SaveAs;
   const RenderOptions& o = state_.options();
   std::error_code error;
   const std::filesystem::path here = std::filesystem::current_path(error);
-  FileQuestion question;
-  if (dialogSaves_) {
+  if (task.errand == Errand::SaveModel) {
+    if (o.selection.set.empty()) return say("no number of a material or a light has been set");
+    const std::filesystem::path scene = here / o.scene;
+    question_ =
+        saveModelQuestion(freePictureName(scene.parent_path(), scene, scene.extension().string().c_str()));
+  } else if (task.errand == Errand::SaveAs) {
     const std::filesystem::path folder = savedFolder_.empty() ? here : savedFolder_;
-    question = saveQuestion(freePictureName(folder, o.scene, ".png"));
+    question_ = saveQuestion(freePictureName(folder, o.scene, ".png"));
   } else {
     const bool environment = task.index == 1;
     const std::filesystem::path& beside =
         environment && !o.light.hdriFile.empty() ? o.light.hdriFile : wanted_.scene;
-    question = openQuestion((here / beside).parent_path(), environment);
-    if (beside.empty()) question.folder = here;
+    question_ = openQuestion((here / beside).parent_path(), environment);
+    if (beside.empty()) question_.folder = here;
   }
-  dialog_.ask(std::move(question), portalName(window_.get()), glfwGetTime());
+  asked_ = task.errand;
+  dialog_.ask(question_, portalName(window_.get()), glfwGetTime());
 }
 
 void Window::takeFile() {
@@ -82,15 +87,16 @@ void Window::takeFile() {
   if (!news.message.empty()) say(news.message);
   if (news.file.empty()) return;
   frames_ = std::max(frames_, kSettleFrames);
-  if (!dialogSaves_) return openFiles({news.file});
+  if (asked_ == Errand::Open) return openFiles({news.file});
   if (!state_.scene) return;
   std::filesystem::path file = news.file;
-  if (file.extension().empty()) file += kPictureExtensions.front();
-  const FileFilter filter = saveQuestion(file).filters.front();
+  const FileFilter& filter = question_.filters.front();
+  if (file.extension().empty()) file += filter.extensions.front();
   if (!passes(filter, file))
     return say("not written: " + file.extension().string() + " is not among " + filter.name);
-  savedFolder_ = file.parent_path();
   ask();
+  if (asked_ == Errand::SaveModel) return exchange_.saveModel(file);
+  savedFolder_ = file.parent_path();
   save(file);
 }
 

@@ -118,6 +118,7 @@ void Window::executeOnScene(const Task& task) {
     case Errand::Screenshot:
       return save(std::filesystem::absolute(freePictureName(state_.options().scene, ".png")));
     case Errand::SaveAs:
+    case Errand::SaveModel:
       return askForFile(task);
     case Errand::WriteExr:
       return save(std::filesystem::absolute(freePictureName(state_.options().scene, ".exr")));

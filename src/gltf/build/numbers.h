@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Numbers in the JSON of a document that stand in place of the file's: those of an animation, or the user's.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gltf/check/schema.h"
+#include "scene/selection.h"
+
+namespace fragtrace {
+
+/// The rule for the value at a JSON pointer, if the loader reads numbers there and the document has the
+/// object or the array that holds them.
+std::optional<NumberRule> numberRuleIn(const nlohmann::json& root, const std::string& pointer);
+
+/// Writes as many values as the rule says, which is of that place.
+void writeNumbers(nlohmann::json& root, const std::string& pointer, const NumberRule& rule,
+                  const std::vector<double>& values);
+
+/// Writes the user's numbers. Throws UsageError for a place without numbers, and for too few or too many.
+void writeNumbers(nlohmann::json& root, const std::vector<SetNumber>& set);
+
+}  // namespace fragtrace

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/edit/changed_file.h"
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "base/errors.h"
+#include "gltf/edit/json_text.h"
+#include "gltf/read/uri.h"
+#include "image/files/whole_file.h"
+
+namespace fragtrace {
+
+namespace {
+
+using nlohmann::json;
+
+// A .glb: magic, version, length; then chunks, each with length and kind before its bytes.
+constexpr size_t kLengthAt = 8;
+constexpr size_t kHeaderSize = 12;
+constexpr size_t kChunkHeaderSize = 8;
+constexpr size_t kAlignment = 4;
+
+uint32_t wordAt(const std::string& bytes, size_t at) {
+  uint32_t word = 0;
+  for (size_t i = 0; i < 4; ++i) word |= uint32_t(uint8_t(bytes.at(at + i))) << (8 * i);
+  return word;
+}
+
+void writeWord(std::string& bytes, size_t at, size_t word) {
+  for (size_t i = 0; i < 4; ++i) bytes.at(at + i) = char(uint8_t(word >> (8 * i)));
+}
+
+/// The .glb with another text as its JSON; what follows that chunk stays.
+std::string withJson(const std::string& glb, std::string text) {
+  const size_t end = kHeaderSize + kChunkHeaderSize + wordAt(glb, kHeaderSize);
+  text.erase(text.find_last_not_of(' ') + 1);
+  text.append((kAlignment - text.size() % kAlignment) % kAlignment, ' ');
+  std::string result = glb.substr(0, kHeaderSize + kChunkHeaderSize) + text + glb.substr(end);
+  writeWord(result, kHeaderSize, text.size());
+  writeWord(result, kLengthAt, result.size());
+  return result;
+}
+
+/// The first file that the document refers to; empty: none.
+std::string fileReferredTo(const json& value) {
+  if (!value.is_structured()) return {};
+  for (const auto& [name, member] : value.items()) {
+    const bool isUri = value.is_object() && name == "uri" && member.is_string();
+    if (isUri && !isDataUri(member.get_ref<const std::string&>())) return member.get<std::string>();
+    if (std::string found = fileReferredTo(member); !found.empty()) return found;
+  }
+  return {};
+}
+
+std::filesystem::path folderOf(const std::filesystem::path& file) {
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(file).parent_path());
+}
+
+}  // namespace
+
+void writeChanged(const std::filesystem::path& from, const std::filesystem::path& to,
+                  std::span<const SetNumber> set) {
+  const std::vector<uint8_t> read = readWholeFile(from);
+  std::string bytes(read.begin(), read.end());
+  const bool isGlb = bytes.starts_with("glTF");
+  try {
+    if (isGlb) bytes.resize(std::min<size_t>(bytes.size(), wordAt(bytes, kLengthAt)));
+    const std::string text =
+        isGlb ? bytes.substr(kHeaderSize + kChunkHeaderSize, wordAt(bytes, kHeaderSize)) : bytes;
+    const json document = json::parse(text);
+    const std::string other = fileReferredTo(document);
+    if (!other.empty() && folderOf(from) != folderOf(to))
+      throw InputError(from.filename().string() + " refers to other files, such as " + other +
+                       ": it can only be written into " + folderOf(from).string());
+    const std::string changed = withNumbers(text, set);
+    bytes = isGlb ? withJson(bytes, changed) : changed;
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw InputError(from.string() + ": " + error.what());
+  }
+  replaceFile(to, {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// A scene's file with other numbers, for the next user of the model.
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "scene/selection.h"
+
+namespace fragtrace {
+
+/// Writes the .gltf or .glb `from` to `to`, with these numbers in its JSON; all other bytes stay, but for the
+/// lengths in a .glb and the spaces at the end of its JSON. Buffers and images are referred to as before: a
+/// file that refers to others is only written into its own folder. `to` may be `from`. Throws InputError if
+/// the file cannot be read, or is not to be written under that name; RenderError if it cannot be written.
+void writeChanged(const std::filesystem::path& from, const std::filesystem::path& to,
+                  std::span<const SetNumber> set);
+
+}  // namespace fragtrace

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// The numbers of materials and lights that can be set by eye, and what a scene becomes by them.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+#include "scene/selection.h"
+
+namespace fragtrace {
+
+/// A number or a colour of a material.
+struct Factor {
+  const char* label;
+  const char* part;    ///< the object of the material that holds it: "", an extension or pbrMetallicRoughness
+  const char* member;  ///< its name in there
+  size_t width;        ///< numbers in the file; 3 and 4: a linear colour
+  float least;
+  float most;
+  bool logarithmic;
+  float* (*at)(Material& material);  ///< the first of these numbers
+};
+std::span<const Factor> factors();
+
+/// Returns true if the file's material has the object that holds the factor, and the factor is of use.
+bool isOffered(const Factor& factor, const Material& material);
+
+/// The numbers of the factor, with its place in the file.
+SetNumber numberOf(const Factor& factor, const Material& material);
+
+/// The numbers of a light, at its index among the file's.
+SetNumber intensityOf(const LightSource& light, size_t index);
+SetNumber colorOf(const LightSource& light, size_t index);
+
+/// The shortest number in decimal digits that is this one as a float, so that the same is read from a file.
+double shortest(float value);
+
+/// Sets what of this is a factor of the material.
+void setFactors(Material& material, std::span<const SetNumber> set);
+
+/// Sets what of this is of the light, at its index among the file's.
+void setLight(LightSource& light, size_t index, std::span<const SetNumber> set);
+
+/// Makes the scene's materials and lights those of the file, which these are, with these numbers in their
+/// place. Returns false, and changes nothing, if more may have to change than these: another number is among
+/// them, or a material becomes one of another kind, for which meshes are built otherwise.
+bool setByEye(Scene& scene, std::span<const Material> materials, std::span<const LightSource> lights,
+              std::span<const SetNumber> set);
+
+}  // namespace fragtrace

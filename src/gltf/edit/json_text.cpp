@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/edit/json_text.h"
+
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+namespace fragtrace {
+
+namespace {
+
+constexpr const char* kSpace = " \t\r\n";
+
+/// A part of the text: its first byte, and the byte after its last.
+struct Range {
+  size_t begin = 0;
+  size_t end = 0;
+};
+
+size_t skipSpace(const std::string& text, size_t at) {
+  return std::min(text.find_first_not_of(kSpace, at), text.size());
+}
+
+/// From its opening quote on.
+size_t endOfString(const std::string& text, size_t at) {
+  for (++at; text.at(at) != '"'; ++at) at += text[at] == '\\';
+  return at + 1;
+}
+
+size_t endOfValue(const std::string& text, size_t at) {
+  if (text.at(at) == '"') return endOfString(text, at);
+  if (text[at] != '{' && text[at] != '[') return std::min(text.find_first_of(",]} \t\r\n", at), text.size());
+  size_t depth = 0;
+  do {
+    if (text.at(at) == '"') {
+      at = endOfString(text, at);
+      continue;
+    }
+    if (text[at] == '{' || text[at] == '[') ++depth;
+    if (text[at] == '}' || text[at] == ']') --depth;
+    ++at;
+  } while (depth > 0);
+  return at;
+}
+
+/// A member of an object, or an element of an array, which has no key.
+struct Entry {
+  Range key;  ///< with its quotes
+  Range value;
+};
+
+/// Those of the object or array that begins there.
+std::vector<Entry> entriesAt(const std::string& text, size_t at) {
+  const bool isObject = text.at(at) == '{';
+  std::vector<Entry> entries;
+  at = skipSpace(text, at + 1);
+  while (text.at(at) != '}' && text[at] != ']') {
+    Entry entry;
+    if (isObject) {
+      entry.key = {at, endOfString(text, at)};
+      at = skipSpace(text, skipSpace(text, entry.key.end) + 1);  // behind the colon
+    }
+    entry.value = {at, endOfValue(text, at)};
+    entries.push_back(entry);
+    at = skipSpace(text, entry.value.end);
+    if (text.at(at) == ',') at = skipSpace(text, at + 1);
+  }
+  return entries;
+}
+
+std::string nameOf(const std::string& text, const Range& key) {
+  return nlohmann::json::parse(text.substr(key.begin, key.end - key.begin)).get<std::string>();
+}
+
+/// The entry of that name or index. Of members of the same name the last counts, as for the reader.
+std::optional<Entry> entryOf(const std::string& text, const std::vector<Entry>& entries,
+                             const std::string& name) {
+  std::optional<Entry> found;
+  for (size_t i = 0; i < entries.size(); ++i) {
+    const bool isMember = entries[i].key.end > 0;
+    if (isMember ? nameOf(text, entries[i].key) == name : std::to_string(i) == name) found = entries[i];
+  }
+  return found;
+}
+
+/// The shortest digits that are read as the same number.
+std::string numberText(double number) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, number).ptr};
+}
+
+std::string valueText(const std::vector<double>& values, bool isArray) {
+  if (!isArray) return numberText(values.at(0));
+  std::string text = "[";
+  for (const double value : values) text += (text.size() > 1 ? ", " : "") + numberText(value);
+  return text + "]";
+}
+
+void replaceNumber(std::string& text, const Range& range, double number) {
+  double before = 0.0;
+  const char* end = text.data() + range.end;
+  const auto read = std::from_chars(text.data() + range.begin, end, before);
+  if (read.ptr == end && float(before) == float(number)) return;
+  text.replace(range.begin, range.end - range.begin, numberText(number));
+}
+
+void replaceValue(std::string& text, const Range& range, const std::vector<double>& values) {
+  if (text[range.begin] != '[') return replaceNumber(text, range, values.at(0));
+  const std::vector<Entry> elements = entriesAt(text, range.begin);
+  if (elements.size() != values.size()) {
+    text.replace(range.begin, range.end - range.begin, valueText(values, true));
+    return;
+  }
+  // From behind, so that places before stay.
+  for (size_t i = values.size(); i-- > 0;) replaceNumber(text, elements[i].value, values[i]);
+}
+
+/// Inserts a member behind the last one of the object that begins there, and as far from it as that one is
+/// from what stands before it.
+void insertMember(std::string& text, size_t object, const std::vector<Entry>& members,
+                  const std::string& name, const std::string& value) {
+  const std::string key = nlohmann::json(name).dump();
+  if (members.empty()) {
+    text.insert(object + 1, key + ": " + value);
+    return;
+  }
+  const Entry& last = members.back();
+  const size_t before = text.find_last_not_of(kSpace, last.key.begin - 1) + 1;
+  const std::string space = text.substr(before, last.key.begin - before);
+  const std::string colon = text.substr(last.key.end, last.value.begin - last.key.end);
+  text.insert(last.value.end, "," + space + key + colon + value);
+}
+
+void setNumber(std::string& text, const SetNumber& set, bool isArray) {
+  std::vector<std::string> parts;
+  for (nlohmann::json::json_pointer at(set.pointer); !at.empty(); at.pop_back())
+    parts.insert(parts.begin(), at.back());
+  constexpr size_t kMark = 3;  // bytes of UTF-8's mark
+  size_t at = skipSpace(text, text.starts_with("\xef\xbb\xbf") ? kMark : 0);
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const char first = text.at(at);
+    const std::vector<Entry> entries =
+        first == '{' || first == '[' ? entriesAt(text, at) : std::vector<Entry>();
+    const std::optional<Entry> entry = entryOf(text, entries, parts[i]);
+    if (!entry && first != '{') throw std::runtime_error("the file has no " + set.pointer);
+    if (!entry) {
+      std::string value = valueText(set.values, isArray);
+      for (size_t inner = parts.size() - 1; inner > i; --inner)
+        value.insert(0, "{" + nlohmann::json(parts[inner]).dump() + ": ").append("}");
+      return insertMember(text, at, entries, parts[i], value);
+    }
+    if (i + 1 == parts.size()) return replaceValue(text, entry->value, set.values);
+    at = entry->value.begin;
+  }
+}
+
+}  // namespace
+
+std::string withNumbers(std::string text, std::span<const SetNumber> set) {
+  for (const SetNumber& one : set) setNumber(text, one, one.values.size() > 1);
+  return text;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Numbers of the file that the viewer's user sets: their way into the scene that is drawn, and into a file.
+#include <algorithm>
+
+#include "gltf/edit/changed_file.h"
+#include "gltf/edit/factors.h"
+#include "view/live/view_tracer.h"
+
+namespace fragtrace {
+
+bool ViewTracer::setSurfaces(const TraceRequest& request) {
+  const SceneSelection& wanted = request.sides[0].selection;
+  const auto isText = [](const RenderOptions& side) {
+    return side.device.traversal == TraversalMethod::Literals;
+  };
+  // An animation may drive the same numbers, and lines are built anew for another camera.
+  if (!sameMoment(wanted, loadedOptions_.selection) || wanted.animationTime ||
+      !loaded_->scene.strokes.empty() || std::ranges::any_of(request.sides, isText))
+    return false;
+  const auto traits = [&](const Scene& scene) {
+    return traitsOf(scene, loaded_->environment.kind, !loaded_->environment.backdrop.values.empty());
+  };
+  const TraitSet before = traits(loaded_->scene);
+  if (!setByEye(loaded_->scene, fileMaterials_, fileLights_, wanted.set) || traits(loaded_->scene) != before)
+    return false;
+  takePose(loadedOptions_.selection, wanted);
+  programs_->showSurfaces(wanted);
+  return true;
+}
+
+void ViewTracer::saveModel(const std::filesystem::path& path) {
+  const std::vector<SetNumber>& set = request_.sides.front().selection.set;
+  try {
+    writeChanged(loadedOptions_.scene, path, set);
+    exchange_.tell("wrote " + path.string());
+  } catch (const std::exception& error) {
+    exchange_.tell(std::string("not written: ") + error.what());
+  }
+}
+
+}  // namespace fragtrace

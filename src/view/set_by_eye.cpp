@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "view/set_by_eye.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "gltf/edit/factors.h"
+
+namespace fragtrace {
+
+namespace {
+
+template <typename... Values>
+std::string text(const char* format, Values... values) {
+  char buffer[256];
+  std::snprintf(buffer, sizeof buffer, format, values...);
+  return buffer;
+}
+
+}  // namespace
+
+std::vector<std::string> materialLines(const Material& m) {
+  std::vector<std::string> lines;
+  const auto textured = [](const TextureRef& texture) { return texture.present() ? ", textured" : ""; };
+  const auto number = [&](const char* name, float value, bool shown, const TextureRef& texture = {}) {
+    if (shown) lines.push_back(text("%s %.3g%s", name, double(value), textured(texture)));
+  };
+  const auto color = [&](const char* name, glm::vec3 value, bool shown, const TextureRef& texture = {}) {
+    if (shown)
+      lines.push_back(text("%s %.3g, %.3g, %.3g%s", name, double(value.r), double(value.g), double(value.b),
+                           textured(texture)));
+  };
+  color("base colour", glm::vec3(m.baseColorFactor), true, m.baseColorTexture);
+  number("alpha", m.baseColorFactor.a, m.alphaMode != AlphaMode::Opaque);
+  if (m.alphaMode != AlphaMode::Opaque)
+    lines.push_back(m.alphaMode == AlphaMode::Mask ? text("alpha mask at %.3g", double(m.alphaCutoff))
+                                                   : "alpha blend");
+  number("metallic", m.metallicFactor, true, m.metallicRoughnessTexture);
+  number("roughness", m.roughnessFactor, true, m.metallicRoughnessTexture);
+  number("normal map strength", m.normalScale, m.normalTexture.present());
+  number("index of refraction", m.ior, m.transmissive() || m.ior != 1.5f);
+  number("transmission", m.transmissionFactor, m.transmissive(), m.transmissionTexture);
+  number("thickness", m.thicknessFactor, m.thicknessFactor > 0.0f);
+  color("attenuation colour", m.attenuationColor, std::isfinite(m.attenuationDistance));
+  number("attenuation distance", m.attenuationDistance, std::isfinite(m.attenuationDistance));
+  number("specular", m.specularFactor, m.scalesSpecular(), m.specularTexture);
+  color("specular colour", m.specularColorFactor, m.scalesSpecular(), m.specularColorTexture);
+  number("clearcoat", m.clearcoatFactor, m.clearcoated(), m.clearcoatTexture);
+  number("clearcoat roughness", m.clearcoatRoughnessFactor, m.clearcoated(), m.clearcoatRoughnessTexture);
+  color("sheen colour", m.sheenColorFactor, m.hasSheen(), m.sheenColorTexture);
+  number("sheen roughness", m.sheenRoughnessFactor, m.hasSheen(), m.sheenRoughnessTexture);
+  number("anisotropy", m.anisotropyStrength, m.anisotropic(), m.anisotropyTexture);
+  number("iridescence", m.iridescenceFactor, m.iridescent(), m.iridescenceTexture);
+  number("diffuse transmission", m.diffuseTransmissionFactor, m.diffuseTransmissionFactor > 0.0f,
+         m.diffuseTransmissionTexture);
+  number("dispersion", m.dispersion, m.disperses());
+  color("emits", m.emissiveFactor * m.emissiveStrength, m.emissive(), m.emissiveTexture);
+  if (m.unlit) lines.emplace_back("unlit");
+  if (m.doubleSided) lines.emplace_back("double-sided");
+  return lines;
+}
+
+void setNumber(ViewState& state, SetNumber number, const SetNumber& inFile) {
+  std::vector<SetNumber> set = state.sides[0].selection.set;
+  std::erase_if(set, [&](const SetNumber& one) { return one.pointer == number.pointer; });
+  const auto sameFloat = [](double a, double b) { return float(a) == float(b); };
+  if (!std::ranges::equal(number.values, inFile.values, sameFloat)) set.push_back(std::move(number));
+  for (RenderOptions& side : state.sides) side.selection.set = set;
+  state.scene->options.selection = state.sides[0].selection;
+}
+
+Material shownMaterial(const ViewState& state, size_t index) {
+  Material material = state.scene->materials[index];
+  setFactors(material, state.sides[0].selection.set);
+  return material;
+}
+
+std::vector<std::string> pickLines(const ViewState& state, const PickAnswer& answer) {
+  std::vector<std::string> lines = answer.lines;
+  if (!answer.material || *answer.material >= state.scene->materials.size()) return lines;
+  for (const std::string& line : materialLines(shownMaterial(state, *answer.material)))
+    lines.push_back("  " + line);
+  return lines;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Materials and lights with the numbers that the viewer's user sets.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "view/view_state.h"
+
+namespace fragtrace {
+
+/// Sets numbers of the scene's materials or lights on both sides. `inFile` are the file's at that place: they
+/// end what was set there.
+void setNumber(ViewState& state, SetNumber number, const SetNumber& inFile);
+
+/// A material's values, a line each: those that the user sees first, and of the others those that are not the
+/// defaults.
+std::vector<std::string> materialLines(const Material& material);
+
+/// The material at that index of the scene's, with the numbers that are set.
+Material shownMaterial(const ViewState& state, size_t index);
+
+/// The lines of the answer, and the values of the material as it is now.
+std::vector<std::string> pickLines(const ViewState& state, const PickAnswer& answer);
+
+}  // namespace fragtrace

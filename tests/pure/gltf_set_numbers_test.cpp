@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// Numbers in place of the file's: as they are loaded, set in a scene that is there, and written.
+#include <gtest/gtest.h>
+
+#include "gltf/edit/changed_file.h"
+#include "gltf/edit/factors.h"
+#include "gltf/edit/json_text.h"
+#include "gltf_builder.h"
+#include "image/files/whole_file.h"
+
+namespace fragtrace::gltf_test {
+namespace {
+
+const std::string kRoughness = "/materials/0/pbrMetallicRoughness/roughnessFactor";
+const std::string kIntensity = "/extensions/KHR_lights_punctual/lights/0/intensity";
+
+/// A triangle of a coated material, which a lamp lights.
+GltfBuilder coated() {
+  GltfBuilder builder;
+  builder.addTriangle()["material"] = 0;
+  builder.root["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_lights_punctual"};
+  builder.root["materials"] = {{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatFactor", 0.5}}}}}}};
+  builder.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "point"}, {"color", {0.25, 0.5, 0.1}}, {"intensity", 543.5141306588226}}};
+  builder.root["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  return builder;
+}
+
+Scene loadWith(std::vector<SetNumber> set) {
+  GltfBuilder builder = coated();
+  GltfOptions options;
+  options.selection.set = std::move(set);
+  return load(builder, options);
+}
+
+/// All that can be set, of the first material and the first lamp.
+std::vector<float> numbersOf(const Scene& scene) {
+  std::vector<float> numbers;
+  Material material = scene.materials.at(0);
+  for (const Factor& factor : factors())
+    numbers.insert(numbers.end(), factor.at(material), factor.at(material) + factor.width);
+  for (int c = 0; c < 3; ++c) numbers.push_back(scene.lights.at(0).intensity[c]);
+  return numbers;
+}
+
+TEST(SetNumbers, AreThoseOfAFileThatHasThem) {
+  GltfBuilder builder = coated();
+  builder.root["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"] = 0.3;
+  builder.root["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = 7.1;
+  const Scene scene = loadWith({{kRoughness, {0.9}}, {kRoughness, {0.3}}, {kIntensity, {7.1}}});
+  EXPECT_EQ(numbersOf(scene), numbersOf(load(builder)));
+  EXPECT_EQ(scene.materials[0].roughnessFactor, 0.3f);
+}
+
+TEST(SetNumbers, NeedAPlaceOfTheFileAndItsWidth) {
+  for (const char* wrong : {"/materials/1/pbrMetallicRoughness/roughnessFactor", "/materials/0/name",
+                            "/materials/0/extensions/KHR_materials_sheen/sheenRoughnessFactor", "/nodes"})
+    EXPECT_THROW(loadWith({{wrong, {0.5}}}), UsageError) << wrong;
+  EXPECT_THROW(loadWith({{kRoughness, {0.5, 0.5}}}), UsageError);
+  EXPECT_THROW(loadWith({{"/materials/0/emissiveFactor", {1.0}}}), UsageError);
+}
+
+TEST(SetNumbers, MakeTheSceneThatWouldBeLoaded) {
+  const std::string coat = "/materials/0/extensions/KHR_materials_clearcoat/clearcoat";
+  const std::vector<SetNumber> all = {
+      {kRoughness, {0.3}},
+      {"/materials/0/pbrMetallicRoughness/metallicFactor", {0.7}},
+      {"/materials/0/pbrMetallicRoughness/baseColorFactor", {0.1, 0.2, 0.3, 1}},
+      {coat + "Factor", {0.25}},
+      {coat + "RoughnessFactor", {0.125}},
+      {kIntensity, {7.1}},
+      {"/extensions/KHR_lights_punctual/lights/0/color", {0.9, 0.1, 0.3}}};
+  const Scene file = loadWith({});
+  Scene scene = file;
+  ASSERT_TRUE(setByEye(scene, file.materials, file.lightSources, all));
+  EXPECT_EQ(numbersOf(scene), numbersOf(loadWith(all)));
+  // What is no longer set is the file's again.
+  ASSERT_TRUE(setByEye(scene, file.materials, file.lightSources, {}));
+  EXPECT_EQ(numbersOf(scene), numbersOf(file));
+}
+
+TEST(SetNumbers, OfAnotherKindOfMaterialAskForAnotherScene) {
+  const Scene file = loadWith({});
+  Scene scene = file;
+  for (const SetNumber& set :
+       {SetNumber{"/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor", {0}},
+        SetNumber{"/materials/0/emissiveFactor", {1, 1, 1}}, SetNumber{kRoughness, {0.01}},  // a mirror
+        SetNumber{"/materials/0/alphaCutoff", {0.25}}}) {
+    EXPECT_FALSE(setByEye(scene, file.materials, file.lightSources, {{set}})) << set.pointer;
+  }
+  EXPECT_EQ(numbersOf(scene), numbersOf(file));
+}
+
+TEST(SetNumbers, FactorsAreOfferedWhereTheFileHasTheirObject) {
+  const Scene scene = loadWith({});
+  std::string offered;
+  for (const Factor& factor : factors()) {
+    if (isOffered(factor, scene.materials[0])) offered += std::string(factor.member) + " ";
+  }
+  EXPECT_EQ(offered,
+            "baseColorFactor metallicFactor roughnessFactor emissiveFactor clearcoatFactor "
+            "clearcoatRoughnessFactor ");
+  EXPECT_FALSE(isOffered(factors()[0], Material{}));
+}
+
+TEST(JsonText, AllOtherBytesStay) {
+  const auto changed = [](const std::string& text, const char* pointer, std::vector<double> values) {
+    return withNumbers(text, {{{pointer, std::move(values)}}});
+  };
+  EXPECT_EQ(changed("{ \"a\" : [ {\"b\":1.50,\"c\":\"}]\\\"\"} ] }\n", "/a/0/b", {0.1}),
+            "{ \"a\" : [ {\"b\":0.1,\"c\":\"}]\\\"\"} ] }\n");
+  // Numbers that are the same as floats are left as they are written.
+  EXPECT_EQ(changed("{\"c\":[ 0.10000000149 ,2e-1,\n3]}", "/c", {0.1, 0.2, 0.5}),
+            "{\"c\":[ 0.10000000149 ,2e-1,\n0.5]}");
+  EXPECT_EQ(changed("{\"c\":[1,2]}", "/c", {1, 2, 3}), "{\"c\":[1, 2, 3]}");
+  // The reader takes the last of two, and \u0061 is a.
+  EXPECT_EQ(changed("{\"a\":1,\"\\u0061\":2}", "/a", {3}), "{\"a\":1,\"\\u0061\":3}");
+  EXPECT_EQ(changed("\xef\xbb\xbf{\"a/b\":1}", "/a~1b", {2}), "\xef\xbb\xbf{\"a/b\":2}");
+  EXPECT_THROW(changed("{\"a\":[1]}", "/a/1", {2}), std::runtime_error);
+  EXPECT_THROW(changed("{\"a\":1}", "/a/b", {2}), std::runtime_error);
+}
+
+TEST(JsonText, MissingMembersStandBehindTheLast) {
+  const auto changed = [](const std::string& text, std::vector<double> values) {
+    return withNumbers(text, {{{"/m/0/p/r", std::move(values)}}});
+  };
+  EXPECT_EQ(changed("{\"m\":[{\n  \"n\": 1,\n  \"p\": {\n    \"q\": [1]\n  }\n}]}", {0.5}),
+            "{\"m\":[{\n  \"n\": 1,\n  \"p\": {\n    \"q\": [1],\n    \"r\": 0.5\n  }\n}]}");
+  EXPECT_EQ(changed("{\"m\":[{\"n\":1}]}", {0.5, 1}), "{\"m\":[{\"n\":1,\"p\":{\"r\": [0.5, 1]}}]}");
+  EXPECT_EQ(changed("{\"m\":[{ }]}", {0.5}), "{\"m\":[{\"p\": {\"r\": 0.5} }]}");
+}
+
+std::string contentOf(const std::filesystem::path& path) {
+  const std::vector<uint8_t> bytes = readWholeFile(path);
+  return {bytes.begin(), bytes.end()};
+}
+
+TEST(ChangedFile, OfAGlbKeepsItsOtherChunks) {
+  const TemporaryFolder folder;
+  GltfBuilder builder = coated();
+  const auto from = folder.write("a.glb", builder.glb());
+  const auto to = folder.path() / "b.glb";
+  for (const double roughness : {0.5, 0.25, 0.125, 0.0625}) {  // of all lengths that are padded
+    writeChanged(from, to, {{{kRoughness, {roughness}}}});
+    const Scene scene = loadGltf(to);
+    EXPECT_EQ(scene.materials.at(0).roughnessFactor, float(roughness));
+    EXPECT_TRUE(scene.warnings.empty());
+    const std::string bytes = contentOf(to);
+    EXPECT_EQ(bytes.size() % 4, 0u);
+    const std::string binary = contentOf(from).substr(contentOf(from).find(std::string("BIN\0", 4)) - 4);
+    EXPECT_TRUE(bytes.ends_with(binary));
+  }
+  writeChanged(from, to, {});
+  EXPECT_EQ(contentOf(to), contentOf(from));
+}
+
+TEST(ChangedFile, ThatRefersToOthersStaysInItsFolder) {
+  const TemporaryFolder folder;
+  const TemporaryFolder other;
+  GltfBuilder builder = coated();
+  const auto whole = folder.write("whole.gltf", builder.text());
+  builder.root["buffers"] = {{{"byteLength", builder.buffer().size()}, {"uri", "a.bin"}}};
+  folder.write("a.bin", builder.buffer());
+  const auto refers = folder.write("refers.gltf", builder.text());
+  writeChanged(whole, other.path() / "whole.gltf", {{{kRoughness, {0.5}}}});
+  EXPECT_EQ(loadGltf(other.path() / "whole.gltf").materials.at(0).roughnessFactor, 0.5f);
+  writeChanged(refers, folder.path() / "b.gltf", {{{kRoughness, {0.5}}}});
+  EXPECT_EQ(loadGltf(folder.path() / "b.gltf").materials.at(0).roughnessFactor, 0.5f);
+  try {
+    writeChanged(refers, other.path() / "b.gltf", {{{kRoughness, {0.5}}}});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("refers to other files, such as a.bin"), std::string::npos);
+  }
+  EXPECT_FALSE(std::filesystem::exists(other.path() / "b.gltf"));
+}
+
+}  // namespace
+}  // namespace fragtrace::gltf_test

@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Numbers of materials and lights that are set by eye, and the file that keeps them."""
+import shutil
+import time
+
+from comfort_test import copied_command
+from support import SCENES, Case, main, pixels_of
+
+PANEL = ["--resolution", "560,400", "--spp", "1", "--stage", "phong"]
+
+
+class Materials(Case):
+    def start(self, name, **keywords):
+        self.scene = self.folder / "scene.gltf"
+        shutil.copy(SCENES / (name + ".gltf"), self.scene)
+        return self.view(self.scene, *PANEL, **keywords)
+
+    def picture(self, viewer):
+        return pixels_of(viewer.press_for_file("F12", ".png"))
+
+    def slide(self, viewer, name, part):
+        """Presses on a slider at a part of its width."""
+        x, y, width, height = viewer.until(lambda s: s["places"].get(name), f"a place of {name}")["places"][name]
+        time.sleep(0.1)
+        viewer.at(round(x + part * width), round(y + height / 2))
+        time.sleep(0.1)
+        before = viewer.status()["set"]
+        viewer.xdotool("click", 1)
+        self.states = set()
+        return viewer.until(lambda s: self.states.add(s["state"]) or (s["state"] == "resting" and s["set"] != before), "another number")["set"]
+
+    def changed(self, before, after, file="changed.gltf"):
+        """The scene with a text in place of another one."""
+        text = self.scene.read_text()
+        self.assertEqual(text.count(before), 1)
+        path = self.folder / file
+        path.write_text(text.replace(before, after))
+        return path
+
+    def test_a_slider_draws_the_picture_of_a_file_with_that_number(self):
+        viewer = self.start("plastics", environment={**self.screen.environment, "MESA_SHADER_CACHE_DISABLE": "true"})
+        whole = self.picture(viewer)
+        viewer.at(215, 215)
+        viewer.xdotool("click", 1)
+        self.assertIn("  roughness 0.1", viewer.rest(lambda s: s["pick"], "picked")["pick"])
+        (place, [number]), = self.slide(viewer, "Roughness", 0.9).items()
+        self.assertEqual(place, "/materials/4/pbrMetallicRoughness/roughnessFactor")
+        self.assertAlmostEqual(number, 0.9, delta=0.05)
+        self.assertIn(f"  roughness {number:.3g}", viewer.status()["pick"])
+        self.assertNotIn("compiling", self.states)
+        after = self.picture(viewer)
+        self.assertNotEqual(after, whole)
+        file = self.changed('"roughnessFactor": 0.1,', f'"roughnessFactor": {number},')
+        self.same(after, pixels_of(self.render(file, *PANEL)))
+        words = copied_command(self, viewer)
+        words[words.index("--output") + 1] = str(self.folder / "command.png")
+        self.assertEqual(words[words.index("--set") + 1], f"{place}={number}")
+        # The whole change is one step.
+        viewer.key("ctrl+z")
+        self.assertIn("  roughness 0.1", viewer.rest(lambda s: not s["set"], "as in the file")["pick"])
+        self.same(self.picture(viewer), whole)
+        viewer.key("ctrl+shift+s")
+        viewer.until(lambda s: "no number of a material or a light has been set" in s["messages"], "nothing to write")
+        viewer.key("ctrl+y")
+        viewer.rest(lambda s: s["set"], "again")
+        viewer.key("ctrl+shift+s")
+        viewer.until(lambda s: s["dialog"] == "list", "a list")
+        time.sleep(0.2)
+        viewer.key("Return")
+        written = self.folder / "scene-1.gltf"
+        viewer.until(lambda s: f"wrote {written}" in s["messages"], "the model")
+        self.assertEqual(written.read_bytes(), file.read_bytes())
+        self.ends_well(viewer, viewer.close())
+
+    def test_lights_too_and_what_needs_another_program(self):
+        viewer = self.start("lights")
+        viewer.click("section Scene")
+        viewer.click("lights")
+        viewer.click("light 1")
+        (place, [number]), = self.slide(viewer, "Light intensity", 0.3).items()
+        self.assertEqual(place, "/extensions/KHR_lights_punctual/lights/1/intensity")
+        file = self.changed('"intensity": 9,', f'"intensity": {number},')
+        self.same(self.picture(viewer), pixels_of(self.render(file, *PANEL)))
+        viewer.click("light 1")
+        viewer.click("lights")
+        viewer.click("materials")
+        viewer.click("material 0")
+        # Metal, which the scene has not had.
+        metal = self.slide(viewer, "Metallic", 0.9)["/materials/0/pbrMetallicRoughness/metallicFactor"][0]
+        file.write_text(file.read_text().replace('"metallicFactor": 0,', f'"metallicFactor": {metal},', 1))
+        self.same(self.picture(viewer), pixels_of(self.render(file, *PANEL)))
+        self.ends_well(viewer, viewer.close())
+
+
+if __name__ == "__main__":
+    main()
