@@ -109,6 +109,18 @@ void appendBackdrop(const Image& image, Words& texels) {
   }
 }
 
+double powerOf(const SunDisc& sun) { return glm::pi<double>() * luminance(sun.irradiance); }
+
+void appendSun(const SunDisc& sun, double mapPower, Words& texels) {
+  const double radius = layout::kSunRadius;
+  const double power = powerOf(sun);
+  // A sun that has set is never drawn.
+  const double chance = power > 0.0 ? power / (power + mapPower) : 0.0;
+  const double pdf = (2.0 + kLimbPowers.g) / (2.0 * glm::pi<double>() * radius * radius);
+  appendRow(texels, glm::vec4(sun.direction, chance));
+  appendRow(texels, glm::vec4(sun.radiance, pdf));
+}
+
 PackedEnvironment packEnvironment(const Image& image, EnvironmentDraws draws) {
   PackedEnvironment packed;
   packed.size = {image.width, image.height};

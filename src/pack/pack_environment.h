@@ -28,6 +28,12 @@ glm::vec3 upwardIrradiance(const Image& image);
 /// Appends radiance and, in place of a density, 0.
 void appendBackdrop(const Image& image, Words& texels);
 
+/// Luminance that the sun sends to a disk of unit radius.
+double powerOf(const SunDisc& sun);
+
+/// Appends the rows of a sun before a map of that power (shaders/sky/sun.glsl).
+void appendSun(const SunDisc& sun, double mapPower, Words& texels);
+
 /// An equirectangular map with R, G, B of at most 65,535 x 65,535 texels. Uses all processors.
 PackedEnvironment packEnvironment(const Image& image, EnvironmentDraws draws);
 

@@ -231,6 +231,7 @@ KeptArrays::KeptEnvironment packMap(const Environment& environment, const Shader
   const auto serves = [&](const KeptArrays::KeptEnvironment& packedBefore) {
     return packedBefore.draws == int(draws) && packedBefore.forCatcher == variant.shadowCatcher &&
            packedBefore.light == lightsByEnvironment(variant) &&
+           packedBefore.sun == has(variant.traits, Trait::Sun) &&
            has(variant.traits, Trait::Backdrop) == (packedBefore.backdropSize.x > 0);
   };
   if (keeps && kept->environment && serves(*kept->environment)) {
@@ -245,15 +246,23 @@ KeptArrays::KeptEnvironment packMap(const Environment& environment, const Shader
                                      map.power,
                                      int(draws),
                                      variant.shadowCatcher,
-                                     lightsByEnvironment(variant)};
+                                     lightsByEnvironment(variant),
+                                     has(variant.traits, Trait::Sun)};
   if (has(variant.traits, Trait::Backdrop)) {
     // A program that is forced to have one (bench variants) draws the map itself.
     const Image& seen = environment.backdrop.values.empty() ? environment.image : environment.backdrop;
     result.backdropSize = {seen.width, seen.height};
     appendBackdrop(seen, map.texels);
   }
-  if (result.light) appendEnvironmentLight(environment.image, map.texels);
+  if (result.sun) appendSun(environment.sun.value_or(SunDisc()), map.power, map.texels);
+  Image withSun;
+  if (result.light) appendEnvironmentLight(wholeMap(environment, withSun), map.texels);
   if (variant.shadowCatcher) result.upwardIrradiance = upwardIrradiance(environment.image);
+  if (environment.sun) {
+    const SunDisc& sun = *environment.sun;
+    result.power += powerOf(sun);
+    result.upwardIrradiance += glm::vec3(sun.irradiance * std::max(0.0, sun.direction.y));
+  }
   packed.buffers[layout::kEnvironmentBinding] = std::move(map.texels);
   packed.buffers[layout::kEnvironmentInversionBinding] = std::move(map.inversion);
   if (kept != nullptr) kept->environment = keeps ? std::optional(result) : std::nullopt;
