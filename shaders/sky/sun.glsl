@@ -32,7 +32,8 @@ float limbOf(float squared, float power) { return pow(squared, 0.5f * power); }
 vec4 withSun(vec4 there, vec3 direction) {
   Sun sun = sunOfSky();
   there.w *= 1.0f - sun.chance;
-  vec3 off = (direction - sun.direction) * (1.0f / kSunRadius);
+  float radius = kSunRadius;
+  vec3 off = (direction - sun.direction) / radius;
   float squared = 1.0f - dot(off, off);
   if (squared <= 0.0f) return there;
   float green = limbOf(squared, kLimbGreen);
@@ -47,7 +48,9 @@ vec4 withSun(vec4 there, vec3 direction) {
 
 /// A direction to the disc by the radiance of its green light.
 vec3 sampleSun(Sun sun, float u, float v) {
-  float squared = pow(1.0f - u, 2.0f / (2.0f + kLimbGreen));
-  vec2 around = unitCircle(v) * (kSunRadius * sqrt(max(0.0f, 1.0f - squared)));
+  float power = kLimbGreen;
+  float squared = pow(1.0f - u, 2.0f / (2.0f + power));
+  float radius = kSunRadius;
+  vec2 around = unitCircle(v) * (radius * sqrt(max(0.0f, 1.0f - squared)));
   return normalize(toWorld(frameAround(sun.direction), vec3(around, 1.0f)));
 }

@@ -97,4 +97,8 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
                    const ShaderVariant& variant, int textureSide = kLargestTextureSide,
                    KeptArrays* kept = nullptr, const DecodeProgress& progress = {});
 
+/// Packs the surroundings alone, for a scene that is there: all other arrays are unchanged.
+GpuScene packSurroundings(const Bvh& bvh, const Environment& environment, const ShaderVariant& variant,
+                          KeptArrays& kept);
+
 }  // namespace fragtrace

@@ -269,6 +269,19 @@ KeptArrays::KeptEnvironment packMap(const Environment& environment, const Shader
   return result;
 }
 
+double radiusOf(const Bvh& bvh) { return 0.5f * glm::length(bvh.bounds.extent()); }
+
+/// The map of a scene of that radius, and the part of the light that it has.
+void placeMap(const Environment& environment, const ShaderVariant& variant, double radius, KeptArrays* kept,
+              GpuScene& packed) {
+  const KeptArrays::KeptEnvironment surroundings = packMap(environment, variant, kept, packed);
+  packed.environmentSize = surroundings.size;
+  packed.backdropSize = surroundings.backdropSize;
+  packed.upwardIrradiance = surroundings.upwardIrradiance;
+  packed.lightShare.samplesEnvironment = has(variant.traits, Trait::EnvironmentSampling);
+  packed.lightShare.environment = surroundings.power * radius * radius;
+}
+
 std::vector<std::pair<std::string, size_t>> imagesOf(const Scene& scene) {
   std::vector<std::pair<std::string, size_t>> images;
   for (const EncodedImage& image : scene.images) images.emplace_back(image.name, image.bytes.size());
@@ -301,6 +314,18 @@ void packMaterials(const Scene& scene, const Bvh& bvh, const ShaderVariant& vari
 
 }  // namespace
 
+GpuScene packSurroundings(const Bvh& bvh, const Environment& environment, const ShaderVariant& variant,
+                          KeptArrays& kept) {
+  GpuScene packed;
+  packed.unchanged.fill(true);
+  if (!has(variant.traits, Trait::Environment)) return packed;
+  kept.environment.reset();
+  packed.unchanged[layout::kEnvironmentBinding] = false;
+  packed.unchanged[layout::kEnvironmentInversionBinding] = false;
+  placeMap(environment, variant, radiusOf(bvh), &kept, packed);
+  return packed;
+}
+
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
                    const ShaderVariant& variant, int textureSide, KeptArrays* kept,
                    const DecodeProgress& progress) {
@@ -309,7 +334,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   const TraitSet& traits = variant.traits;
   packed.grid = makeGrid(bvh.bounds);
   packed.leafCount = uint32_t(bvh.leaves.size());
-  const double radius = 0.5f * glm::length(bvh.bounds.extent());
+  const double radius = radiusOf(bvh);
   packed.buffers[kNodesBinding] = packNodes(bvh, packed.grid);
   if (!scene.instances.empty()) appendInstances(scene, bvh, packed.buffers[kNodesBinding]);
   packed.buffers[kLeavesBinding] = packLeaves(scene, bvh);
@@ -336,12 +361,9 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
     packed.punctualLights = uint32_t(scene.lights.size());
   }
   if (has(traits, Trait::Environment)) {
-    const KeptArrays::KeptEnvironment surroundings = packMap(environment, variant, kept, packed);
-    packed.environmentSize = surroundings.size;
-    packed.backdropSize = surroundings.backdropSize;
-    packed.upwardIrradiance = surroundings.upwardIrradiance;
-    packed.lightShare = {has(traits, Trait::EnvironmentSampling), surroundings.power * radius * radius,
-                         emitters.power, emitters.count > 0};
+    placeMap(environment, variant, radius, kept, packed);
+    packed.lightShare.emitters = emitters.power;
+    packed.lightShare.anyEmitters = emitters.count > 0;
   }
 
   packMaterials(scene, bvh, variant, emitters.materialPdf, textures, packed);

@@ -38,6 +38,8 @@ void warn(const RenderOptions& options, const std::string& what, std::vector<std
   say(options, "warning: " + warnings.back());
 }
 
+}  // namespace
+
 Environment skyOf(const RenderOptions& options, std::vector<std::string>& warnings) {
   constexpr double kNight = -18.0;  // degrees
   const SkyOptions& sky = options.light.sky;
@@ -53,8 +55,6 @@ Environment skyOf(const RenderOptions& options, std::vector<std::string>& warnin
     environment.backdrop = blurredMap(withDisc(environment.image, map.sun), options.light.backgroundBlur);
   return environment;
 }
-
-}  // namespace
 
 LinearImage readMap(const RenderOptions& options) {
   LinearImage image = readLinearImage(options.light.hdriFile, options.limits.memoryBytes);

@@ -274,4 +274,11 @@ void replaceScene(Tracer& tracer, const Context& context, const LoadedScene& loa
   stats.uploadMs = stats.phases.back().end - stats.phases.back().begin;
 }
 
+void replaceSurroundings(Tracer& tracer, const LoadedScene& loaded) {
+  ShaderVariant everything = tracer.variant;
+  for (const ShaderVariant& aov : tracer.aovs) everything.traits |= aov.traits;
+  tracer.renderer->replaceSurroundings(
+      packSurroundings(loaded.bvh, loaded.environment, everything, tracer.kept));
+}
+
 }  // namespace fragtrace

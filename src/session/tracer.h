@@ -42,4 +42,7 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
 void replaceScene(Tracer& tracer, const Context& context, const LoadedScene& loaded,
                   const RenderOptions& options, Statistics& stats);
 
+/// Packs and uploads other surroundings of the same kind. Throws RenderError.
+void replaceSurroundings(Tracer& tracer, const LoadedScene& loaded);
+
 }  // namespace fragtrace

@@ -8,6 +8,12 @@ SunPlace sunOf(const SkyOptions& sky) {
   return days && sky.place ? sunPlaceAt(*days, *sky.place) : sky.sun;
 }
 
+void placeSun(SkyOptions& sky, const SunPlace& sun) {
+  sky.sun = sun;
+  sky.time.clear();
+  sky.place.reset();
+}
+
 double environmentTurn(const LightOptions& light) {
   return light.hdriRotationDegrees - (light.sky.on ? sunOf(light.sky).azimuth : 0.0);
 }

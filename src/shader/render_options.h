@@ -253,6 +253,9 @@ inline bool hasMap(const RenderOptions& o) {
 /// The sun's place in the sky, before the environment is turned.
 SunPlace sunOf(const SkyOptions& sky);
 
+/// Puts the sun there, whatever the time said.
+void placeSun(SkyOptions& sky, const SunPlace& sun);
+
 /// The turn of the environment about +Y in degrees. A sky is made with the sun in the north.
 double environmentTurn(const LightOptions& light);
 

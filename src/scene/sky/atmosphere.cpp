@@ -104,7 +104,7 @@ RayPoint alongRay(double radius, double cosine, double distance) {
 
 double sunShare(double radius, double sunCosine) {
   const double edge = std::asin(sunCosine) - std::asin(horizonOf(radius));
-  const double x = std::clamp(edge / (kSunRadius * kHalfTurn / 180.0), -1.0, 1.0);
+  const double x = std::clamp(edge / (kSunRadiusDegrees * kHalfTurn / 180.0), -1.0, 1.0);
   return 0.5 + (x * std::sqrt(1.0 - x * x) + std::asin(x)) / kHalfTurn;
 }
 

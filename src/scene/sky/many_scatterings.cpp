@@ -11,7 +11,8 @@ namespace fragtrace {
 namespace {
 
 constexpr int kHeights = 24;
-constexpr int kSuns = 48;  // cosines of the sun's angle
+constexpr int kSuns = 65;  // cosines of the sun's angle; the middle one is 0
+constexpr double kNight = 0.3;  // a sun with a cosine below -0.3 lights no air
 
 /// The places of the table are dense at the ground, and where the sun is at the horizon.
 double heightOf(int row) {
@@ -21,7 +22,7 @@ double heightOf(int row) {
 
 double sunCosineOf(int column) {
   const double s = 2.0 * column / (kSuns - 1) - 1.0;
-  return s * std::abs(s);
+  return s * std::abs(s) * (s < 0.0 ? kNight : 1.0);
 }
 
 /// The cosine between two directions by their cosines to the zenith and the turn between them.
@@ -165,7 +166,7 @@ ScatteringTable::ScatteringTable(const Atmosphere& air, const AirTable& table, d
 Spectrum ScatteringTable::at(double radius, double sunCosine) const {
   const double height = std::max(0.0, radius - kGroundRadius) / (kAirTop - kGroundRadius);
   const double y = std::min(std::sqrt(height), 1.0) * (kHeights - 1);
-  const double root = std::sqrt(std::min(std::abs(sunCosine), 1.0));
+  const double root = std::sqrt(std::min(std::abs(sunCosine) / (sunCosine < 0.0 ? kNight : 1.0), 1.0));
   const double x = 0.5 * (1.0 + (sunCosine < 0.0 ? -root : root)) * (kSuns - 1);
   const size_t x0 = std::min(size_t(x), size_t(kSuns - 2));
   const size_t y0 = std::min(size_t(y), size_t(kHeights - 2));

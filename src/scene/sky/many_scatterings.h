@@ -17,8 +17,8 @@ Quadrature quadratureOf(int count);
 
 /// The number of directions (heights, and half as many turns) and of steps along each.
 struct ScatteringSteps {
-  int directions = 8;
-  int steps = 20;
+  int directions = 6;
+  int steps = 16;
 };
 
 /// Radiance by which the light scattered twice or more often is scattered there in any direction, in units of

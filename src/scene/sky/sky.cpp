@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kSkyWidth = 256;
 constexpr int kSkyHeight = 512;  // finer, as the light changes fast above the horizon
-constexpr int kRaySteps = 48;    // along a ray
+constexpr int kRaySteps = 32;    // along a ray
 
 /// A step along a ray that starts on the ground.
 struct RayStep {
@@ -75,7 +75,7 @@ Spectrum radianceAlong(const SkyAir& sky, const std::vector<RayStep>& steps, dou
 /// The part of the disc above the horizon: how much of its light that is, and what the air lets pass of it.
 SunDisc discAt(const SkyAir& sky, double elevation) {
   constexpr int kParts = 32;
-  const double radius = glm::radians(kSunRadius);
+  const double radius = glm::radians(kSunRadiusDegrees);
   SunDisc sun;
   const double angle = glm::radians(elevation);
   sun.direction = {0.0, std::sin(angle), -std::cos(angle)};

@@ -56,6 +56,9 @@ class ViewPrograms {
   /// as replaceScene().
   void showPose(const RenderOptions& options);
 
+  /// The same for other surroundings of the same kind. Throws as replaceSurroundings().
+  void showSurroundings();
+
  private:
   std::shared_ptr<ViewProgram> make(const RenderOptions& part) const;
   std::shared_ptr<ViewProgram> makeAside(const RenderOptions& part) const;

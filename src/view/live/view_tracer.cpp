@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "gl/driver_choice.h"
+#include "session/environment.h"
 #include "session/outputs.h"
 #include "session/phase_timer.h"
 #include "view/live/pick_text.h"
@@ -285,11 +286,30 @@ void ViewTracer::pose(const TraceRequest& request) {
   if (!sameNodes) exchange_.tellNote({});
 }
 
+bool ViewTracer::relight(const TraceRequest& request) {
+  const auto airOf = [](SkyOptions sky) {
+    placeSun(sky, {sunOf(sky).elevation, 0.0});  // the environment is turned to its azimuth
+    return sky;
+  };
+  SkyOptions& shown = loadedOptions_.light.sky;
+  const SkyOptions& wanted = request.sides[0].light.sky;
+  if (!shown.on || !wanted.on || airOf(shown) == airOf(wanted)) return false;
+  shown = wanted;
+  std::vector<std::string> repeated;
+  const SaidHere silence(repeated);  // a night is seen
+  loaded_->environment = skyOf(loadedOptions_, repeated);
+  programs_->showSurroundings();
+  return true;
+}
+
 void ViewTracer::adopt(const TraceRequest& request) {
   // The window does not know of the scene that has just been loaded.
   if (request.sides.front().scene != loadedOptions_.scene) return;
   request_ = request;
   for (RenderOptions& side : request_.sides) side = asPosed(side);
+  if (relight(request_)) {
+    for (Side& side : sides_) side.stale = true;
+  }
   if (!isPosed(request_)) {
     pose(request_);
     for (Side& side : sides_) side.stale = true;

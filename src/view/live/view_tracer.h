@@ -85,6 +85,8 @@ class ViewTracer {
   /// Makes it so: at that time of its animation, with lines as wide as that camera wants. Why it cannot be,
   /// the window is told.
   void pose(const TraceRequest& request);
+  /// Makes the sky that is asked for, where it is another one. Returns true if it was.
+  bool relight(const TraceRequest& request);
   /// With the filter that can be had; why not, the window is told.
   RenderOptions withFilter(RenderOptions options);
   void adoptSide(Side& side, const RenderOptions& options);

@@ -116,6 +116,7 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["reference"] = state.reference.string();
   json["hidden"] = state.sides[0].selection.hiddenNodes;
   json["hdri_rotation"] = state.sides[0].light.hdriRotationDegrees;
+  json["sun"] = {sunOf(state.sides[0].light.sky).elevation, sunOf(state.sides[0].light.sky).azimuth};
   json["hdri_intensity"] = state.sides[0].light.hdriIntensity;
   json["background"] = state.sides[0].light.background;
   json["animation"] = animationJson(state);
