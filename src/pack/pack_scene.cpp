@@ -239,7 +239,8 @@ KeptArrays::KeptEnvironment packMap(const Environment& environment, const Shader
     packed.unchanged[layout::kEnvironmentInversionBinding] = true;
     return *kept->environment;
   }
-  PackedEnvironment map = packEnvironment(environment.image, draws);
+  const double sunPower = environment.sun ? powerOf(*environment.sun) : 0.0;
+  PackedEnvironment map = packEnvironment(environment.image, draws, sunPower);
   KeptArrays::KeptEnvironment result{map.size,
                                      {0, 0},
                                      glm::vec3(0.0f),
@@ -254,13 +255,13 @@ KeptArrays::KeptEnvironment packMap(const Environment& environment, const Shader
     result.backdropSize = {seen.width, seen.height};
     appendBackdrop(seen, map.texels);
   }
-  if (result.sun) appendSun(environment.sun.value_or(SunDisc()), map.power, map.texels);
+  if (result.sun) appendSun(environment.sun.value_or(SunDisc()), map.drawnPower, map.texels);
   Image withSun;
   if (result.light) appendEnvironmentLight(wholeMap(environment, withSun), map.texels);
   if (variant.shadowCatcher) result.upwardIrradiance = upwardIrradiance(environment.image);
   if (environment.sun) {
     const SunDisc& sun = *environment.sun;
-    result.power += powerOf(sun);
+    result.power += sunPower;
     result.upwardIrradiance += glm::vec3(sun.irradiance * std::max(0.0, sun.direction.y));
   }
   packed.buffers[layout::kEnvironmentBinding] = std::move(map.texels);

@@ -44,6 +44,8 @@ Words companionsOf(const std::string& name) {
                                                    {"--fog-anisotropy", {"--fog-density=0.5"}},
                                                    {"--fog-height", {"--fog-density=0.5"}},
                                                    {"--fog-distance", {"--fog-density=0.5"}},
+                                                   {"--sun-time", {"--sun-place=-33.9,18.4"}},
+                                                   {"--sun-place", {"--sun-time=2026-06-21T12:00Z"}},
                                                    {"--volume-position", {"--volume=cloud.nvdb"}},
                                                    {"--volume-scale", {"--volume=cloud.nvdb"}},
                                                    {"--volume-density", {"--volume=cloud.nvdb"}},
@@ -158,7 +160,8 @@ TEST(OptionTable, GoesRoundAsAWhole) {
       "--camera",        "--camera-orbit",     "--camera-view-angle", "--frames",         "--hdri-file",
       "--format",        "--resume",           "--checkpoint",        "--noise",          "--time",
       "--caustics",      "--shadow-catcher",   "--light-reuse",       "--stage",          "--disable",
-      "--sample-offset", "--no-default-light", "--tree-level",        "--background-blur"};
+      "--sample-offset", "--no-default-light", "--tree-level",        "--background-blur", "--studio",
+      "--sun-elevation", "--sun-azimuth"};
   Words words{"a.gltf"};
   for (const OptionRow& row : optionRows()) {
     if (isOption(row) && std::ranges::find(left, row.name) == left.end()) words.push_back(uses(row).back());
