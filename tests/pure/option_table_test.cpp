@@ -97,8 +97,10 @@ TEST(OptionTable, HasEachNameOnce) {
 TEST(OptionTable, HasNoRowThatChangesNothing) {
   std::map<std::string, bool> changes;
   forEachUse([&](const OptionRow& row, const RenderOptions& options, const std::string&) {
-    // A format is refused without standard output, and the reverse.
-    const Words others = std::string_view(row.name) == "--format" ? Words{"a.gltf"} : companionsOf(row.name);
+    // A format is refused without standard output, and the reverse; so are a time and its place.
+    const std::string_view name = row.name;
+    const bool pair = name == "--format" || name == "--sun-time" || name == "--sun-place";
+    const Words others = pair ? Words{"a.gltf"} : companionsOf(row.name);
     changes[row.name] = changes[row.name] || options != parsed(others);
   });
   for (const auto& [name, does] : changes) EXPECT_TRUE(does) << name;
