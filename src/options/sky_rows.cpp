@@ -16,16 +16,18 @@ OptionTraits named(const char* attribute) {
 }
 
 OptionRow timeRow() {
-  OptionRow row = word("--sun-time",
-                       "put the sun of --sky where it stands at this time, seen from --sun-place: ISO 8601 with "
-                       "its offset, as 2026-06-21T14:30+02:00",
-                       FRAGTRACE_MEMBER(light.sky.time), named("sun_time"), "TIME");
+  OptionRow row =
+      word("--sun-time",
+           "put the sun of --sky where it stands at this time, seen from --sun-place: ISO 8601 with "
+           "its offset, as 2026-06-21T14:30+02:00",
+           FRAGTRACE_MEMBER(light.sky.time), named("sun_time"), "TIME");
   row.examples = {"2026-06-21T14:30:00+02:00"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
     const auto take = [](RenderOptions& o, const std::string& text) {
       if (!daysOf(text))
-        throw UsageError("--sun-time: '" + text +
-                         "' is no time with its offset as ISO 8601 writes it, such as 2026-06-21T14:30+02:00");
+        throw UsageError(
+            "--sun-time: '" + text +
+            "' is no time with its offset as ISO 8601 writes it, such as 2026-06-21T14:30+02:00");
       o.light.sky.time = text;
     };
     addWord(app, r, raw, take, "TIME");
@@ -56,12 +58,11 @@ std::vector<OptionRow> skyRows() {
                      FRAGTRACE_MEMBER(light.sky.sun.azimuth), {-360.0, 360.0},
                      {.effect = Effect::Picture, .attribute = "sun_azimuth"}),
       timeRow(),
-      numbers<double>("--sun-place",
-                      "LAT,LON of --sun-time: latitude and longitude in degrees, north and east positive",
-                      FRAGTRACE_MEMBER(light.sky.place), 2, placeOf,
-                      [](const glm::dvec2& p) { return numbersText(p.x, p.y); }, {"52.52,13.405"}, kOfMap),
-      number<double>("--sky-turbidity",
-                     "haze in the air of --sky: 1 has none, 3 is a clear day, 10 is hazy",
+      numbers<double>(
+          "--sun-place", "LAT,LON of --sun-time: latitude and longitude in degrees, north and east positive",
+          FRAGTRACE_MEMBER(light.sky.place), 2, placeOf,
+          [](const glm::dvec2& p) { return numbersText(p.x, p.y); }, {"52.52,13.405"}, kOfMap),
+      number<double>("--sky-turbidity", "haze in the air of --sky: 1 has none, 3 is a clear day, 10 is hazy",
                      FRAGTRACE_MEMBER(light.sky.turbidity), {1.0, 10.0}, named("sky_turbidity")),
       number<double>("--ground-albedo",
                      "part of the light that the ground below the sky of --sky reflects, which is seen below "

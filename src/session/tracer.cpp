@@ -143,7 +143,8 @@ void warnOfNoEffect(const ShaderVariant& variant, const TraitSet& present, const
 ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const RenderOptions& asked,
                              Statistics& stats) {
   const TraitSet present =
-      traitsOf(loaded.scene, loaded.environment.kind, !loaded.environment.backdrop.values.empty(), loaded.environment.sun.has_value());
+      traitsOf(loaded.scene, loaded.environment.kind, !loaded.environment.backdrop.values.empty(),
+               loaded.environment.sun.has_value());
   const RenderOptions options = asDrawn(asked, present);
   const uint32_t depth = loaded.bvh.depth;
   const BufferReads undecided = options.device.bufferReads;  // what is packed does not depend on it

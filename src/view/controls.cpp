@@ -22,7 +22,7 @@ constexpr double kWiden = 0.1;     // natural logarithm of one press
 constexpr double kExposureStep = 0.5;
 constexpr double kDegreesPerHeight = 180.0;
 constexpr int kDeepestLevel = 31;
-constexpr double kLowestSun = -18.0;  // degrees; it is night
+constexpr double kLowestSun = -18.0;    // degrees; it is night
 constexpr double kMostExposure = 32.0;  // either way; far beyond, pictures are not finite
 
 void setPose(ViewState& state, const CameraPose& pose) {

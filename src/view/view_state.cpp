@@ -129,9 +129,9 @@ void takeOptions(ViewState& state, const RenderOptions& options) {
 
 bool sameScene(const RenderOptions& a, const RenderOptions& b) {
   return a.scene == b.scene && a.selection == b.selection && a.light.hdriFile == b.light.hdriFile &&
-         a.light.studio == b.light.studio && a.light.sky.on == b.light.sky.on && a.light.backgroundBlur == b.light.backgroundBlur &&
-         a.light.defaultLight == b.light.defaultLight && a.device.instancing == b.device.instancing &&
-         a.limits == b.limits;
+         a.light.studio == b.light.studio && a.light.sky.on == b.light.sky.on &&
+         a.light.backgroundBlur == b.light.backgroundBlur && a.light.defaultLight == b.light.defaultLight &&
+         a.device.instancing == b.device.instancing && a.limits == b.limits;
 }
 
 bool sameNodes(const RenderOptions& a, const RenderOptions& b) {

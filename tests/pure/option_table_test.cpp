@@ -159,9 +159,9 @@ TEST(OptionTable, TheViewersCommandSaysEachRowThatItIsToSay) {
 TEST(OptionTable, GoesRoundAsAWhole) {
   // Other rows exclude these.
   const Words left{
-      "--camera",        "--camera-orbit",     "--camera-view-angle", "--frames",         "--hdri-file",
-      "--format",        "--resume",           "--checkpoint",        "--noise",          "--time",
-      "--caustics",      "--shadow-catcher",   "--light-reuse",       "--stage",          "--disable",
+      "--camera",        "--camera-orbit",     "--camera-view-angle", "--frames",          "--hdri-file",
+      "--format",        "--resume",           "--checkpoint",        "--noise",           "--time",
+      "--caustics",      "--shadow-catcher",   "--light-reuse",       "--stage",           "--disable",
       "--sample-offset", "--no-default-light", "--tree-level",        "--background-blur", "--studio",
       "--sun-elevation", "--sun-azimuth"};
   Words words{"a.gltf"};

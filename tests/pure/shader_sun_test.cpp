@@ -103,7 +103,8 @@ TEST(ShaderSun, IsADiscThatIsDarkerAtItsLimb) {
   EXPECT_EQ(seen(beside), mapAlone(beside));
   const SunDisc low = sunAt(0.1);
   const Sky dusk(low);
-  const dvec3 below = glm::normalize(turned(low.direction) - dvec3(0.0, 0.5 * double(layout::kSunRadius), 0.0));
+  const dvec3 below =
+      glm::normalize(turned(low.direction) - dvec3(0.0, 0.5 * double(layout::kSunRadius), 0.0));
   EXPECT_LT(below.y, 0.0);
   EXPECT_EQ(seen(below), mapAlone(below));
 }
@@ -128,7 +129,8 @@ TEST(ShaderSun, DensityIsOneInAll) {
   const dvec3 beside = besideSun(sun, 1.5, 0.0);
   {
     const Sky bright(sun, EnvironmentDraws::LightAndPaths);
-    EXPECT_GT(glsl_double::sunOfSky().chance, 3.0 * chance);  // the map counts where it is brighter than the mean
+    EXPECT_GT(glsl_double::sunOfSky().chance,
+              3.0 * chance);  // the map counts where it is brighter than the mean
   }
   const double withSun = pdf(beside);
   const With<bool> none(glsl_variant::kSun, false);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The sky against an integration of the same model by small even steps, against Mitsuba's, and the sun's place
-// against published ones.
+// The sky against an integration of the same model by small even steps, against Mitsuba's, and the sun's
+// place against published ones.
 #include "scene/sky/sky.h"
 
 #include <gtest/gtest.h>
@@ -189,8 +189,9 @@ double zenith(const SkyAir& sky, double sunElevation) {
   return luminance(colorOf(skyRadiance(sky, 1.0, std::sin(glm::radians(sunElevation)), 0.0)));
 }
 
-/// By /tmp/mi2/bin/python3 with Mitsuba 3.9.1, variant llvm_ad_spectral: emitters sunsky(turbidity=T, albedo=0.2)
-/// with sun_scale=0 or sky_scale=0, `eval` at 390, 400 ... 720 nm, weighted by the CIE's y (docs/design/sky.md).
+/// By /tmp/mi2/bin/python3 with Mitsuba 3.9.1, variant llvm_ad_spectral: emitters sunsky(turbidity=T,
+/// albedo=0.2) with sun_scale=0 or sky_scale=0, `eval` at 390, 400 ... 720 nm, weighted by the CIE's y
+/// (docs/design/sky.md).
 struct OfMitsuba {
   double turbidity;
   double sun;         // elevation, degrees
@@ -253,8 +254,8 @@ TEST(Sky, ADiscHasTheIrradianceOfItsRadiance) {
   for (int i = 0; i < kRings; ++i) {
     const double r = (i + 0.5) / kRings;
     for (int c = 0; c < 3; ++c)
-      sum[c] += sun.radiance[c] * std::pow(std::sqrt(1.0 - r * r), kLimbPowers[c]) * 2.0 * M_PI * r *
-                radius * radius / kRings;
+      sum[c] += sun.radiance[c] * std::pow(std::sqrt(1.0 - r * r), kLimbPowers[c]) * 2.0 * M_PI * r * radius *
+                radius / kRings;
   }
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], sun.irradiance[c], 1e-4 * sum[c]);
   // A map with the light of the disc has it all.
@@ -274,7 +275,8 @@ TEST(SunPlace, IsThePublishedOne) {
   const SunPlace colorado = sunPlaceAt(*daysOf("2003-10-17T12:30:30-07:00"), {39.742476, -105.1786});
   EXPECT_NEAR(colorado.elevation, 90.0 - 50.11162, 0.01);
   EXPECT_NEAR(colorado.azimuth, 194.34024, 0.01);
-  // Meeus, Astronomical Algorithms, example 25.a: a declination of -7.78507 degrees; air adds 0.111 at the pole.
+  // Meeus, Astronomical Algorithms, example 25.a: a declination of -7.78507 degrees; air adds 0.111 at the
+  // pole.
   const double days = *daysOf("1992-10-13T00:00Z");
   EXPECT_NEAR(sunPlaceAt(days, {-90.0, 0.0}).elevation, 7.78507 + 0.111, 0.01);
   // Example 28.a: the equation of time is 13 m 42.6 s.

@@ -14,19 +14,19 @@ constexpr double kMoleculesHeight = 8.0;  // densities fall by the factor e over
 constexpr double kAerosolHeight = 2.5;
 constexpr double kOzoneMiddle = 25.0;
 constexpr double kOzoneHalf = 15.0;
-constexpr double kAerosolDepth = 0.021;  // optical, at 550 nm, for each step of turbidity
+constexpr double kAerosolDepth = 0.021;   // optical, at 550 nm, for each step of turbidity
 constexpr double kAerosolAlbedo = 0.925;  // of one scattering
 constexpr double kAerosolMean = 0.703;    // mean cosine of its scattering
 constexpr int kTableCosines = 256;
 constexpr int kTableRadii = 64;
 constexpr int kColumnSteps = 100;
 
-/// Cross-section of ozone at 233 K in 1e-26 m^2, means over bins of 10 nm from 360 nm on (Serdyuchenko et al.,
-/// 2014, as listed by Bruneton, 2017).
+/// Cross-section of ozone at 233 K in 1e-26 m^2, means over bins of 10 nm from 360 nm on (Serdyuchenko et
+/// al., 2014, as listed by Bruneton, 2017).
 constexpr std::array<double, 48> kOzone{
-    0.118, 0.02182, 0.02818, 0.06636, 0.1527, 0.2763, 0.552, 0.8451, 1.582, 2.316, 3.669,  4.924,
-    7.752, 9.016,   14.80,   16.02,   21.39,  27.55,  30.91, 35.0,   42.66, 46.72, 43.98,  47.01,
-    50.19, 43.05,   37.4,    32.15,   26.62,  22.38,  18.52, 14.73,  12.09, 9.423, 7.455,  6.566,
+    0.118, 0.02182, 0.02818, 0.06636, 0.1527, 0.2763, 0.552, 0.8451, 1.582, 2.316, 3.669, 4.924,
+    7.752, 9.016,   14.80,   16.02,   21.39,  27.55,  30.91, 35.0,   42.66, 46.72, 43.98, 47.01,
+    50.19, 43.05,   37.4,    32.15,   26.62,  22.38,  18.52, 14.73,  12.09, 9.423, 7.455, 6.566,
     5.105, 4.15,    4.228,   3.237,   2.451,  2.801,  2.534, 1.624,  1.465, 2.078, 1.383, 0.7105};
 
 /// The mean about a wavelength, with the weights by which light of two of them is mixed.
@@ -66,7 +66,8 @@ Atmosphere atmosphereOf(double turbidity) {
   for (size_t i = 0; i < kWavelengths; ++i) {
     const double wavelength = wavelengthOf(i);
     air.molecules[i] = 1.24062e-3 * std::pow(wavelength, -4.0);
-    const double aerosol = kAerosolDepth * (turbidity - 1.0) * std::pow(wavelength / 0.55, -1.3) / kAerosolHeight;
+    const double aerosol =
+        kAerosolDepth * (turbidity - 1.0) * std::pow(wavelength / 0.55, -1.3) / kAerosolHeight;
     air.aerosol[i] = kAerosolAlbedo * aerosol;
     air.extinction[size_t(Air::Molecules)][i] = air.molecules[i];
     air.extinction[size_t(Air::Aerosol)][i] = aerosol;
@@ -90,8 +91,8 @@ double distanceToTop(double radius, double cosine) {
 
 double distanceToGround(double radius, double cosine) {
   const double along = radius * cosine;
-  return std::max(
-      0.0, -along - std::sqrt(std::max(0.0, along * along - radius * radius + kGroundRadius * kGroundRadius)));
+  return std::max(0.0, -along - std::sqrt(std::max(
+                                    0.0, along * along - radius * radius + kGroundRadius * kGroundRadius)));
 }
 
 bool meetsGround(double radius, double cosine) { return cosine < horizonOf(radius); }
@@ -141,9 +142,9 @@ AirTable::AirTable() : values_(size_t(kTableCosines) * kTableRadii) {
     for (int x = 0; x < kTableCosines; ++x) {
       const double distance = nearest + (farthest - nearest) * x / (kTableCosines - 1);
       const double cosine =
-          distance <= 0.0 ? 1.0
-                          : (longest * longest - toHorizon * toHorizon - distance * distance) /
-                                (2.0 * radius * distance);
+          distance <= 0.0
+              ? 1.0
+              : (longest * longest - toHorizon * toHorizon - distance * distance) / (2.0 * radius * distance);
       values_[y * kTableCosines + size_t(x)] =
           integrateColumns(radius, std::clamp(cosine, -1.0, 1.0), kColumnSteps);
     }

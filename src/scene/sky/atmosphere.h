@@ -19,7 +19,7 @@ constexpr double wavelengthOf(size_t index) { return 0.395 + 0.035 * double(inde
 
 inline constexpr double kHalfTurn = glm::pi<double>();  ///< radians
 inline constexpr double kGroundRadius = 6360.0;
-inline constexpr double kAirTop = 6460.0;     ///< radius above which there is no air
+inline constexpr double kAirTop = 6460.0;            ///< radius above which there is no air
 inline constexpr double kSunRadiusDegrees = 0.2665;  ///< of the disc
 
 /// Parts of the air: molecules, aerosol and ozone.
@@ -27,8 +27,8 @@ enum class Air : size_t { Molecules, Aerosol, Ozone, Count };
 /// A number for each part of the air.
 using AirColumns = std::array<double, size_t(Air::Count)>;
 
-/// Density at a height above the ground: of molecules and aerosol as a part of that at the ground, of ozone as
-/// a part of the greatest.
+/// Density at a height above the ground: of molecules and aerosol as a part of that at the ground, of ozone
+/// as a part of the greatest.
 AirColumns densityAt(double height);
 
 /// Coefficients at density 1, in 1/km.

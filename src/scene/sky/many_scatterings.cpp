@@ -11,7 +11,7 @@ namespace fragtrace {
 namespace {
 
 constexpr int kHeights = 24;
-constexpr int kSuns = 65;  // cosines of the sun's angle; the middle one is 0
+constexpr int kSuns = 65;       // cosines of the sun's angle; the middle one is 0
 constexpr double kNight = 0.3;  // a sun with a cosine below -0.3 lights no air
 
 /// The places of the table are dense at the ground, and where the sun is at the horizon.
@@ -88,8 +88,7 @@ struct RayWalk {
         sums.again[k] += scattered[k];
       }
       for (const double turn : turns) {
-        const Spectrum sun =
-            sunAt(point, sunThere(point, distance, cosineBetween(cosine, sunCosine, turn)));
+        const Spectrum sun = sunAt(point, sunThere(point, distance, cosineBetween(cosine, sunCosine, turn)));
         for (size_t k = 0; k < kWavelengths; ++k)
           sums.twice[k] += scattered[k] * sun[k] / (4.0 * kHalfTurn * double(turns.size()));
       }
@@ -139,7 +138,8 @@ Spectrum scatteredOften(const Atmosphere& air, const AirTable& table, double alb
   const Quadrature along = quadratureOf(steps.steps);
   const Quadrature heights = quadratureOf(steps.directions);
   std::vector<double> turns;
-  for (int i = 0; i < steps.directions / 2; ++i) turns.push_back(kHalfTurn * (i + 0.5) / (steps.directions / 2));
+  for (int i = 0; i < steps.directions / 2; ++i)
+    turns.push_back(kHalfTurn * (i + 0.5) / (steps.directions / 2));
   // The means over all directions, above the horizon and below.
   const double horizon = -std::sqrt(std::max(0.0, 1.0 - kGroundRadius * kGroundRadius / (radius * radius)));
   ScatteredSums sums;

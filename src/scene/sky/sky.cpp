@@ -117,7 +117,8 @@ SkyMap makeSky(const SkyAir& sky, double sunElevation) {
   SkyMap map;
   map.sun = discAt(sky, sunElevation);
   const double sunCosine = std::sin(glm::radians(sunElevation));
-  map.image = {kSkyWidth, kSkyHeight, {"R", "G", "B"}, std::vector<float>(size_t(kSkyWidth) * kSkyHeight * 3), {}};
+  map.image = {
+      kSkyWidth, kSkyHeight, {"R", "G", "B"}, std::vector<float>(size_t(kSkyWidth) * kSkyHeight * 3), {}};
   std::vector<glm::dvec3> sums(kSkyHeight / 2, glm::dvec3(0.0));
   forEachIndex(kSkyHeight / 2, [&](size_t y) {
     const double polar = kHalfTurn * (double(y) + 0.5) / kSkyHeight;
@@ -157,8 +158,8 @@ Image withDisc(Image map, const SunDisc& sun) {
       const double fx = x - std::floor(x);
       const double fy = y - std::floor(y);
       const double share = (right == 1 ? fx : 1.0 - fx) * (down == 1 ? fy : 1.0 - fy);
-      const double solidAngle =
-          2.0 * kHalfTurn / map.width * kHalfTurn / map.height * std::sin(kHalfTurn * (row + 0.5) / map.height);
+      const double solidAngle = 2.0 * kHalfTurn / map.width * kHalfTurn / map.height *
+                                std::sin(kHalfTurn * (row + 0.5) / map.height);
       for (int c = 0; c < 3; ++c) map.pixel(column, row)[c] += float(sun.irradiance[c] * share / solidAngle);
     }
   }

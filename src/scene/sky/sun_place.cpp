@@ -49,8 +49,7 @@ double refractionAt(double elevation) {
   if (elevation > 5.0)
     seconds = 58.1 / tangent - 0.07 / std::pow(tangent, 3.0) + 0.000086 / std::pow(tangent, 5.0);
   else if (elevation > -0.575)
-    seconds =
-        1735.0 + elevation * (-518.2 + elevation * (103.4 + elevation * (-12.79 + elevation * 0.711)));
+    seconds = 1735.0 + elevation * (-518.2 + elevation * (103.4 + elevation * (-12.79 + elevation * 0.711)));
   return seconds / 3600.0;
 }
 

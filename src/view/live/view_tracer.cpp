@@ -189,7 +189,8 @@ void ViewTracer::adoptScene() {
   viewed.cameras = loaded_->scene.cameras;
   viewed.bounds = loaded_->scene.bounds;
   viewed.present =
-      traitsOf(loaded_->scene, loaded_->environment.kind, !loaded_->environment.backdrop.values.empty(), loaded_->environment.sun.has_value());
+      traitsOf(loaded_->scene, loaded_->environment.kind, !loaded_->environment.backdrop.values.empty(),
+               loaded_->environment.sun.has_value());
   viewed.description = result->stats.scene;
   viewed.defaultLight = !result->ownLight;
   viewed.map = loaded_->environment.kind == Surroundings::Map;
