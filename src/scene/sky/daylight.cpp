@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "scene/volume/observer.h"
+
 namespace fragtrace {
 
 namespace {
@@ -20,33 +22,13 @@ constexpr std::array<double, 48> kSun{1.11776, 1.14259, 1.01249, 1.14716, 1.7276
                                       1.474,   1.4482,  1.41018, 1.36775, 1.34188, 1.31429, 1.28303, 1.26758,
                                       1.2367,  1.2082,  1.18737, 1.14683, 1.12362, 1.1058,  1.07124, 1.04992};
 
-/// A bell of other widths below and above its middle, in nm.
-double bell(double wavelength, double middle, double below, double above) {
-  const double x = (wavelength - middle) / (wavelength < middle ? below : above);
-  return std::exp(-0.5 * x * x);
-}
-
-/// The colour matching functions of the CIE (1931), as fitted by Wyman, Sloan and Shirley (2013).
-glm::dvec3 matchedXyz(double w) {
-  return {1.056 * bell(w, 599.8, 37.9, 31.0) + 0.362 * bell(w, 442.0, 16.0, 26.7) -
-              0.065 * bell(w, 501.1, 20.4, 26.2),
-          0.821 * bell(w, 568.8, 46.9, 40.5) + 0.286 * bell(w, 530.9, 16.3, 31.1),
-          1.217 * bell(w, 437.0, 11.8, 36.0) + 0.681 * bell(w, 459.0, 26.0, 13.8)};
-}
-
-glm::dvec3 rec709Of(const glm::dvec3& xyz) {
-  return {3.2404542 * xyz.x - 1.5371385 * xyz.y - 0.4985314 * xyz.z,
-          -0.9692660 * xyz.x + 1.8760108 * xyz.y + 0.0415560 * xyz.z,
-          0.0556434 * xyz.x - 0.2040259 * xyz.y + 1.0572252 * xyz.z};
-}
-
 std::array<glm::dvec3, kWavelengths> makeColors() {
   constexpr double kEfficacy = 683.0;  // lm/W
   constexpr double kScale = kEfficacy * kBin * glm::pi<double>() / kFullDaylight;
   std::array<glm::dvec3, kWavelengths> colors{};
   for (size_t i = 0; i < kSun.size(); ++i) {
     const double wavelength = 365.0 + kBin * double(i);
-    const glm::dvec3 color = rec709Of(matchedXyz(wavelength)) * (kSun[i] * kScale);
+    const glm::dvec3 color = srgbOf(observer(wavelength)) * (kSun[i] * kScale);
     // What lies between two of the wavelengths is mixed of them.
     const double place =
         std::clamp((wavelength / 1000.0 - wavelengthOf(0)) / (wavelengthOf(1) - wavelengthOf(0)), 0.0,
