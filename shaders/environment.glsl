@@ -50,6 +50,10 @@ vec4 environmentAt(vec2 place) {
 /// The same for a direction.
 vec4 environmentAlong(vec3 direction) {
   if (!kEnvironment) return vec4(0.0f);
+  if (kSun) {
+    vec2 place = environmentCoordinates(direction) * vec2(ivec2(frame.environmentSize));
+    return withSun(environmentAt(place), direction);
+  }
   return environmentAt(environmentCoordinates(direction) * vec2(ivec2(frame.environmentSize)));
 }
 
@@ -118,4 +122,13 @@ vec2 sampleEnvironment(uvec2 bits) {
   float column = invertTable(size.y + y * steps, uint(steps), bits.x);
   float x = min(floor(column), float(size.x - 1));
   return vec2(x + 0.5f + sampleTent(column - x), float(y) + (atPole ? inRow : 0.5f + sampleTent(inRow)));
+}
+
+/// A direction to the sun with its chance, else one of the map (kSun).
+vec3 sampleSky(uvec2 bits) {
+  Sun sun = sunOfSky();
+  uint border = uint(sun.chance * 4294967040.0f);
+  if (bits.x < border) return sampleSun(sun, float(bits.x) / float(border), unitFloat(bits.y));
+  bits.x = uint(float(bits.x - border) / float(0xffffffffu - border) * 4294967040.0f);
+  return environmentDirection(sampleEnvironment(bits) / vec2(ivec2(frame.environmentSize)));
 }

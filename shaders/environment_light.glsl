@@ -6,6 +6,7 @@ const bool kEnvironmentLight = kEnvironment && kPhong && !kGi;
 
 int environmentLightRow() {
   ivec2 lit = ivec2(frame.environmentSize);
+  if (kSun) return int(kSunRows) + lit.x * lit.y + frame.backdropSize.x * frame.backdropSize.y;
   return lit.x * lit.y + frame.backdropSize.x * frame.backdropSize.y;
 }
 

@@ -185,6 +185,15 @@ const int kMostEnvironmentSteps = 1024;
 const uint kIrradianceRows = 9u;
 const uint kLobeLevels = 6u;
 
+// The sun before a sky (sky/sun.glsl), behind the map and its backdrop: its direction before the map is turned and the
+// chance that a light sample of the environment takes it; radiance and pdf in its middle. Its radius in radians, and
+// the powers of the cosine at its surface by which it gets darker to the limb (SunDisc, src/scene/sky/sky.h).
+const uint kSunRows = 2u;
+const float kSunRadius = 0.004651303f;
+const float kLimbRed = 0.456f;
+const float kLimbGreen = 0.508f;
+const float kLimbBlue = 0.605f;
+
 // Emitter rows: the first and the last emitter that its equal share of the numbers draws, the last number that draws
 // itself, probability (float); of an emissive triangle its first vertex and material, its edges from there with 1 /
 // area (float) and, of every emitter, what it is.

@@ -110,6 +110,14 @@ LightSample environmentLight(float chance, uvec2 bits) {
   return makeLight(direction, kFarAway, vec3(there) / pdf, pdf);
 }
 
+/// The same of a sky with its sun (kSun).
+LightSample skyLight(float chance, uvec2 bits) {
+  vec3 direction = sampleSky(bits);
+  vec4 there = environmentAlong(direction);
+  float pdf = chance * environmentPdf(there, direction);
+  return pdf > 0.0f ? makeLight(direction, kFarAway, vec3(there) / pdf, pdf) : noLight();
+}
+
 /// The emitter that bits draw by power: they are in the order of the numbers that draw them, and each tells which its
 /// equal share of these can draw.
 int emitterAt(uint bits) {
@@ -367,6 +375,7 @@ LightChoice chooseLight(LightNumbers n, vec3 point, uint normal) {
 LightSample lightOfChoice(LightChoice c, vec3 point) {
   bool emitters = kPunctualLights || kEmissiveTriangles;
   LightSample s = noLight();
+  if (kSun && c.emitter == kFromEnvironment) return skyLight(c.chance, c.bits);
   if (kEnvironmentSampling && c.emitter == kFromEnvironment) s = environmentLight(c.chance, c.bits);
   if (emitters && c.emitter != kFromEnvironment) s = lightOfEmitter(c.emitter, c.chance, point, c.u, c.v, false);
   return s;

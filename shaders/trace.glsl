@@ -68,6 +68,7 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "layers.glsl"
 #include "material_layers.glsl"
 #include "phong.glsl"
+#include "sky/sun.glsl"
 #include "environment.glsl"
 #include "environment_light.glsl"
 #include "lights.glsl"

@@ -101,6 +101,19 @@ void checkStudio(const LightOptions& o) {
     throw UsageError("--background-blur: the backdrop of --studio has nothing to blur");
 }
 
+void checkSky(const RenderOptions& o) {
+  const SkyOptions& sky = o.light.sky;
+  if (sky.on && !o.light.hdriFile.empty()) throw UsageError("--sky: there is an --hdri-file, too");
+  if (sky.on && o.light.studio) throw UsageError("--sky: there is --studio, too");
+  if (!sky.time.empty() && !sky.place)
+    throw UsageError("--sun-time: goes with --sun-place LAT,LON, from where the sun is seen");
+  if (sky.place && sky.time.empty()) throw UsageError("--sun-place: goes with --sun-time");
+  for (const char* name : {"--sun-elevation", "--sun-azimuth"}) {
+    if (!sky.time.empty() && !rowOf(name).isDefault(o))
+      throw UsageError(std::string(name) + ": --sun-time says where the sun is");
+  }
+}
+
 /// Light paths cannot do all that paths from the camera can, which auto leaves to these.
 void checkLightPaths(const RenderOptions& o) {
   if (o.light.caustics != Caustics::On) return;
@@ -147,6 +160,7 @@ RenderOptions finishRender(const RawRender& raw) {
   o.sampling.spp = samplesOf(raw);
   checkLens(o.camera.lens);
   checkStudio(o.light);
+  checkSky(o);
   checkFog(o);
   checkVolume(o);
   checkOutput(o, raw.anyOutput);

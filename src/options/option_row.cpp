@@ -26,8 +26,8 @@ void reset(RenderOptions& options, const Chosen& chosen) {
 std::span<const OptionRow> optionRows() {
   static const std::vector<OptionRow> rows = [] {
     std::vector<OptionRow> all;
-    for (std::vector<OptionRow> (*part)() : {&fileRows, &cameraRows, &samplingRows, &lightRows, &fogRows,
-                                             &volumeRows, &deviceRows, &inputRows, &outputRows})
+    for (std::vector<OptionRow> (*part)() : {&fileRows, &cameraRows, &samplingRows, &lightRows, &skyRows,
+                                             &fogRows, &volumeRows, &deviceRows, &inputRows, &outputRows})
       std::ranges::move(part(), std::back_inserter(all));
     return all;
   }();

@@ -15,6 +15,7 @@ std::vector<OptionRow> fileRows();  ///< the scene and the picture
 std::vector<OptionRow> cameraRows();
 std::vector<OptionRow> samplingRows();  ///< stages included
 std::vector<OptionRow> lightRows();
+std::vector<OptionRow> skyRows();
 std::vector<OptionRow> fogRows();
 std::vector<OptionRow> volumeRows();
 std::vector<OptionRow> deviceRows();

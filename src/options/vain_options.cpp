@@ -38,11 +38,20 @@ bool hasNoAlpha(const Options& o) {
 
 bool isVideo(const Options& o) { return videoFormatOf(o.output.file) != nullptr; }
 
+bool hasNoSky(const Options& o) { return !o.light.sky.on; }
+
+constexpr const char* kNoSky = "there is no --sky";
+
 constexpr VainRow kRows[] = {
     {"--fps", [](const Options& o) { return !o.output.sequence.frames && !isVideo(o); },
      "goes with --frames, or with a video"},
-    {"--background-blur", [](const Options& o) { return o.light.hdriFile.empty(); },
-     "there is no --hdri-file to blur"},
+    {"--background-blur", [](const Options& o) { return o.light.hdriFile.empty() && !o.light.sky.on; },
+     "there is no --hdri-file and no --sky to blur"},
+    {"--sun-elevation", hasNoSky, kNoSky},
+    {"--sun-azimuth", hasNoSky, kNoSky},
+    {"--sun-time", hasNoSky, kNoSky},
+    {"--sky-turbidity", hasNoSky, kNoSky},
+    {"--ground-albedo", hasNoSky, kNoSky},
     {"--fog-density", [](const Options& o) { return !has(o.stages, Stage::Gi); }, "only stage gi has it"},
     {"--no-background", hasNoAlpha,
      "a file of this format has no alpha, so the background is black; .png, .exr and .mov have it"},

@@ -5,11 +5,13 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "bvh/bvh.h"
 #include "image/image.h"
 #include "scene/scene.h"
+#include "scene/sky/sky.h"
 #include "shader/layout.h"
 #include "shader/variant.h"
 
@@ -23,7 +25,15 @@ struct Environment {
   Surroundings kind = Surroundings::None;
   Image image;
   Image backdrop{};  ///< equirectangular, seen by camera rays in place of the image; empty: there is none
+  std::optional<SunDisc> sun{};  ///< stands before the image
 };
+
+/// The picture, with the light of the sun in the texels where it stands: that is made in `memory`.
+inline const Image& wholeMap(const Environment& environment, Image& memory) {
+  if (!environment.sun) return environment.image;
+  memory = withDisc(environment.image, *environment.sun);
+  return memory;
+}
 
 /// The quantisation grid of the tree's boxes: position = origin + steps * cell, steps in 0..65535.
 struct BoxGrid {
@@ -86,5 +96,9 @@ using DecodeProgress = std::function<void(size_t decoded, size_t count)>;
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
                    const ShaderVariant& variant, int textureSide = kLargestTextureSide,
                    KeptArrays* kept = nullptr, const DecodeProgress& progress = {});
+
+/// Packs the surroundings alone, for a scene that is there: all other arrays are unchanged.
+GpuScene packSurroundings(const Bvh& bvh, const Environment& environment, const ShaderVariant& variant,
+                          KeptArrays& kept);
 
 }  // namespace fragtrace

@@ -38,6 +38,7 @@ struct KeptArrays {
     int draws = 0;            ///< EnvironmentDraws
     bool forCatcher = false;  ///< upwardIrradiance is known
     bool light = false;       ///< appendEnvironmentLight()
+    bool sun = false;         ///< appendSun()
   };
   std::optional<KeptEnvironment> environment;  ///< environment map; there is one a sequence
   bool geometry = false;  ///< tree, leaves, faces and vertices are as packed before, as are all pictures

@@ -56,9 +56,10 @@ std::vector<float> weightsOf(std::span<const uint32_t> texels, float level) {
   return weights;
 }
 
-/// The mean, unless the map is so even that hardly any texel is brighter.
-float levelOf(const PackedEnvironment& packed, double mean) {
+/// The mean, unless the map is so even that hardly any texel is brighter, and there is no sun.
+float levelOf(const PackedEnvironment& packed, double mean, bool sun) {
   constexpr double kEven = 1.01;
+  if (sun) return float(mean);
   for (size_t i = 3; i < packed.texels.size(); i += 4) {
     if (double(std::bit_cast<float>(packed.texels[i])) > kEven * mean) return float(mean);
   }
@@ -109,7 +110,19 @@ void appendBackdrop(const Image& image, Words& texels) {
   }
 }
 
-PackedEnvironment packEnvironment(const Image& image, EnvironmentDraws draws) {
+double powerOf(const SunDisc& sun) { return glm::pi<double>() * luminance(sun.irradiance); }
+
+void appendSun(const SunDisc& sun, double drawnPower, Words& texels) {
+  const double radius = layout::kSunRadius;
+  const double power = powerOf(sun);
+  // A sun that has set is never drawn.
+  const double chance = power > 0.0 ? power / (power + drawnPower) : 0.0;
+  const double pdf = (2.0 + kLimbPowers.g) / (2.0 * glm::pi<double>() * radius * radius);
+  appendRow(texels, glm::vec4(sun.direction, chance));
+  appendRow(texels, glm::vec4(sun.radiance, pdf));
+}
+
+PackedEnvironment packEnvironment(const Image& image, EnvironmentDraws draws, double sunPower) {
   PackedEnvironment packed;
   packed.size = {image.width, image.height};
   const auto rows = size_t(image.height);
@@ -135,14 +148,16 @@ PackedEnvironment packEnvironment(const Image& image, EnvironmentDraws draws) {
   });
   const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
   packed.power = 2.0 * glm::pi<double>() * glm::pi<double>() * glm::pi<double>() * sum / double(rows);
+  packed.drawnPower = packed.power;
   if (!drawn) return packed;
 
   // Step: make each row's table, and the table of the rows.
   double sines = 0.0;
   for (int y = 0; y < image.height; ++y) sines += sineOfRow(image, y);
+  const double mean = sum / sines + sunPower / (4.0 * glm::pi<double>() * glm::pi<double>());
   const std::span<uint32_t> inversion(packed.inversion);
   std::vector<float> pdfs(rows);
-  const float level = draws == EnvironmentDraws::LightAndPaths ? levelOf(packed, sum / sines) : 0.0f;
+  const float level = draws == EnvironmentDraws::LightAndPaths ? levelOf(packed, mean, sunPower > 0.0) : 0.0f;
   forEachRow(image.height, [&](int y) {
     const std::span<uint32_t> texels = texelsOf(y);
     std::vector<float> row = weightsOf(texels, level);
@@ -151,6 +166,7 @@ PackedEnvironment packEnvironment(const Image& image, EnvironmentDraws draws) {
     for (size_t x = 0; x < row.size(); ++x) texels[4 * x + 3] = floatWord(row[x]);
     storeSteps(inversion.subspan(rows * 4 + size_t(y) * stepWords, stepWords), steps);
   });
+  if (sum > 0.0) packed.drawnPower *= std::accumulate(pdfs.begin(), pdfs.end(), 0.0) / sum;
   std::vector<InversionStep> steps(rows);
   makeInversionTable(pdfs, steps);
   storeSteps(inversion.first(rows * 4), steps);

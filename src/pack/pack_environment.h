@@ -20,6 +20,7 @@ struct PackedEnvironment {
   glm::ivec2 size{0};
   double power =
       0.0;  ///< luminance that falls on a disk of unit radius from all around: pi * integral over directions
+  double drawnPower = 0.0;  ///< the part of it by which directions are drawn
 };
 
 /// Irradiance of a plane that faces up (+Y), from all of an equirectangular map with R, G, B.
@@ -28,7 +29,14 @@ glm::vec3 upwardIrradiance(const Image& image);
 /// Appends radiance and, in place of a density, 0.
 void appendBackdrop(const Image& image, Words& texels);
 
-/// An equirectangular map with R, G, B of at most 65,535 x 65,535 texels. Uses all processors.
-PackedEnvironment packEnvironment(const Image& image, EnvironmentDraws draws);
+/// Luminance that the sun sends to a disk of unit radius.
+double powerOf(const SunDisc& sun);
+
+/// Appends the rows of a sun before a map of which so much is drawn (shaders/sky/sun.glsl).
+void appendSun(const SunDisc& sun, double drawnPower, Words& texels);
+
+/// An equirectangular map with R, G, B of at most 65,535 x 65,535 texels, with a sun of that power before it.
+/// Uses all processors.
+PackedEnvironment packEnvironment(const Image& image, EnvironmentDraws draws, double sunPower = 0.0);
 
 }  // namespace fragtrace

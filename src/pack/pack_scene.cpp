@@ -231,6 +231,7 @@ KeptArrays::KeptEnvironment packMap(const Environment& environment, const Shader
   const auto serves = [&](const KeptArrays::KeptEnvironment& packedBefore) {
     return packedBefore.draws == int(draws) && packedBefore.forCatcher == variant.shadowCatcher &&
            packedBefore.light == lightsByEnvironment(variant) &&
+           packedBefore.sun == has(variant.traits, Trait::Sun) &&
            has(variant.traits, Trait::Backdrop) == (packedBefore.backdropSize.x > 0);
   };
   if (keeps && kept->environment && serves(*kept->environment)) {
@@ -238,26 +239,48 @@ KeptArrays::KeptEnvironment packMap(const Environment& environment, const Shader
     packed.unchanged[layout::kEnvironmentInversionBinding] = true;
     return *kept->environment;
   }
-  PackedEnvironment map = packEnvironment(environment.image, draws);
+  const double sunPower = environment.sun ? powerOf(*environment.sun) : 0.0;
+  PackedEnvironment map = packEnvironment(environment.image, draws, sunPower);
   KeptArrays::KeptEnvironment result{map.size,
                                      {0, 0},
                                      glm::vec3(0.0f),
                                      map.power,
                                      int(draws),
                                      variant.shadowCatcher,
-                                     lightsByEnvironment(variant)};
+                                     lightsByEnvironment(variant),
+                                     has(variant.traits, Trait::Sun)};
   if (has(variant.traits, Trait::Backdrop)) {
     // A program that is forced to have one (bench variants) draws the map itself.
     const Image& seen = environment.backdrop.values.empty() ? environment.image : environment.backdrop;
     result.backdropSize = {seen.width, seen.height};
     appendBackdrop(seen, map.texels);
   }
-  if (result.light) appendEnvironmentLight(environment.image, map.texels);
+  if (result.sun) appendSun(environment.sun.value_or(SunDisc()), map.drawnPower, map.texels);
+  Image withSun;
+  if (result.light) appendEnvironmentLight(wholeMap(environment, withSun), map.texels);
   if (variant.shadowCatcher) result.upwardIrradiance = upwardIrradiance(environment.image);
+  if (environment.sun) {
+    const SunDisc& sun = *environment.sun;
+    result.power += sunPower;
+    result.upwardIrradiance += glm::vec3(sun.irradiance * std::max(0.0, sun.direction.y));
+  }
   packed.buffers[layout::kEnvironmentBinding] = std::move(map.texels);
   packed.buffers[layout::kEnvironmentInversionBinding] = std::move(map.inversion);
   if (kept != nullptr) kept->environment = keeps ? std::optional(result) : std::nullopt;
   return result;
+}
+
+double radiusOf(const Bvh& bvh) { return 0.5f * glm::length(bvh.bounds.extent()); }
+
+/// The map of a scene of that radius, and the part of the light that it has.
+void placeMap(const Environment& environment, const ShaderVariant& variant, double radius, KeptArrays* kept,
+              GpuScene& packed) {
+  const KeptArrays::KeptEnvironment surroundings = packMap(environment, variant, kept, packed);
+  packed.environmentSize = surroundings.size;
+  packed.backdropSize = surroundings.backdropSize;
+  packed.upwardIrradiance = surroundings.upwardIrradiance;
+  packed.lightShare.samplesEnvironment = has(variant.traits, Trait::EnvironmentSampling);
+  packed.lightShare.environment = surroundings.power * radius * radius;
 }
 
 std::vector<std::pair<std::string, size_t>> imagesOf(const Scene& scene) {
@@ -306,6 +329,18 @@ void packGeometry(const Scene& scene, const Bvh& bvh, const TraitSet& traits, bo
 
 }  // namespace
 
+GpuScene packSurroundings(const Bvh& bvh, const Environment& environment, const ShaderVariant& variant,
+                          KeptArrays& kept) {
+  GpuScene packed;
+  packed.unchanged.fill(true);
+  if (!has(variant.traits, Trait::Environment)) return packed;
+  kept.environment.reset();
+  packed.unchanged[layout::kEnvironmentBinding] = false;
+  packed.unchanged[layout::kEnvironmentInversionBinding] = false;
+  placeMap(environment, variant, radiusOf(bvh), &kept, packed);
+  return packed;
+}
+
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
                    const ShaderVariant& variant, int textureSide, KeptArrays* kept,
                    const DecodeProgress& progress) {
@@ -314,7 +349,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   const TraitSet& traits = variant.traits;
   packed.grid = makeGrid(bvh.bounds);
   packed.leafCount = uint32_t(bvh.leaves.size());
-  const double radius = 0.5f * glm::length(bvh.bounds.extent());
+  const double radius = radiusOf(bvh);
   const bool keepsGeometry = kept != nullptr && kept->geometry;
   packGeometry(scene, bvh, traits, keepsGeometry, packed);
 
@@ -338,12 +373,9 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
     packed.punctualLights = uint32_t(scene.lights.size());
   }
   if (has(traits, Trait::Environment)) {
-    const KeptArrays::KeptEnvironment surroundings = packMap(environment, variant, kept, packed);
-    packed.environmentSize = surroundings.size;
-    packed.backdropSize = surroundings.backdropSize;
-    packed.upwardIrradiance = surroundings.upwardIrradiance;
-    packed.lightShare = {has(traits, Trait::EnvironmentSampling), surroundings.power * radius * radius,
-                         emitters.power, emitters.count > 0};
+    placeMap(environment, variant, radius, kept, packed);
+    packed.lightShare.emitters = emitters.power;
+    packed.lightShare.anyEmitters = emitters.count > 0;
   }
 
   packMaterials(scene, bvh, variant, emitters.materialPdf, textures, packed);

@@ -95,20 +95,31 @@ void Renderer::replaceScene(GpuScene scene) {
   describeScene(scene);
 }
 
+void Renderer::replaceSurroundings(GpuScene scene) {
+  buffers_.replace(scene);
+  scene.lightShare.emitters = lightShare_.emitters;
+  scene.lightShare.anyEmitters = lightShare_.anyEmitters;
+  describeSurroundings(scene);
+}
+
+void Renderer::describeSurroundings(const GpuScene& scene) {
+  frame_.environmentSize = scene.environmentSize;
+  frame_.backdropSize = scene.backdropSize;
+  frame_.catcherIrradiance = scene.upwardIrradiance;
+  lightShare_ = scene.lightShare;
+}
+
 void Renderer::describeScene(const GpuScene& scene) {
+  describeSurroundings(scene);
   frame_.gridOrigin = glm::vec4(scene.grid.origin, 0.0f);
   frame_.gridCell = glm::vec4(scene.grid.cell, 0.0f);
-  frame_.environmentSize = scene.environmentSize;
-  lightShare_ = scene.lightShare;
   casters_ = scene.casters;
   grid_ = scene.densities;
   frame_.emitterCount = float(scene.emitterCount);
   frame_.energyRow = float(scene.energyTableRow);
   frame_.punctualCount = float(scene.punctualLights);
   frame_.leafCount = int(scene.leafCount);
-  frame_.catcherIrradiance = scene.upwardIrradiance;
   frame_.objectRow = int(scene.objectRow);
-  frame_.backdropSize = scene.backdropSize;
 }
 
 void Renderer::setFrame(const Film& film, const View& view) {

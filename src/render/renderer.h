@@ -102,6 +102,9 @@ class Renderer {
   /// Replaces the scene by the next one of a sequence, which is read in the same way. Programs stay.
   void replaceScene(GpuScene scene);
 
+  /// Replaces the surroundings alone (packSurroundings).
+  void replaceSurroundings(GpuScene scene);
+
   /// Builds the variant's program and draws one tiny tile, which makes llvmpipe compile. Later draws use it.
   /// The film is empty afterwards. Returns milliseconds.
   double compile(const ShaderVariant& variant, Film& film, const View& view);
@@ -144,7 +147,8 @@ class Renderer {
   void setDrawsInFlight(size_t draws) { inFlight_ = std::clamp(draws, size_t(1), kMostInFlight); }
 
  private:
-  /// Sets the members of the uniform block that depend on the scene.
+  /// Sets the members of the uniform block that depend on the scene, or on its surroundings alone.
+  void describeSurroundings(const GpuScene& scene);
   void describeScene(const GpuScene& scene);
   /// Sets the members of the uniform block that depend on a film and a view.
   void setFrame(const Film& film, const View& view);

@@ -17,8 +17,9 @@ constexpr int kRows = 32;  // rows of the coarse map
 void appendEnvironment(const Environment& environment, const RenderOptions& options,
                        std::vector<PlaneLight>& lights) {
   if (environment.kind == Surroundings::None) return;
-  const MapRows map = resized(environment.image, kRows);
-  const double rotation = glm::radians(options.light.hdriRotationDegrees);
+  Image withSun;
+  const MapRows map = resized(wholeMap(environment, withSun), kRows);
+  const double rotation = glm::radians(environmentTurn(options.light));
   const double side = glm::pi<double>() / kRows;  // of a texel, radians
   for (int y = 0; y < kRows / 2; ++y) {           // the upper half
     const double polar = side * (y + 0.5);

@@ -7,6 +7,7 @@
 #include "base/count_text.h"
 #include "base/errors.h"
 #include "scene/blurred_map.h"
+#include "scene/sky/sky.h"
 #include "scene/studio.h"
 #include "session/say.h"
 
@@ -39,6 +40,22 @@ void warn(const RenderOptions& options, const std::string& what, std::vector<std
 
 }  // namespace
 
+Environment skyOf(const RenderOptions& options, std::vector<std::string>& warnings) {
+  constexpr double kNight = -18.0;  // degrees
+  const SkyOptions& sky = options.light.sky;
+  const double elevation = sunOf(sky).elevation;
+  if (elevation < kNight) {
+    warnings.emplace_back("--sky: the sun is " + std::to_string(std::lround(-elevation)) +
+                          " degrees below the horizon: it is night");
+    say(options, "warning: " + warnings.back());
+  }
+  SkyMap map = makeSky(sky.turbidity, sky.groundAlbedo, elevation);
+  Environment environment{Surroundings::Map, std::move(map.image), {}, map.sun};
+  if (options.light.backgroundBlur > 0.0)
+    environment.backdrop = blurredMap(withDisc(environment.image, map.sun), options.light.backgroundBlur);
+  return environment;
+}
+
 LinearImage readMap(const RenderOptions& options) {
   LinearImage image = readLinearImage(options.light.hdriFile, options.limits.memoryBytes);
   image.image = wholeOf(std::move(image.image));
@@ -70,6 +87,8 @@ Environment makeEnvironment(const RenderOptions& options, std::future<LinearImag
       warn(options, ": is square, and drawn as latitude and longitude: 360 degrees wide, 180 high", warnings);
     if (options.light.backgroundBlur > 0.0)
       environment.backdrop = blurredMap(image, options.light.backgroundBlur);
+  } else if (options.light.sky.on) {
+    environment = skyOf(options, warnings);
   } else if (options.light.studio ||
              (light != OwnLight::Enough && options.light.defaultLight == DefaultLight::Studio)) {
     environment = {Surroundings::Map, studioLight(), studioBackdrop()};

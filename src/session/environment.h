@@ -21,6 +21,9 @@ LinearImage readMap(const RenderOptions& options);
 Environment makeEnvironment(const RenderOptions& options, std::future<LinearImage>& map, OwnLight light,
                             std::vector<std::string>& warnings);
 
+/// The sky of the options. Says a warning at night, and adds it to `warnings`.
+Environment skyOf(const RenderOptions& options, std::vector<std::string>& warnings);
+
 /// Tells if the scene has a light of its own that the options let count.
 OwnLight lightOf(const RenderOptions& options, const Scene& scene);
 

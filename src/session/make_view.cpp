@@ -84,7 +84,7 @@ View makeView(const RenderOptions& options, const LoadedScene& loaded, const Cam
   view.camera = camera;
   view.lens = lensOf(options, camera, scene.bounds, scene.space);
   view.space = scene.space;
-  view.hdriRotation = glm::radians(options.light.hdriRotationDegrees);
+  view.hdriRotation = glm::radians(environmentTurn(options.light));
   view.hdriIntensity = options.light.hdriIntensity;
   if (options.light.background) view.background = options.light.backgroundColor.value_or(glm::vec3(0.0f));
   const bool map = loaded.environment.kind == Surroundings::Map;

@@ -108,7 +108,8 @@ double pathsOf(const RenderOptions& options, glm::ivec2 size) {
 }
 
 bool isInStudio(const RenderOptions& options, const LoadedScene& loaded) {
-  return loaded.environment.kind == Surroundings::Map && options.light.hdriFile.empty();
+  return loaded.environment.kind == Surroundings::Map && options.light.hdriFile.empty() &&
+         !options.light.sky.on;
 }
 
 Bvh buildTree(const Scene& scene, const RenderOptions& options) {
@@ -204,7 +205,7 @@ void checkMapOptions(const RenderOptions& options, OwnLight light, Scene& scene)
   const auto check = [&](const char* name, bool hasUse) {
     if (hasUse || rowOf(name).isDefault(options)) return;
     scene.warnings.push_back(std::string(name) +
-                             ": the scene is lit by neither an --hdri-file nor the studio (--studio)");
+                             ": the scene is lit by no --hdri-file, no --sky and no studio (--studio)");
   };
   check("--hdri-rotation", map);
   check("--hdri-intensity", map || byDefault);
@@ -332,8 +333,10 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   const OwnLight light = lightOf(options, scene);
   std::vector<std::string> ofEnvironment;  // warnings, which are said as they come
   const auto settleEnvironment = [&] {
+    PhaseTimer timer("sky");
     loaded.environment = before.environment ? std::move(*before.environment)
                                             : makeEnvironment(options, map, light, ofEnvironment);
+    if (options.light.sky.on) stats.phases.push_back(timer.end());
   };
   // The tree is built while the map is decoded, unless the camera depends on the map.
   const bool early = fitsShadow(options, settledOverrides(options.camera.overrides, scene));

@@ -143,7 +143,8 @@ void warnOfNoEffect(const ShaderVariant& variant, const TraitSet& present, const
 ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const RenderOptions& asked,
                              Statistics& stats) {
   const TraitSet present =
-      traitsOf(loaded.scene, loaded.environment.kind, !loaded.environment.backdrop.values.empty());
+      traitsOf(loaded.scene, loaded.environment.kind, !loaded.environment.backdrop.values.empty(),
+               loaded.environment.sun.has_value());
   const RenderOptions options = asDrawn(asked, present);
   const uint32_t depth = loaded.bvh.depth;
   const BufferReads undecided = options.device.bufferReads;  // what is packed does not depend on it
@@ -279,6 +280,13 @@ void replaceScene(Tracer& tracer, const Context& context, const LoadedScene& loa
   tracer.renderer->replaceScene(std::move(packed));
   stats.phases.push_back(uploading.end());
   stats.uploadMs = stats.phases.back().end - stats.phases.back().begin;
+}
+
+void replaceSurroundings(Tracer& tracer, const LoadedScene& loaded) {
+  ShaderVariant everything = tracer.variant;
+  for (const ShaderVariant& aov : tracer.aovs) everything.traits |= aov.traits;
+  tracer.renderer->replaceSurroundings(
+      packSurroundings(loaded.bvh, loaded.environment, everything, tracer.kept));
 }
 
 }  // namespace fragtrace

@@ -43,4 +43,7 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
 void replaceScene(Tracer& tracer, const Context& context, const LoadedScene& loaded,
                   const RenderOptions& options, Statistics& stats, bool surfacesAlone = false);
 
+/// Packs and uploads other surroundings of the same kind. Throws RenderError.
+void replaceSurroundings(Tracer& tracer, const LoadedScene& loaded);
+
 }  // namespace fragtrace

@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 #include <limits>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include "scene/camera.h"
 #include "scene/scene.h"
 #include "scene/selection.h"
+#include "scene/sky/sun_place.h"
 #include "shader/aov.h"
 #include "shader/stage.h"
 
@@ -140,6 +142,18 @@ struct SamplingOptions {
   bool operator==(const SamplingOptions&) const = default;
 };
 
+/// A clear sky with its sun (scene/sky/sky.h).
+struct SkyOptions {
+  bool on = false;
+  SunPlace sun;                     ///< where `time` does not say it
+  std::string time;                 ///< daysOf() reads it; empty: `sun` is the place
+  std::optional<glm::dvec2> place;  ///< latitude and longitude in degrees, north and east positive
+  double turbidity = 3.0;
+  double groundAlbedo = 0.2;
+
+  bool operator==(const SkyOptions&) const = default;
+};
+
 /// The light of a scene, its sampling, and the surroundings.
 struct LightOptions {
   LightSelection selection = LightSelection::Auto;
@@ -152,6 +166,7 @@ struct LightOptions {
   std::optional<glm::vec3> backgroundColor;  ///< none: the environment map, black without one
   bool background = true;
   DefaultLight defaultLight = DefaultLight::Studio;
+  SkyOptions sky;
   bool studio = false;                  ///< the built-in environment (scene/studio.h)
   bool shadowCatcher = false;           ///< a plane that shows nothing but shadows
   std::optional<double> catcherHeight;  ///< its Y in world space, metres; none: the bottom of the scene
@@ -230,8 +245,19 @@ struct RenderOptions {
   bool operator==(const RenderOptions&) const = default;
 };
 
-/// Returns true if an environment map lights the scene, of a file or built in.
-inline bool hasMap(const RenderOptions& o) { return o.light.studio || !o.light.hdriFile.empty(); }
+/// Returns true if an environment map lights the scene: of a file, built in, or a sky.
+inline bool hasMap(const RenderOptions& o) {
+  return o.light.studio || o.light.sky.on || !o.light.hdriFile.empty();
+}
+
+/// The sun's place in the sky, before the environment is turned.
+SunPlace sunOf(const SkyOptions& sky);
+
+/// Puts the sun there, whatever the time said.
+void placeSun(SkyOptions& sky, const SunPlace& sun);
+
+/// The turn of the environment about +Y in degrees. A sky is made with the sun in the north.
+double environmentTurn(const LightOptions& light);
 
 /// Returns true if noise or time ends a render, which places samples where they help most.
 inline bool isAdaptive(const RenderOptions& o) { return o.sampling.noise > 0.0 || o.sampling.seconds > 0.0; }

@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <type_traits>
 
+#include "shader/material_kinds.h"
 #include "shader/traits.h"
 
 namespace fragtrace {
@@ -20,22 +21,6 @@ template <bool (Material::*kMember)() const>
 bool is(const Material& material, const Coordinates&) {
   return (material.*kMember)();
 }
-
-bool dielectricReflects(const Material& m) {
-  return m.ior != 1.0f && m.specularFactor > 0.0f &&
-         glm::any(glm::greaterThan(m.specularColorFactor, glm::vec3(0.0f)));
-}
-
-bool isRoughInPlaces(const Material& m) {
-  return m.metallicRoughnessTexture.present() || m.specularGlossiness;
-}
-
-/// Light goes straight through such a wall, at least in places.
-bool mayBeClearWall(const Material& m) {
-  return m.thicknessFactor <= 0.0f && (isRoughInPlaces(m) || m.mirrorLike());
-}
-
-bool mayBeRough(const Material& m) { return isRoughInPlaces(m) || m.anisotropic() || !m.mirrorLike(); }
 
 }  // namespace
 
@@ -367,6 +352,11 @@ std::span<const TraitRow> traitRows() {  // NOLINT(readability-function-size): a
        .name = "backdrop",
        .constant = "kBackdrop",
        .absence = "no backdrop but the environment itself",
+       .needs = setOf({Trait::Environment})},
+      {.trait = Trait::Sun,
+       .name = "sun",
+       .constant = "kSun",
+       .absence = "no sky with a sun",
        .needs = setOf({Trait::Environment})},
       {.trait = Trait::Instances,
        .name = "instances",

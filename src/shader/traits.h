@@ -65,6 +65,7 @@ enum class Trait : uint8_t {
   Environment,
   EnvironmentSampling,
   Backdrop,
+  Sun,
   Instances,
   Creases,
   Slivers,

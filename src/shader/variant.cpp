@@ -114,7 +114,7 @@ bool hasOwnLight(const Scene& scene) {
          std::any_of(scene.spheres.begin(), scene.spheres.end(), emits);
 }
 
-TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop) {
+TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop, bool sun) {
   TraitSet traits;
   std::vector<bool> onTriangles(scene.materials.size(), false);
   std::vector<bool> onSpheres(scene.materials.size(), false);
@@ -151,6 +151,7 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop) 
   mark(Trait::Environment, surroundings != Surroundings::None);
   mark(Trait::EnvironmentSampling, surroundings != Surroundings::None);
   mark(Trait::Backdrop, backdrop);
+  mark(Trait::Sun, sun);
   mark(Trait::Instances, !scene.instances.empty());
   mark(Trait::Creases, !scene.insets.empty());
   mark(Trait::Slivers, hasSlivers(scene));

@@ -54,7 +54,7 @@ enum class Surroundings : uint8_t { None, DefaultLight, Map };
 
 /// The features of the scene, before anything is asked for. backdrop: the surroundings have a backdrop of
 /// their own.
-TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop = false);
+TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop = false, bool sun = false);
 
 /// Returns true if the scene has any light of its own: emission or punctual lights.
 bool hasOwnLight(const Scene& scene);

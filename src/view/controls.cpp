@@ -22,6 +22,7 @@ constexpr double kWiden = 0.1;     // natural logarithm of one press
 constexpr double kExposureStep = 0.5;
 constexpr double kDegreesPerHeight = 180.0;
 constexpr int kDeepestLevel = 31;
+constexpr double kLowestSun = -18.0;    // degrees; it is night
 constexpr double kMostExposure = 32.0;  // either way; far beyond, pictures are not finite
 
 void setPose(ViewState& state, const CameraPose& pose) {
@@ -160,6 +161,14 @@ bool showDebugView(ViewState& state, int number) {
   return true;
 }
 
+/// Moves the sun by degrees to the left and down, as a drag turns the environment.
+void moveSun(SkyOptions& sky, const glm::dvec2& degrees) {
+  SunPlace sun = sunOf(sky);
+  sun.azimuth = std::remainder(sun.azimuth - degrees.x, 360.0);
+  sun.elevation = std::clamp(sun.elevation - 0.5 * degrees.y, kLowestSun, 90.0);
+  placeSun(sky, sun);
+}
+
 bool changePicture(ViewState& state, const Control& control, const Movement& m) {
   RenderOptions& o = state.options();
   switch (control.action) {
@@ -192,9 +201,14 @@ bool changePicture(ViewState& state, const Control& control, const Movement& m) 
                                           -kMostExposure, kMostExposure);
       return true;
     case Action::RotateEnvironment:
-      for (RenderOptions& side : state.sides)
-        side.light.hdriRotationDegrees =
-            std::remainder(side.light.hdriRotationDegrees + kDegreesPerHeight * m.drag.x, 360.0);
+      for (RenderOptions& side : state.sides) {
+        LightOptions& light = side.light;
+        if (light.sky.on)
+          moveSun(light.sky, kDegreesPerHeight * m.drag);
+        else
+          light.hdriRotationDegrees =
+              std::remainder(light.hdriRotationDegrees + kDegreesPerHeight * m.drag.x, 360.0);
+      }
       return true;
     case Action::ToggleDenoise:
       o.output.denoise = o.output.denoise == Denoise::None ? filterOf(state) : Denoise::None;

@@ -52,6 +52,7 @@ Drop takeDrop(const RenderOptions& shown, std::span<const std::filesystem::path>
   if (environment) {
     options.light.hdriFile = *environment;
     options.light.studio = false;
+    options.light.sky.on = false;
   }
   if (scene || environment) drop.load = options;
   return drop;

@@ -34,6 +34,7 @@ std::vector<EnvironmentChoice> environmentChoices(const ViewedScene& scene) {
     choices.push_back({.name = "The scene's own light"});
   }
   choices.push_back({.name = "Studio", .studio = true});
+  choices.push_back({.name = "Sky", .sky = true});
   for (const std::filesystem::path& file : scene.environments)
     choices.push_back({.name = file.filename().string(), .file = file});
   const std::filesystem::path& shown = scene.options.light.hdriFile;
@@ -44,11 +45,12 @@ std::vector<EnvironmentChoice> environmentChoices(const ViewedScene& scene) {
 
 size_t currentChoice(const ViewedScene& scene, const std::vector<EnvironmentChoice>& choices) {
   const RenderOptions& o = scene.options;
-  const bool studio = o.light.studio || (scene.map && o.light.hdriFile.empty());
+  const bool sky = o.light.sky.on;
+  const bool studio = o.light.studio || (scene.map && o.light.hdriFile.empty() && !sky);
   const auto lights = [&](const EnvironmentChoice& choice) {
-    if (!o.light.hdriFile.empty() || studio)
-      return choice.file == o.light.hdriFile && choice.studio == studio;
-    return choice.file.empty() && !choice.studio &&
+    if (!o.light.hdriFile.empty() || studio || sky)
+      return choice.file == o.light.hdriFile && choice.studio == studio && choice.sky == sky;
+    return choice.file.empty() && !choice.studio && !choice.sky &&
            (!scene.defaultLight || choice.light == o.light.defaultLight);
   };
   const auto found = std::ranges::find_if(choices, lights);
@@ -58,8 +60,9 @@ size_t currentChoice(const ViewedScene& scene, const std::vector<EnvironmentChoi
 RenderOptions withEnvironment(RenderOptions options, const EnvironmentChoice& choice) {
   options.light.hdriFile = choice.file;
   options.light.studio = choice.studio;
+  options.light.sky.on = choice.sky;
   options.light.defaultLight = choice.light;
-  if (choice.file.empty()) options.light.backgroundBlur = 0.0;
+  if (choice.file.empty() && !choice.sky) options.light.backgroundBlur = 0.0;
   return options;
 }
 

@@ -18,6 +18,7 @@ struct EnvironmentChoice {
   std::string name;
   std::filesystem::path file{};  ///< the environment map; empty: none
   bool studio = false;
+  bool sky = false;
   DefaultLight light = DefaultLight::Studio;  ///< used if the scene has no light of its own
 
   bool operator==(const EnvironmentChoice&) const = default;

@@ -92,7 +92,8 @@ void addPicture(std::vector<Control>& rows) {
   add(Press, 'T', 0, Action::NextToneMap, "the next tone map");
   add(Press, 'L', 0, Action::Exposure, "brighter by half a stop", 1);
   add(Press, 'L', kShift, Action::Exposure, "darker by half a stop", -1);
-  add(Drag, mouse::kRight, kShift, Action::RotateEnvironment, "rotate the environment");
+  add(Drag, mouse::kRight, kShift, Action::RotateEnvironment,
+      "rotate the environment, or move the sun of a sky");
   add(Press, 'J', 0, Action::ToggleBackground, "background on or off");
   add(Press, 'K', 0, Action::ToggleGround, "shadow catcher on or off");
   add(Press, 'G', 0, Action::ToggleDenoise, "denoising on or off");

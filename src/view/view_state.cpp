@@ -60,6 +60,7 @@ void takeScene(RenderOptions& side, const RenderOptions& from) {
   side.selection = from.selection;
   side.light.hdriFile = from.light.hdriFile;
   side.light.studio = from.light.studio;
+  side.light.sky.on = from.light.sky.on;
   side.light.backgroundBlur = from.light.backgroundBlur;
   side.light.defaultLight = from.light.defaultLight;
 }
@@ -112,6 +113,7 @@ void takeOptions(ViewState& state, const RenderOptions& options) {
     side.output.toneMap = options.output.toneMap;
     side.light.hdriRotationDegrees = options.light.hdriRotationDegrees;
     side.light.hdriIntensity = options.light.hdriIntensity;
+    side.light.sky = options.light.sky;
     side.light.background = options.light.background;
     side.light.shadowCatcher = options.light.shadowCatcher;
     side.light.catcherHeight = options.light.catcherHeight;
@@ -127,9 +129,9 @@ void takeOptions(ViewState& state, const RenderOptions& options) {
 
 bool sameScene(const RenderOptions& a, const RenderOptions& b) {
   return a.scene == b.scene && a.selection == b.selection && a.light.hdriFile == b.light.hdriFile &&
-         a.light.studio == b.light.studio && a.light.backgroundBlur == b.light.backgroundBlur &&
-         a.light.defaultLight == b.light.defaultLight && a.device.instancing == b.device.instancing &&
-         a.limits == b.limits;
+         a.light.studio == b.light.studio && a.light.sky.on == b.light.sky.on &&
+         a.light.backgroundBlur == b.light.backgroundBlur && a.light.defaultLight == b.light.defaultLight &&
+         a.device.instancing == b.device.instancing && a.limits == b.limits;
 }
 
 bool sameNodes(const RenderOptions& a, const RenderOptions& b) {

@@ -40,7 +40,7 @@ TEST(Environments, EachChoiceIsTheCurrentOneOnceItIsTaken) {
     scene.environments = {"/maps/a.hdr", "/maps/b.hdr"};
     scene.options.light.hdriFile = "/elsewhere/c.exr";
     const std::vector<EnvironmentChoice> choices = environmentChoices(scene);
-    EXPECT_EQ(choices.size(), unlit ? 6u : 5u);
+    EXPECT_EQ(choices.size(), unlit ? 7u : 6u);
     EXPECT_EQ(choices[currentChoice(scene, choices)].name, "c.exr");
     for (const EnvironmentChoice& choice : choices) {
       ViewedScene chosen = scene;

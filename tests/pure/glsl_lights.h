@@ -11,6 +11,7 @@ inline bool kGi = true;
 inline bool kPhong = true;
 inline bool kEnvironment = true;
 inline bool kEnvironmentSampling = true;
+inline bool kSun = false;
 inline bool kPunctualLights = true;
 inline bool kEmissiveTriangles = true;
 inline bool kLightTree = false;

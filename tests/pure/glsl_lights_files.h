@@ -24,6 +24,7 @@ inline vec4 interpolate(vec4 a, vec4 b, vec4 c, vec2 weights) {
 }
 
 // clang-format off
+#include "sky/sun.glsl"
 #include "environment.glsl"
 #include "environment_light.glsl"
 #include "lights.glsl"

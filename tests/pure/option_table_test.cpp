@@ -44,6 +44,8 @@ Words companionsOf(const std::string& name) {
                                                    {"--fog-anisotropy", {"--fog-density=0.5"}},
                                                    {"--fog-height", {"--fog-density=0.5"}},
                                                    {"--fog-distance", {"--fog-density=0.5"}},
+                                                   {"--sun-time", {"--sun-place=-33.9,18.4"}},
+                                                   {"--sun-place", {"--sun-time=2026-06-21T12:00Z"}},
                                                    {"--volume-position", {"--volume=cloud.nvdb"}},
                                                    {"--volume-scale", {"--volume=cloud.nvdb"}},
                                                    {"--volume-density", {"--volume=cloud.nvdb"}},
@@ -95,8 +97,10 @@ TEST(OptionTable, HasEachNameOnce) {
 TEST(OptionTable, HasNoRowThatChangesNothing) {
   std::map<std::string, bool> changes;
   forEachUse([&](const OptionRow& row, const RenderOptions& options, const std::string&) {
-    // A format is refused without standard output, and the reverse.
-    const Words others = std::string_view(row.name) == "--format" ? Words{"a.gltf"} : companionsOf(row.name);
+    // A format is refused without standard output, and the reverse; so are a time and its place.
+    const std::string_view name = row.name;
+    const bool pair = name == "--format" || name == "--sun-time" || name == "--sun-place";
+    const Words others = pair ? Words{"a.gltf"} : companionsOf(row.name);
     changes[row.name] = changes[row.name] || options != parsed(others);
   });
   for (const auto& [name, does] : changes) EXPECT_TRUE(does) << name;
@@ -155,10 +159,11 @@ TEST(OptionTable, TheViewersCommandSaysEachRowThatItIsToSay) {
 TEST(OptionTable, GoesRoundAsAWhole) {
   // Other rows exclude these.
   const Words left{
-      "--camera",        "--camera-orbit",     "--camera-view-angle", "--frames",         "--hdri-file",
-      "--format",        "--resume",           "--checkpoint",        "--noise",          "--time",
-      "--caustics",      "--shadow-catcher",   "--light-reuse",       "--stage",          "--disable",
-      "--sample-offset", "--no-default-light", "--tree-level",        "--background-blur"};
+      "--camera",        "--camera-orbit",     "--camera-view-angle", "--frames",          "--hdri-file",
+      "--format",        "--resume",           "--checkpoint",        "--noise",           "--time",
+      "--caustics",      "--shadow-catcher",   "--light-reuse",       "--stage",           "--disable",
+      "--sample-offset", "--no-default-light", "--tree-level",        "--background-blur", "--studio",
+      "--sun-elevation", "--sun-azimuth"};
   Words words{"a.gltf"};
   for (const OptionRow& row : optionRows()) {
     if (isOption(row) && std::ranges::find(left, row.name) == left.end()) words.push_back(uses(row).back());

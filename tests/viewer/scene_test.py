@@ -64,6 +64,30 @@ class Tree(Case):
         self.ends_well(viewer, viewer.close())
 
 
+class Sun(Case):
+    def test_it_is_dragged_and_drawn_as_by_the_command(self):
+        viewer = self.view("sun-sky", *SIZE, "--spp", "2", "--sky", "--sun-elevation", "30")
+        self.assertEqual(viewer.rest()["sun"], [30, 225])
+        before = pixels_of(viewer.press_for_file("F12", ".png"))
+        viewer.xdotool("keydown", "shift")
+        viewer.drag((60, 50), (90, 40), button=3)
+        viewer.xdotool("keyup", "shift")
+        elevation, azimuth = viewer.rest(lambda s: s["sun"] != [30, 225], "the sun elsewhere")["sun"]
+        self.assertGreater(elevation, 33)
+        self.assertLess(azimuth % 360, 215)
+        words = copied_command(self, viewer)
+        self.assertAlmostEqual(float(words[words.index("--sun-elevation") + 1]), elevation)
+        words[words.index("--output") + 1] = str(self.folder / "command.png")
+        subprocess.run([FRAGTRACE, *words[1:], "--quiet"], check=True, cwd=self.folder, timeout=300)
+        moved = pixels_of(viewer.press_for_file("F12", ".png"))
+        self.same(moved, pixels_of(self.folder / "command.png"))
+        self.assertGreater(sum(a != b for a, b in zip(before, moved)), 1000)
+        viewer.key("ctrl+z")
+        viewer.rest(lambda s: s["sun"] == [30, 225], "as before the drag")
+        self.same(before, pixels_of(viewer.press_for_file("F12", ".png")))
+        self.ends_well(viewer, viewer.close())
+
+
 class Reference(Case):
     def reference(self, name, *options):
         return self.render("furnace", *SIZE, "--spp", 1, *options, name=name)

@@ -64,7 +64,7 @@ void sayWhatIsDark(const RenderOptions& options, const LoadedScene& loaded, cons
       "warning: " + std::to_string(int(100.0 * share)) +
           " % of the pixels are black: nearly all camera paths end in the dark; " +
           (inside ? "the camera stands inside the scene, perhaps in a closed shell; --fit moves it out"
-                  : "no light reaches what it sees (--studio, --hdri-file)"));
+                  : "no light reaches what it sees (--studio, --sky, --hdri-file)"));
 }
 
 /// Says that light is missing from the picture because --bounces ended paths.

@@ -66,6 +66,7 @@ RenderOptions programPart(const RenderOptions& options) {
   if (part.output.debugView == DebugView::Samples || part.output.debugView == DebugView::Variance)
     part.output.debugView = DebugView::None;  // drawn by the picture's own
   part.sampling.clampIndirect = part.sampling.clampIndirect > 0.0 ? 1.0 : 0.0;
+  part.light.sky = {.on = part.light.sky.on};  // showSurroundings()
   part.output.aovs.clear();
   part.selection.camera.clear();
   if (has(part.stages, Stage::Gi) && part.output.debugView == DebugView::None)
@@ -177,6 +178,12 @@ void ViewPrograms::replace(ViewProgram& program, bool surfacesAlone) const {
     renderer.use(program.tracer.variant);
   else
     renderer.compile(program.tracer.variant, tiny, loaded_.view);
+}
+
+void ViewPrograms::showSurroundings() {
+  settle();
+  std::erase_if(programs_, [](const auto& p) { return p.use_count() == 1 || !p->error.empty(); });
+  for (const std::shared_ptr<ViewProgram>& program : programs_) replaceSurroundings(program->tracer, loaded_);
 }
 
 std::shared_ptr<ViewProgram> ViewPrograms::makeAside(const RenderOptions& part) const {

@@ -59,6 +59,9 @@ class ViewPrograms {
   /// packed. A program whose text holds the whole scene is made anew when it is asked for again.
   void showSurfaces(const SceneSelection& selection);
 
+  /// The same for other surroundings of the same kind. Throws as replaceSurroundings().
+  void showSurroundings();
+
  private:
   std::shared_ptr<ViewProgram> make(const RenderOptions& part) const;
   std::shared_ptr<ViewProgram> makeAside(const RenderOptions& part) const;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "gl/driver_choice.h"
+#include "session/environment.h"
 #include "session/outputs.h"
 #include "session/phase_timer.h"
 #include "view/shown_text.h"
@@ -192,7 +193,8 @@ void ViewTracer::adoptScene() {
   viewed.cameras = loaded_->scene.cameras;
   viewed.bounds = loaded_->scene.bounds;
   viewed.present =
-      traitsOf(loaded_->scene, loaded_->environment.kind, !loaded_->environment.backdrop.values.empty());
+      traitsOf(loaded_->scene, loaded_->environment.kind, !loaded_->environment.backdrop.values.empty(),
+               loaded_->environment.sun.has_value());
   viewed.description = result->stats.scene;
   viewed.defaultLight = !result->ownLight;
   viewed.map = loaded_->environment.kind == Surroundings::Map;
@@ -291,6 +293,22 @@ void ViewTracer::pose(const TraceRequest& request) {
   if (!sameNodes) exchange_.tellNote({});
 }
 
+bool ViewTracer::relight(const TraceRequest& request) {
+  const auto airOf = [](SkyOptions sky) {
+    placeSun(sky, {sunOf(sky).elevation, 0.0});  // the environment is turned to its azimuth
+    return sky;
+  };
+  SkyOptions& shown = loadedOptions_.light.sky;
+  const SkyOptions& wanted = request.sides[0].light.sky;
+  if (!shown.on || !wanted.on || airOf(shown) == airOf(wanted)) return false;
+  shown = wanted;
+  std::vector<std::string> repeated;
+  const SaidHere silence(repeated);  // a night is seen
+  loaded_->environment = skyOf(loadedOptions_, repeated);
+  programs_->showSurroundings();
+  return true;
+}
+
 void ViewTracer::adopt(const TraceRequest& request) {
   // The window does not know of the scene that has just been loaded.
   if (request.sides.front().scene != loadedOptions_.scene) return;
@@ -300,6 +318,9 @@ void ViewTracer::adopt(const TraceRequest& request) {
   };
   wasText_ = wasText_ || std::ranges::any_of(sides_, isText);
   for (RenderOptions& side : request_.sides) side = asPosed(side);
+  if (relight(request_)) {
+    for (Side& side : sides_) side.stale = true;
+  }
   if (!isPosed(request_)) {
     if (!setSurfaces(request_)) pose(request_);
     for (Side& side : sides_) side.stale = true;

@@ -88,6 +88,8 @@ class ViewTracer {
   /// The scene gets the numbers that the request sets for surfaces and lights. Returns false if more than
   /// these may have to change: the scene is then to be posed.
   bool setSurfaces(const TraceRequest& request);
+  /// Makes the sky that is asked for, where it is another one. Returns true if it was.
+  bool relight(const TraceRequest& request);
   /// With the filter that can be had; why not, the window is told.
   RenderOptions withFilter(RenderOptions options);
   void adoptSide(Side& side, const RenderOptions& options);

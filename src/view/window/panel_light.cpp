@@ -18,6 +18,7 @@ constexpr float kMostIntensity = 100.0f;  // the command line takes more
 constexpr float kMostFog = 10.0f;         // 1/m; as below, the command line takes more
 constexpr float kMostForward = 0.95f;
 constexpr float kMostFogHeight = 1000.0f;  // metres
+constexpr float kLowestSun = -18.0f;       // degrees; the command line takes less
 constexpr float kMostBlur = 30.0f;         // degrees; the command line takes more
 
 /// Twice as wide as high; room for it where there is none, or not yet.
@@ -56,6 +57,31 @@ Task chooseEnvironment(const ViewedScene& scene, ViewFacts& facts) {
   addItemPlace(places, "environment Open...");
   ImGui::EndCombo();
   return chosen;
+}
+
+/// The sun of the sky, and its haze.
+void drawSky(ViewState& state, Places& places) {
+  SkyOptions sky = state.sides[0].light.sky;
+  SunPlace sun = sunOf(sky);
+  label(places, "Sun height");
+  auto elevation = float(sun.elevation);
+  if (ImGui::SliderFloat("##sunheight", &elevation, kLowestSun, 90.0f, "%.1f degrees", kBounded)) {
+    sun.elevation = elevation;
+    placeSun(sky, sun);
+  }
+  tip(places, "Degrees above the horizon (--sun-elevation). Shift and the right button drag the sun");
+  label(places, "Sun from");
+  auto azimuth = float(std::remainder(sun.azimuth, 360.0));
+  if (ImGui::SliderFloat("##sunfrom", &azimuth, -180.0f, 180.0f, "%.0f degrees", kBounded)) {
+    sun.azimuth = azimuth;
+    placeSun(sky, sun);
+  }
+  tip(places, "Degrees clockwise from north, which is -Z: 90 is east, +X (--sun-azimuth)");
+  label(places, "Haze");
+  auto turbidity = float(sky.turbidity);
+  if (ImGui::SliderFloat("##haze", &turbidity, 1.0f, 10.0f, "%.1f", kBounded)) sky.turbidity = turbidity;
+  tip(places, "1 is air without haze, 3 a clear day (--sky-turbidity)");
+  for (RenderOptions& side : state.sides) side.light.sky = sky;
 }
 
 /// Fog round the scene.
@@ -154,7 +180,8 @@ Task drawLight(ViewState& state, ViewFacts& facts) {
                          kBoundedLogarithmic))
     for (RenderOptions& side : state.sides) side.light.hdriIntensity = intensity;
   ImGui::EndDisabled();
-  if (!state.scene->options.light.hdriFile.empty()) {
+  if (o.light.sky.on) drawSky(state, places);
+  if (!state.scene->options.light.hdriFile.empty() || state.scene->options.light.sky.on) {
     label(places, "Blur");
     const double blur = state.scene->options.light.backgroundBlur;
     // It is blurred once, when the slider is let go.

@@ -119,6 +119,7 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["set"] = Json::object();
   for (const SetNumber& set : state.sides[0].selection.set) json["set"][set.pointer] = set.values;
   json["hdri_rotation"] = state.sides[0].light.hdriRotationDegrees;
+  json["sun"] = {sunOf(state.sides[0].light.sky).elevation, sunOf(state.sides[0].light.sky).azimuth};
   json["hdri_intensity"] = state.sides[0].light.hdriIntensity;
   json["background"] = state.sides[0].light.background;
   json["animation"] = animationJson(state);

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// The disc of the sun before the map of the sky (kSun). Its two rows lie behind the map and its backdrop
+// (src/pack/pack_environment.h).
+
+struct Sun {
+  vec3 direction;  // of its middle, in the scene
+  float chance;    // that a light sample of the environment takes the sun
+  vec3 radiance;   // of its middle, before the environment's factor
+  float pdf;       // over solid angle, of a direction to its middle when the sun is taken
+};
+
+Sun sunOfSky() {
+  ivec2 lit = ivec2(frame.environmentSize);
+  int row = lit.x * lit.y + frame.backdropSize.x * frame.backdropSize.y;
+  vec4 place = uintBitsToFloat(readEnvironment(row));
+  vec4 light = uintBitsToFloat(readEnvironment(row + 1));
+  float c = frame.environmentRotation.x;
+  float s = frame.environmentRotation.y;
+  Sun sun;
+  sun.direction = vec3(place.x * c + place.z * s, place.y, -place.x * s + place.z * c);
+  sun.chance = place.w;
+  sun.radiance = vec3(light);
+  sun.pdf = light.w;
+  return sun;
+}
+
+/// The radiance of a place of the disc as a part of that of its middle (docs/design/sky.md). squared: the square of the
+/// cosine at the sun's surface.
+float limbOf(float squared, float power) { return pow(squared, 0.5f * power); }
+
+/// Adds the disc to radiance and pdf of the map along a direction, which environmentAt gives.
+vec4 withSun(vec4 there, vec3 direction) {
+  Sun sun = sunOfSky();
+  there.w *= 1.0f - sun.chance;
+  float radius = kSunRadius;
+  vec3 off = (direction - sun.direction) / radius;
+  float squared = 1.0f - dot(off, off);
+  if (squared <= 0.0f) return there;
+  float green = limbOf(squared, kLimbGreen);
+  float sine = sqrt(max(0.0f, 1.0f - direction.y * direction.y));
+  there.w += sun.chance * sun.pdf * green * 2.0f * kPi * kPi * sine;
+  // The ground hides the rest.
+  if (direction.y <= 0.0f) return there;
+  vec3 limb = vec3(limbOf(squared, kLimbRed), green, limbOf(squared, kLimbBlue));
+  float intensity = frame.environmentScale;
+  return there + vec4(sun.radiance * limb * intensity, 0.0f);
+}
+
+/// A direction to the disc by the radiance of its green light.
+vec3 sampleSun(Sun sun, float u, float v) {
+  float power = kLimbGreen;
+  float squared = pow(1.0f - u, 2.0f / (2.0f + power));
+  float radius = kSunRadius;
+  vec2 around = unitCircle(v) * (radius * sqrt(max(0.0f, 1.0f - squared)));
+  return normalize(toWorld(frameAround(sun.direction), vec3(around, 1.0f)));
+}

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// The air of the Earth: what it scatters and absorbs at each height (docs/design/sky.md). Lengths are
+// kilometres, angles are given by their cosine to the zenith.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/gtc/constants.hpp>
+#include <vector>
+
+namespace fragtrace {
+
+/// A value for each of the wavelengths.
+inline constexpr size_t kWavelengths = 10;
+using Spectrum = std::array<double, kWavelengths>;
+
+/// Wavelength of a value, in micrometres.
+constexpr double wavelengthOf(size_t index) { return 0.395 + 0.035 * double(index); }
+
+inline constexpr double kHalfTurn = glm::pi<double>();  ///< radians
+inline constexpr double kGroundRadius = 6360.0;
+inline constexpr double kAirTop = 6460.0;            ///< radius above which there is no air
+inline constexpr double kSunRadiusDegrees = 0.2665;  ///< of the disc
+
+/// Parts of the air: molecules, aerosol and ozone.
+enum class Air : size_t { Molecules, Aerosol, Ozone, Count };
+/// A number for each part of the air.
+using AirColumns = std::array<double, size_t(Air::Count)>;
+
+/// Density at a height above the ground: of molecules and aerosol as a part of that at the ground, of ozone
+/// as a part of the greatest.
+AirColumns densityAt(double height);
+
+/// Coefficients at density 1, in 1/km.
+struct Atmosphere {
+  std::array<Spectrum, size_t(Air::Count)> extinction;
+  Spectrum molecules;  ///< scattering
+  Spectrum aerosol;    ///< scattering
+};
+
+/// The air with such a turbidity: how much more light haze and molecules take than molecules alone; 1: clear.
+Atmosphere atmosphereOf(double turbidity);
+
+/// Phase functions (1/sr) by the cosine of the angle between the light before and after.
+double moleculesPhase(double cosine);
+double aerosolPhase(double cosine);
+
+/// Columns of air (density times km) along rays that leave the atmosphere without meeting the ground.
+class AirTable {
+ public:
+  AirTable();
+  AirColumns columnsFrom(double radius, double cosine) const;
+
+ private:
+  std::vector<AirColumns> values_;
+};
+
+/// The same as AirTable, integrated with so many steps.
+AirColumns integrateColumns(double radius, double cosine, int steps);
+
+/// The part of the light that columns let pass.
+Spectrum transmittanceOf(const Atmosphere& air, const AirColumns& columns);
+
+/// The part of the sun's disc that a point sees above the horizon, by the cosine of the sun's angle.
+double sunShare(double radius, double sunCosine);
+
+/// Distance along a ray to the top of the atmosphere, and to the ground, which the ray meets.
+double distanceToTop(double radius, double cosine);
+double distanceToGround(double radius, double cosine);
+bool meetsGround(double radius, double cosine);
+
+/// A point of a ray at a distance: its radius, and the cosine of the ray to the zenith there.
+struct RayPoint {
+  double radius;
+  double cosine;
+};
+RayPoint alongRay(double radius, double cosine, double distance);
+
+}  // namespace fragtrace

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// The clear sky and the sun as somebody on the ground sees them (docs/design/sky.md).
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "image/image.h"
+#include "scene/sky/many_scatterings.h"
+
+namespace fragtrace {
+
+/// The sun's disc, which is no part of the map.
+struct SunDisc {
+  glm::dvec3 direction{0.0, 1.0, 0.0};  ///< of its middle, as places of the map are
+  glm::dvec3 irradiance{0.0};           ///< of a surface that faces it
+  glm::dvec3 radiance{0.0};             ///< of its middle
+};
+
+/// Powers of the cosine at the sun's surface by which its radiance falls to the limb, for red, green and blue
+/// light (Hestroffer and Magnan, 1998: 0.292 / wavelength - 0.023, at 610, 550 and 465 nm).
+inline constexpr glm::dvec3 kLimbPowers{0.456, 0.508, 0.605};
+
+/// An equirectangular map with R, G, B to whose texels the light of the disc is added.
+Image withDisc(Image map, const SunDisc& sun);
+
+struct SkyMap {
+  Image image;  ///< equirectangular with R, G, B; the sun stands above -Z, and the lower half is the ground
+  SunDisc sun;
+};
+
+/// What the air of a sky does, apart from where the sun stands.
+struct SkyAir {
+  Atmosphere air;
+  AirTable table;
+  ScatteringTable often;
+  double albedo;
+
+  SkyAir(double turbidity, double groundAlbedo);
+};
+
+/// Light from one direction above the horizon, in units of the sun's irradiance (1/sr), by the cosine of the
+/// direction and the cosine of the sun's angle to the zenith, and the turn between the two in radians.
+Spectrum skyRadiance(const SkyAir& sky, double cosine, double sunCosine, double turn);
+
+/// The sun's elevation is in degrees. Uses all processors.
+SkyMap makeSky(const SkyAir& sky, double sunElevation);
+
+/// The same; the air of the last call is kept.
+SkyMap makeSky(double turbidity, double groundAlbedo, double sunElevation);
+
+}  // namespace fragtrace
