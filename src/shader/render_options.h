@@ -145,9 +145,9 @@ struct SamplingOptions {
 /// A clear sky with its sun (scene/sky/sky.h).
 struct SkyOptions {
   bool on = false;
-  SunPlace sun;                     ///< where `time` does not say it
-  std::string time;                 ///< daysOf() reads it; empty: `sun` is the place
-  std::optional<glm::dvec2> place;  ///< latitude and longitude in degrees, north and east positive
+  SunPlace sun{};                     ///< where `time` does not say it
+  std::string time{};                 ///< daysOf() reads it; empty: `sun` is the place
+  std::optional<glm::dvec2> place{};  ///< latitude and longitude in degrees, north and east positive
   double turbidity = 3.0;
   double groundAlbedo = 0.2;
 

@@ -90,7 +90,8 @@ TEST(GltfFiles, NamesFromWindowsAreExplained) {
   folder.write("Wood.PNG", "x");
   std::string refusal = refusalOf(folder.write("a.gltf", withTexture({{"uri", "wood.png"}}).text()));
   EXPECT_NE(refusal.find("No such file or directory; Wood.PNG lies there"), std::string::npos) << refusal;
-  refusal = refusalOf(withTexture({{"uri", "maps\\wood.png"}}));
+  GltfBuilder other = withTexture({{"uri", "maps\\wood.png"}});
+  refusal = refusalOf(other);
   EXPECT_NE(refusal.find("has a backslash, where glTF has /"), std::string::npos) << refusal;
 }
 

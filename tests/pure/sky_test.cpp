@@ -228,7 +228,9 @@ TEST(Sky, HasTheRatiosOfMitsuba) {
       const double direct = luminance(map.sun.irradiance) * height / overhead;
       EXPECT_NEAR(ground * M_PI / kAlbedo - direct, there.irradiance, 0.2 * there.irradiance);
       const double sunlit = kAlbedo / M_PI * (there.irradiance + there.sunlight / kSunOfMitsuba * height);
-      if (turbidity == 3.0) EXPECT_NEAR(ground, sunlit, 0.25 * sunlit);
+      if (turbidity == 3.0) {
+        EXPECT_NEAR(ground, sunlit, 0.25 * sunlit);
+      }
     }
   }
 }
@@ -242,7 +244,9 @@ TEST(Sky, IsLikeOnBothSidesOfTheSunAndDarkAtNight) {
     const float* left = map.image.pixel(width / 4 - 8, 100);
     EXPECT_EQ(left[1], map.image.pixel(width / 4 + 7, 100)[1]);
     EXPECT_EQ(map.sun.irradiance == dvec3(0.0), sun < -0.2665);
-    if (sun < -18.0) EXPECT_LT(map.image.pixel(0, 0)[1], 1e-6f);
+    if (sun < -18.0) {
+      EXPECT_LT(map.image.pixel(0, 0)[1], 1e-6f);
+    }
   }
 }
 

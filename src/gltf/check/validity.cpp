@@ -121,7 +121,8 @@ Version versionOf(const std::string& text, const std::string& place, const Diagn
 
 /// Refuses a version that is less than the file asks for.
 void checkLeastVersion(const json& asset, const Diagnostics& diagnostics) {
-  const Version version = versionOf(asset["version"].get_ref<const std::string&>(), "/asset/version", diagnostics);
+  const auto& text = asset["version"].get_ref<const std::string&>();
+  const Version version = versionOf(text, "/asset/version", diagnostics);
   if (!asset.contains("minVersion")) return;
   const auto& least = asset["minVersion"].get_ref<const std::string&>();
   const Version minVersion = versionOf(least, "/asset/minVersion", diagnostics);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The choice among the file's scenes and material variants.
+#include "scene/parts.h"
 #include "view/window/panel_parts.h"
 
 namespace fragtrace {
@@ -11,10 +12,11 @@ namespace {
 std::optional<std::string> choosePart(const char* id, const char* none, const std::vector<std::string>& names,
                                       const std::string& current) {
   const auto nameOf = [&](size_t i) { return partText(i, names[i]); };
-  const std::optional<size_t> now = current.empty() ? std::nullopt : findPart(current, names);
+  const size_t no = names.size();
+  const size_t now = current.empty() ? no : findPart(current, names).value_or(no);
   std::optional<std::string> chosen;
-  if (!ImGui::BeginCombo(id, now ? nameOf(*now).c_str() : none)) return chosen;
-  if (ImGui::Selectable(none, !now)) chosen = "";
+  if (!ImGui::BeginCombo(id, now != no ? nameOf(now).c_str() : none)) return chosen;
+  if (ImGui::Selectable(none, now == no)) chosen = "";
   for (size_t i = 0; i < names.size(); ++i) {
     if (ImGui::Selectable(nameOf(i).c_str(), now == i)) chosen = std::to_string(i);
   }
