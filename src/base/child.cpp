@@ -82,8 +82,7 @@ std::unique_ptr<Child> startChild(const std::string& name, const std::string& ar
   if (error != 0) {
     child->process = -1;
     ::close(child->socket);
-    throw std::runtime_error(path.string() + " cannot be started (" + systemReason(error) +
-                             ")");
+    throw std::runtime_error(path.string() + " cannot be started (" + systemReason(error) + ")");
   }
   return child;
 }

@@ -62,9 +62,9 @@ void SharedMemory::fail() {
   const int code = errno;
   if (file_ >= 0) ::close(file_);
   // Shared memory counts as a file.
-  throw std::runtime_error(
-      code == EFBIG ? "the limit of the shell on the size of a file is too low (ulimit -f)"
-                    : "no memory to share with a process of ours: " + systemReason(code));
+  throw std::runtime_error(code == EFBIG
+                               ? "the limit of the shell on the size of a file is too low (ulimit -f)"
+                               : "no memory to share with a process of ours: " + systemReason(code));
 }
 
 bool sendWithFile(int socket, std::span<const uint8_t> body, int file) {
