@@ -94,7 +94,7 @@ OptionRow setRow() {
       for (const std::string& text : texts) raw.options.selection.set.push_back(setNumberIn(text));
     };
     app.add_option_function<std::vector<std::string>>(r.name, take, r.help)
-        ->type_name("PLACE=NUMBERS")
+        ->type_name("ASSIGNMENT")
         ->allow_extra_args(false);
   };
   row.words = [](const RenderOptions& o) {

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from fault import callers_of
 
-COMMANDS = ("Media", "Volumes", "Means", "Sheets", "KnownLight", "ThinGlass", "LightTree", "Caustics", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "LightParts", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging", "Denoising", "ShadowCatcher", "CutOutShadow")
+COMMANDS = ("Sky", "Media", "Volumes", "Means", "Sheets", "KnownLight", "ThinGlass", "LightTree", "Caustics", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "LightParts", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging", "Denoising", "ShadowCatcher", "CutOutShadow")
 # Where to look first, before there is any experience: scenes of picture tests, test files and groups by the beginning of a fault's name.
 LIKELY = {
     "media/phase.": ("pure.shader_media_test",),
@@ -74,6 +74,9 @@ LIKELY = {
     "pixel_filter.pixelFilterPdf": ("command.Caustics",),
     "lights.emittedFrom": ("command.KnownLight",),
     "lights.": ("command.KnownLight", "lights.gi", "cornell-box-direct.gi", "lights.shadows"),
+    "sky/": ("pure.shader_sun_test", "command.Sky"),
+    "environment.sampleSky": ("pure.shader_sun_test",),
+    "lights.skyLight": ("command.Sky",),
     "environment.": ("command.KnownLight", "environment-rotated.gi", "sun-sky.gi", "pure.shader_environment_test"),
     "material.": ("command.KnownSurfaces", "command.TextureFactors", "plastics.gi", "lights.gi", "command.Materials"),
     "material_layers.": ("command.KnownSurfaces", "command.TextureFactors", "mapped-layers.gi", "lobes.gi", "command.Materials"),

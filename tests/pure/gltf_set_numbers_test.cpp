@@ -154,6 +154,23 @@ TEST(ChangedFile, OfAGlbKeepsItsOtherChunks) {
   EXPECT_EQ(contentOf(to), contentOf(from));
 }
 
+TEST(ChangedFile, IsNotWrittenWithNumbersThatItCannotHave) {
+  const TemporaryFolder folder;
+  GltfBuilder builder = coated();
+  const auto from = folder.write("a.gltf", builder.text());
+  const auto to = folder.path() / "b.gltf";
+  const std::vector<SetNumber> wrong[] = {{{kRoughness, {0.5, 2.0}}},
+                                          {{"/asset/version", {1.0}}},
+                                          {{"/accessors/0/count", {99999.0}}},
+                                          {{"/materials/9/alphaCutoff", {0.5}}}};
+  for (const std::vector<SetNumber>& set : wrong) {
+    EXPECT_THROW(writeChanged(from, to, set), InputError) << set[0].pointer;
+    EXPECT_FALSE(std::filesystem::exists(to)) << set[0].pointer;
+    EXPECT_THROW(checkChange(from, set), UsageError) << set[0].pointer;
+  }
+  EXPECT_NO_THROW(checkChange(from, {{{kRoughness, {0.5}}}}));
+}
+
 TEST(ChangedFile, ThatRefersToOthersStaysInItsFolder) {
   const TemporaryFolder folder;
   const TemporaryFolder other;

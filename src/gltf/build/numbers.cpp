@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/build/numbers.h"
 
+#include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -55,16 +56,20 @@ void writeNumbers(json& root, const std::string& pointer, const NumberRule& rule
   }
 }
 
-void writeNumbers(json& root, const std::vector<SetNumber>& set) {
+void checkNumbers(const json& root, std::span<const SetNumber> set) {
   for (const auto& [pointer, values] : set) {
     const std::optional<NumberRule> rule = numberRuleIn(root, pointer);
     if (!rule) throw UsageError("--set: " + pointer + " is no number of the file that is read");
-    const size_t width = rule->width > 0 ? rule->width : values.size();
-    if (values.size() != width || values.empty())
-      throw UsageError("--set: " + pointer + " takes " + std::to_string(width) + " numbers, not " +
-                       std::to_string(values.size()));
-    writeNumbers(root, pointer, *rule, values);
+    const size_t width = rule->width > 0 ? rule->width : std::max<size_t>(values.size(), 1);
+    if (values.size() != width)
+      throw UsageError("--set: " + pointer + " takes " + std::to_string(width) +
+                       (width == 1 ? " number, not " : " numbers, not ") + std::to_string(values.size()));
   }
+}
+
+void writeNumbers(json& root, const std::vector<SetNumber>& set) {
+  checkNumbers(root, set);
+  for (const auto& [pointer, values] : set) writeNumbers(root, pointer, *numberRuleIn(root, pointer), values);
 }
 
 }  // namespace fragtrace

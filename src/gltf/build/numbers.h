@@ -4,6 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,10 @@ std::optional<NumberRule> numberRuleIn(const nlohmann::json& root, const std::st
 void writeNumbers(nlohmann::json& root, const std::string& pointer, const NumberRule& rule,
                   const std::vector<double>& values);
 
-/// Writes the user's numbers. Throws UsageError for a place without numbers, and for too few or too many.
+/// Throws UsageError for a place without numbers, and for too few or too many.
+void checkNumbers(const nlohmann::json& root, std::span<const SetNumber> set);
+
+/// Checks and writes the user's numbers.
 void writeNumbers(nlohmann::json& root, const std::vector<SetNumber>& set);
 
 }  // namespace fragtrace

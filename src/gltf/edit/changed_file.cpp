@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/errors.h"
+#include "gltf/build/numbers.h"
 #include "gltf/edit/json_text.h"
 #include "gltf/read/uri.h"
 #include "image/files/whole_file.h"
@@ -18,6 +19,7 @@ namespace {
 using nlohmann::json;
 
 // A .glb: magic, version, length; then chunks, each with length and kind before its bytes.
+constexpr const char* kMagic = "glTF";
 constexpr size_t kLengthAt = 8;
 constexpr size_t kHeaderSize = 12;
 constexpr size_t kChunkHeaderSize = 8;
@@ -31,6 +33,17 @@ uint32_t wordAt(const std::string& bytes, size_t at) {
 
 void writeWord(std::string& bytes, size_t at, size_t word) {
   for (size_t i = 0; i < 4; ++i) bytes.at(at + i) = char(uint8_t(word >> (8 * i)));
+}
+
+std::string bytesOf(const std::filesystem::path& file) {
+  const std::vector<uint8_t> read = readWholeFile(file);
+  return {read.begin(), read.end()};
+}
+
+/// The JSON of a .gltf's or .glb's bytes.
+std::string jsonOf(const std::string& bytes) {
+  if (!bytes.starts_with(kMagic)) return bytes;
+  return bytes.substr(kHeaderSize + kChunkHeaderSize, wordAt(bytes, kHeaderSize));
 }
 
 /// The .glb with another text as its JSON; what follows that chunk stays.
@@ -61,20 +74,30 @@ std::filesystem::path folderOf(const std::filesystem::path& file) {
 
 }  // namespace
 
+void checkChange(const std::filesystem::path& from, std::span<const SetNumber> set) {
+  const std::string bytes = bytesOf(from);
+  json document;
+  try {
+    document = json::parse(jsonOf(bytes));
+  } catch (const std::exception& error) {
+    throw InputError(from.string() + ": " + error.what());
+  }
+  checkNumbers(document, set);
+}
+
 void writeChanged(const std::filesystem::path& from, const std::filesystem::path& to,
                   std::span<const SetNumber> set) {
-  const std::vector<uint8_t> read = readWholeFile(from);
-  std::string bytes(read.begin(), read.end());
-  const bool isGlb = bytes.starts_with("glTF");
+  std::string bytes = bytesOf(from);
+  const bool isGlb = bytes.starts_with(kMagic);
   try {
     if (isGlb) bytes.resize(std::min<size_t>(bytes.size(), wordAt(bytes, kLengthAt)));
-    const std::string text =
-        isGlb ? bytes.substr(kHeaderSize + kChunkHeaderSize, wordAt(bytes, kHeaderSize)) : bytes;
+    const std::string text = jsonOf(bytes);
     const json document = json::parse(text);
     const std::string other = fileReferredTo(document);
     if (!other.empty() && folderOf(from) != folderOf(to))
       throw InputError(from.filename().string() + " refers to other files, such as " + other +
                        ": it can only be written into " + folderOf(from).string());
+    checkNumbers(document, set);
     const std::string changed = withNumbers(text, set);
     bytes = isGlb ? withJson(bytes, changed) : changed;
   } catch (const InputError&) {

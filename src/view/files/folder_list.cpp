@@ -54,7 +54,7 @@ ListStep acceptSave(FolderList& list) {
   const FileFilter& filter = list.question.filters.at(list.filter);
   if (path.extension().empty()) path += filter.extensions.front();
   if (!passes(filter, path)) {
-    list.note = path.extension().string() + " is no format of the viewer's pictures: " + filter.name;
+    list.note = path.extension().string() + " cannot be written here: " + filter.name;
     return {};
   }
   if (!fs::is_directory(path.parent_path(), error)) {

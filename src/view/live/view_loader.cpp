@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "base/thread_name.h"
+#include "gltf/edit/changed_file.h"
 #include "pack/own_light.h"
 #include "view/camera_controller.h"
 #include "view/environments.h"
@@ -43,6 +44,7 @@ void SceneLoader::start(const RenderOptions& options) {
       // Numbers that the user sets are set later: the window shows the file's, too.
       RenderOptions plain = options;
       plain.selection.set.clear();
+      if (!options.selection.set.empty()) checkChange(options.scene, options.selection.set);
       result.scene =
           std::make_unique<LoadedScene>(loadScene(plain, result.stats, progress, FilmOf::Picture, before));
       const bool known = !hasMap(options) && options.light.defaultLight != DefaultLight::None;

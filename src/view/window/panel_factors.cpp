@@ -16,7 +16,10 @@ constexpr float kMostBrighter = 100.0f;  // than in the file
 
 /// Linear, from 0 to 1.
 bool editColor(const char* id, float* color) {
-  return ImGui::ColorEdit3(id, color, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoLabel);
+  if (!ImGui::ColorEdit3(id, color, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoLabel)) return false;
+  // What is typed may be anything.
+  for (int i = 0; i < 3; ++i) color[i] = std::clamp(color[i], 0.0f, 1.0f);
+  return true;
 }
 
 void drawFactor(ViewState& state, Places& places, const Factor& factor, const Material& file, Material now) {
