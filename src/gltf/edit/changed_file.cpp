@@ -19,7 +19,7 @@ namespace {
 using nlohmann::json;
 
 // A .glb: magic, version, length; then chunks, each with length and kind before its bytes.
-constexpr const char* kMagic = "glTF";
+constexpr const char* kGlbMagic = "glTF";
 constexpr size_t kLengthAt = 8;
 constexpr size_t kHeaderSize = 12;
 constexpr size_t kChunkHeaderSize = 8;
@@ -42,7 +42,7 @@ std::string bytesOf(const std::filesystem::path& file) {
 
 /// The JSON of a .gltf's or .glb's bytes.
 std::string jsonOf(const std::string& bytes) {
-  if (!bytes.starts_with(kMagic)) return bytes;
+  if (!bytes.starts_with(kGlbMagic)) return bytes;
   return bytes.substr(kHeaderSize + kChunkHeaderSize, wordAt(bytes, kHeaderSize));
 }
 
@@ -88,7 +88,7 @@ void checkChange(const std::filesystem::path& from, std::span<const SetNumber> s
 void writeChanged(const std::filesystem::path& from, const std::filesystem::path& to,
                   std::span<const SetNumber> set) {
   std::string bytes = bytesOf(from);
-  const bool isGlb = bytes.starts_with(kMagic);
+  const bool isGlb = bytes.starts_with(kGlbMagic);
   try {
     if (isGlb) bytes.resize(std::min<size_t>(bytes.size(), wordAt(bytes, kLengthAt)));
     const std::string text = jsonOf(bytes);
