@@ -20,10 +20,10 @@ using nlohmann::json;
 
 // A .glb: magic, version, length; then chunks, each with length and kind before its bytes.
 constexpr const char* kGlbMagic = "glTF";
-constexpr size_t kLengthAt = 8;
-constexpr size_t kHeaderSize = 12;
-constexpr size_t kChunkHeaderSize = 8;
-constexpr size_t kAlignment = 4;
+constexpr size_t kGlbLengthAt = 8;
+constexpr size_t kGlbHeader = 12;
+constexpr size_t kGlbChunkHeader = 8;
+constexpr size_t kGlbAlignment = 4;
 
 uint32_t wordAt(const std::string& bytes, size_t at) {
   uint32_t word = 0;
@@ -35,25 +35,25 @@ void writeWord(std::string& bytes, size_t at, size_t word) {
   for (size_t i = 0; i < 4; ++i) bytes.at(at + i) = char(uint8_t(word >> (8 * i)));
 }
 
-std::string bytesOf(const std::filesystem::path& file) {
+std::string wholeText(const std::filesystem::path& file) {
   const std::vector<uint8_t> read = readWholeFile(file);
   return {read.begin(), read.end()};
 }
 
 /// The JSON of a .gltf's or .glb's bytes.
-std::string jsonOf(const std::string& bytes) {
+std::string jsonTextOf(const std::string& bytes) {
   if (!bytes.starts_with(kGlbMagic)) return bytes;
-  return bytes.substr(kHeaderSize + kChunkHeaderSize, wordAt(bytes, kHeaderSize));
+  return bytes.substr(kGlbHeader + kGlbChunkHeader, wordAt(bytes, kGlbHeader));
 }
 
 /// The .glb with another text as its JSON; what follows that chunk stays.
 std::string withJson(const std::string& glb, std::string text) {
-  const size_t end = kHeaderSize + kChunkHeaderSize + wordAt(glb, kHeaderSize);
+  const size_t end = kGlbHeader + kGlbChunkHeader + wordAt(glb, kGlbHeader);
   text.erase(text.find_last_not_of(' ') + 1);
-  text.append((kAlignment - text.size() % kAlignment) % kAlignment, ' ');
-  std::string result = glb.substr(0, kHeaderSize + kChunkHeaderSize) + text + glb.substr(end);
-  writeWord(result, kHeaderSize, text.size());
-  writeWord(result, kLengthAt, result.size());
+  text.append((kGlbAlignment - text.size() % kGlbAlignment) % kGlbAlignment, ' ');
+  std::string result = glb.substr(0, kGlbHeader + kGlbChunkHeader) + text + glb.substr(end);
+  writeWord(result, kGlbHeader, text.size());
+  writeWord(result, kGlbLengthAt, result.size());
   return result;
 }
 
@@ -68,17 +68,17 @@ std::string fileReferredTo(const json& value) {
   return {};
 }
 
-std::filesystem::path folderOf(const std::filesystem::path& file) {
+std::filesystem::path wholeFolderOf(const std::filesystem::path& file) {
   return std::filesystem::weakly_canonical(std::filesystem::absolute(file).parent_path());
 }
 
 }  // namespace
 
 void checkChange(const std::filesystem::path& from, std::span<const SetNumber> set) {
-  const std::string bytes = bytesOf(from);
+  const std::string bytes = wholeText(from);
   json document;
   try {
-    document = json::parse(jsonOf(bytes));
+    document = json::parse(jsonTextOf(bytes));
   } catch (const std::exception& error) {
     throw InputError(from.string() + ": " + error.what());
   }
@@ -87,16 +87,16 @@ void checkChange(const std::filesystem::path& from, std::span<const SetNumber> s
 
 void writeChanged(const std::filesystem::path& from, const std::filesystem::path& to,
                   std::span<const SetNumber> set) {
-  std::string bytes = bytesOf(from);
+  std::string bytes = wholeText(from);
   const bool isGlb = bytes.starts_with(kGlbMagic);
   try {
-    if (isGlb) bytes.resize(std::min<size_t>(bytes.size(), wordAt(bytes, kLengthAt)));
-    const std::string text = jsonOf(bytes);
+    if (isGlb) bytes.resize(std::min<size_t>(bytes.size(), wordAt(bytes, kGlbLengthAt)));
+    const std::string text = jsonTextOf(bytes);
     const json document = json::parse(text);
     const std::string other = fileReferredTo(document);
-    if (!other.empty() && folderOf(from) != folderOf(to))
+    if (!other.empty() && wholeFolderOf(from) != wholeFolderOf(to))
       throw InputError(from.filename().string() + " refers to other files, such as " + other +
-                       ": it can only be written into " + folderOf(from).string());
+                       ": it can only be written into " + wholeFolderOf(from).string());
     checkNumbers(document, set);
     const std::string changed = withNumbers(text, set);
     bytes = isGlb ? withJson(bytes, changed) : changed;

@@ -179,7 +179,7 @@ SkyMap makeSky(double turbidity, double groundAlbedo, double sunElevation) {
     own = kept;
   }
   if (!own || own->turbidity != turbidity || own->sky.albedo != groundAlbedo) {
-    own = std::make_shared<const Kept>(turbidity, SkyAir(turbidity, groundAlbedo));
+    own = std::make_shared<const Kept>(Kept{turbidity, SkyAir(turbidity, groundAlbedo)});
     const std::lock_guard lock(mutex);
     kept = own;
   }
