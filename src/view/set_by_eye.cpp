@@ -3,38 +3,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "gltf/edit/factors.h"
+#include "view/shown_text.h"
 
 namespace fragtrace {
-
-namespace {
-
-template <typename... Values>
-std::string text(const char* format, Values... values) {
-  char buffer[256];
-  std::snprintf(buffer, sizeof buffer, format, values...);
-  return buffer;
-}
-
-}  // namespace
 
 std::vector<std::string> materialLines(const Material& m) {
   std::vector<std::string> lines;
   const auto textured = [](const TextureRef& texture) { return texture.present() ? ", textured" : ""; };
   const auto number = [&](const char* name, float value, bool shown, const TextureRef& texture = {}) {
-    if (shown) lines.push_back(text("%s %.3g%s", name, double(value), textured(texture)));
+    if (shown) lines.push_back(formatted("%s %.3g%s", name, double(value), textured(texture)));
   };
   const auto color = [&](const char* name, glm::vec3 value, bool shown, const TextureRef& texture = {}) {
     if (shown)
-      lines.push_back(text("%s %.3g, %.3g, %.3g%s", name, double(value.r), double(value.g), double(value.b),
-                           textured(texture)));
+      lines.push_back(formatted("%s %.3g, %.3g, %.3g%s", name, double(value.r), double(value.g),
+                                double(value.b), textured(texture)));
   };
   color("base colour", glm::vec3(m.baseColorFactor), true, m.baseColorTexture);
   number("alpha", m.baseColorFactor.a, m.alphaMode != AlphaMode::Opaque);
   if (m.alphaMode != AlphaMode::Opaque)
-    lines.push_back(m.alphaMode == AlphaMode::Mask ? text("alpha mask at %.3g", double(m.alphaCutoff))
+    lines.push_back(m.alphaMode == AlphaMode::Mask ? formatted("alpha mask at %.3g", double(m.alphaCutoff))
                                                    : "alpha blend");
   number("metallic", m.metallicFactor, true, m.metallicRoughnessTexture);
   number("roughness", m.roughnessFactor, true, m.metallicRoughnessTexture);

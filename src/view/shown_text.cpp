@@ -49,10 +49,7 @@ std::string withoutOptions(const std::string& text) {
 
 std::string distanceText(const glm::dvec3& from, const glm::dvec3& to) {
   const glm::dvec3 way = to - from;
-  char text[160];
-  std::snprintf(text, sizeof text, "distance %.4g m: x %.4g, y %.4g, z %.4g", glm::length(way), way.x, way.y,
-                way.z);
-  return text;
+  return formatted("distance %.4g m: x %.4g, y %.4g, z %.4g", glm::length(way), way.x, way.y, way.z);
 }
 
 }  // namespace fragtrace

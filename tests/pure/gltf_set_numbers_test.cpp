@@ -74,7 +74,7 @@ TEST(SetNumbers, MakeTheSceneThatWouldBeLoaded) {
   Scene scene = file;
   ASSERT_TRUE(setByEye(scene, file.materials, file.lightSources, all));
   EXPECT_EQ(numbersOf(scene), numbersOf(loadWith(all)));
-  // What is no longer set is the file's again.
+  // A number that is no longer set is the file's again.
   ASSERT_TRUE(setByEye(scene, file.materials, file.lightSources, {}));
   EXPECT_EQ(numbersOf(scene), numbersOf(file));
 }

@@ -168,7 +168,7 @@ TEST(ShaderSun, DirectionsToItFollowItsLight) {
     ASSERT_LE(radii, 1.0);
     mean += radii * radii / kSamples;
   }
-  // Of the density (1 - r^2)^(p / 2).
+  // The density is (1 - r^2)^(p / 2).
   EXPECT_NEAR(mean, 2.0 / (4.0 + kLimbPowers.g), 1e-3);
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "base/count_text.h"
 #include "base/errors.h"
 #include "gltf/check/schema_checker.h"
 
@@ -62,8 +63,8 @@ void checkNumbers(const json& root, std::span<const SetNumber> set) {
     if (!rule) throw UsageError("--set: " + pointer + " is no number of the file that is read");
     const size_t width = rule->width > 0 ? rule->width : std::max<size_t>(values.size(), 1);
     if (values.size() != width)
-      throw UsageError("--set: " + pointer + " takes " + std::to_string(width) +
-                       (width == 1 ? " number, not " : " numbers, not ") + std::to_string(values.size()));
+      throw UsageError("--set: " + pointer + " takes " + countText(width, "number") + ", not " +
+                       std::to_string(values.size()));
   }
 }
 

@@ -29,7 +29,7 @@ std::array<glm::dvec3, kWavelengths> makeColors() {
   for (size_t i = 0; i < kSun.size(); ++i) {
     const double wavelength = 365.0 + kBin * double(i);
     const glm::dvec3 color = srgbOf(observer(wavelength)) * (kSun[i] * kScale);
-    // What lies between two of the wavelengths is mixed of them.
+    // Values between two wavelengths are interpolated.
     const double place =
         std::clamp((wavelength / 1000.0 - wavelengthOf(0)) / (wavelengthOf(1) - wavelengthOf(0)), 0.0,
                    double(kWavelengths - 1));

@@ -28,7 +28,7 @@ struct SkyMap {
   SunDisc sun;
 };
 
-/// What the air of a sky does, apart from where the sun stands.
+/// The air of a sky, wherever the sun stands.
 struct SkyAir {
   Atmosphere air;
   AirTable table;

@@ -1,20 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "view/live/pick_text.h"
 
-#include <cstdio>
+#include "view/shown_text.h"
 
 namespace fragtrace {
-
-namespace {
-
-template <typename... Values>
-std::string text(const char* format, Values... values) {
-  char buffer[256];
-  std::snprintf(buffer, sizeof buffer, format, values...);
-  return buffer;
-}
-
-}  // namespace
 
 std::vector<std::string> pickLines(const Scene& scene, const Pick& pick) {
   std::vector<std::string> lines;
@@ -22,8 +11,8 @@ std::vector<std::string> pickLines(const Scene& scene, const Pick& pick) {
   if (!pick.mesh.empty())
     lines.push_back("mesh " + pick.mesh + ", triangle " + std::to_string(pick.triangle));
   lines.push_back(
-      text("at %.4g, %.4g, %.4g; %.4g m away", pick.point.x, pick.point.y, pick.point.z, pick.distance));
-  lines.push_back(text("normal %.3f, %.3f, %.3f", pick.normal.x, pick.normal.y, pick.normal.z));
+      formatted("at %.4g, %.4g, %.4g; %.4g m away", pick.point.x, pick.point.y, pick.point.z, pick.distance));
+  lines.push_back(formatted("normal %.3f, %.3f, %.3f", pick.normal.x, pick.normal.y, pick.normal.z));
   if (pick.material >= scene.materials.size()) return lines;
   const Material& material = scene.materials[pick.material];
   lines.push_back("material " + std::to_string(pick.material) +

@@ -17,7 +17,7 @@ constexpr float kMostBrighter = 100.0f;  // than in the file
 /// Linear, from 0 to 1.
 bool editColor(const char* id, float* color) {
   if (!ImGui::ColorEdit3(id, color, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoLabel)) return false;
-  // What is typed may be anything.
+  // Any number may be typed.
   for (int i = 0; i < 3; ++i) color[i] = std::clamp(color[i], 0.0f, 1.0f);
   return true;
 }
