@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gl/gl.h"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -63,13 +64,20 @@ bool isSignalled(void* fence) {
   return fence == nullptr || glClientWaitSync(static_cast<GLsync>(fence), 0, 0) != GL_TIMEOUT_EXPIRED;
 }
 
-void finishFence(void* fence) {
+void finishFence(void* fence, double expectedMs) {
   if (fence == nullptr) return glFinish();
+  using Milliseconds = std::chrono::duration<double, std::milli>;
   constexpr GLuint64 kShort = 200'000;  // ns; short draws are not made longer
+  constexpr double kShortMs = 1e-6 * kShort;
+  constexpr double kSurelyBusy = 0.5;  // part of the expected time: many samples at once take less each
   const auto sync = static_cast<GLsync>(fence);
-  GLenum state = glClientWaitSync(sync, GL_SYNC_FLUSH_COMMANDS_BIT, kShort);
+  const bool sleeps = expectedMs > kShortMs;
+  const Milliseconds asleep(sleeps ? kSurelyBusy * expectedMs : 0.0);
+  if (sleeps) std::this_thread::sleep_for(asleep);
+  GLenum state = glClientWaitSync(sync, GL_SYNC_FLUSH_COMMANDS_BIT, sleeps ? 0 : kShort);
   // A look at the fence takes 15 us of a processor. The pauses are a twentieth of the time that has gone by.
-  for (std::chrono::microseconds pause(100); state == GL_TIMEOUT_EXPIRED; pause += pause / 20) {
+  for (Milliseconds pause = std::max(Milliseconds(0.1), asleep / 20.0); state == GL_TIMEOUT_EXPIRED;
+       pause += pause / 20.0) {
     std::this_thread::sleep_for(pause);
     state = glClientWaitSync(sync, 0, 0);
   }
@@ -79,7 +87,7 @@ void finishFence(void* fence) {
 
 void releaseFence(void* fence) { glDeleteSync(static_cast<GLsync>(fence)); }
 
-void waitForDevice() { finishFence(makeFence()); }
+void waitForDevice(double expectedMs) { finishFence(makeFence(), expectedMs); }
 
 uint64_t& movedBytes() {
   static thread_local uint64_t bytes = 0;

@@ -20,12 +20,13 @@ void* makeFence();
 void awaitFence(void* fence);
 bool isSignalled(void* fence);
 /// Waits for the fence and releases it. Without a fence it waits for all commands of this context. The thread
-/// sleeps between looks at the fence, because NVIDIA's driver keeps a processor busy while it waits.
-void finishFence(void* fence);
+/// sleeps for most of the expected time (0: not known), and between looks at the fence, because NVIDIA's
+/// driver keeps a processor busy while it waits.
+void finishFence(void* fence, double expectedMs = 0.0);
 void releaseFence(void* fence);
 
 /// Waits until all commands of this context are done, as finishFence() does.
-void waitForDevice();
+void waitForDevice(double expectedMs = 0.0);
 
 /// The number of bytes that this thread has moved between host and device. Code that moves bytes adds to it.
 uint64_t& movedBytes();

@@ -274,7 +274,10 @@ Renderer::Flight Renderer::submit(const ShaderVariant& variant, const Work& tile
 layout::Progress Renderer::land(Flight& flight) {
   layout::Progress progress{};
   movedBytes() += sizeof progress;
-  finishFence(std::exchange(flight.done, nullptr));
+  const double expectedMs = software_ || !pace_ ? 0.0
+                                                : pace_->msPerSample * pixelSamples(flight.tile) -
+                                                      millisecondsBetween(flight.start, Clock::now());
+  finishFence(std::exchange(flight.done, nullptr), expectedMs);
   if (software_) {
     drawnMs_ += millisecondsBetween(flight.start, Clock::now());
   } else {

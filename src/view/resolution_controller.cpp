@@ -63,9 +63,10 @@ ResolutionController controllerFor(bool software) {
   return controller;
 }
 
-bool fitsOneMore(const ResolutionController& controller, double elapsedMs, int samples) {
-  if (!controller.moving || controller.step > 0 || samples >= controller.mostSamples) return false;
-  return elapsedMs * (samples + 1) / samples <= kFinerShare * controller.targetMs;
+int samplesThatFit(const ResolutionController& controller, double elapsedMs, int samples) {
+  if (!controller.moving || controller.step > 0) return 0;
+  const double fit = kFinerShare * controller.targetMs * samples / std::max(elapsedMs, 1e-6);
+  return std::max(0, int(std::min(fit, double(controller.mostSamples))) - samples);
 }
 
 void drawSomethingElse(ResolutionController& controller, glm::ivec2 full, double msPerPixel) {

@@ -186,8 +186,8 @@ Frames moveWithSamples(double msPerPixel, int frames, ResolutionController& cont
     keepMoving(controller, kFull);
     const glm::ivec2 size = sizeAtStep(kFull, controller.step);
     const double sampleMs = msPerPixel * size.x * size.y;
-    int taken = 1;
-    while (fitsOneMore(controller, taken * sampleMs, taken)) ++taken;
+    const int taken = 1 + samplesThatFit(controller, sampleMs, 1);
+    EXPECT_EQ(samplesThatFit(controller, taken * sampleMs, taken), 0);
     frameTaken(controller, kFull, size, sampleMs);
     run.ms.push_back(taken * sampleMs);
     run.steps.push_back(controller.step);

@@ -17,6 +17,7 @@ constexpr double kAllUpTo = 64.0;  // samples
 constexpr double kNoneFrom = 256.0;
 constexpr int kGuideStep = 4;              // samples from one set of guides to the next
 constexpr double kMostPastSamples = 16.0;  // the past counts for so many samples at most
+constexpr double kQuickMs = 25.0;          // a filter that takes less is not interrupted
 
 void fit(ShownTexture& shown, glm::ivec2 size) {
   if (shown.size == size) return;
@@ -118,7 +119,8 @@ const GlTexture* PictureMaker::filtered(const Showing& showing, const RenderOpti
                                         const SeenPicture& present, const std::function<bool()>& goOn) {
   if (!showing.byOidn) {
     if (!filter_) filter_ = std::make_unique<VarianceFilter>(source_);
-    return filter_->filtered(present.noisy, present.size, false, goOn, passes_);
+    const bool quick = showing.expectedMs > 0.0 && showing.expectedMs < kQuickMs;
+    return filter_->filtered(present.noisy, present.size, false, quick ? nullptr : goOn, passes_);
   }
   const std::optional<Image> denoised =
       denoisedByOidn(imageOf(present.noisy, present.size), *oidn_, options.limits.memoryBytes,

@@ -43,9 +43,10 @@ struct ShownTexture {
 /// The settings that make a side's picture.
 struct Showing {
   bool filtered = false;
-  bool byOidn = false;  ///< by OIDN, which must be there; else by variance
-  int samples = 0;      ///< per pixel
-  bool past = true;     ///< uses the picture of the view before
+  bool byOidn = false;      ///< by OIDN, which must be there; else by variance
+  int samples = 0;          ///< per pixel
+  bool past = true;         ///< uses the picture of the view before
+  double expectedMs = 0.0;  ///< time of layers and variance filter, 0: not known
 };
 
 /// R, G, B and A.

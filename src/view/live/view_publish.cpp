@@ -88,10 +88,12 @@ bool ViewTracer::show(Side& side, bool past, const std::function<bool()>& goOn) 
   const double start = steadyMilliseconds();
   Tracer& tracer = side.program->tracer;
   const bool filtered = denoises(side);
+  const double pixels = double(side.film->size().x) * side.film->size().y;
+  const bool byOidn = denoisesByOidn(side);
+  const Showing showing{filtered, byOidn, side.samples, past, filtered ? filterMsPerPixel_ * pixels : 0.0};
   bool complete = false;
   try {
-    complete = maker_->show(*side.film, {filtered, denoisesByOidn(side), side.samples, past}, side.options,
-                            tracer, side.view, side.memory, into, goOn);
+    complete = maker_->show(*side.film, showing, side.options, tracer, side.view, side.memory, into, goOn);
   } catch (const ContextLost&) {
     throw;
   } catch (const RenderError& error) {
@@ -102,9 +104,9 @@ bool ViewTracer::show(Side& side, bool past, const std::function<bool()>& goOn) 
   }
   if (complete) side.shownIn = slot;
   if (!filtered) return complete;
+  waitForDevice(context_->software ? 0.0 : showing.expectedMs);
   side.filterMs = steadyMilliseconds() - start;
-  if (!denoisesByOidn(side))
-    filterMsPerPixel_ = side.filterMs / (double(side.film->size().x) * side.film->size().y);
+  if (!byOidn) filterMsPerPixel_ = side.filterMs / pixels;
   return complete;
 }
 

@@ -63,11 +63,11 @@ bool ViewTracer::draw(Side& side) {
   const double frameMs = renderer.msPerSample() * size.x * size.y;
   const double affordable = frameMs > 0.0 ? kRoundMs / frameMs : 1.0;
   const int most = std::max(1, std::min(side.samples, side.options.sampling.spp - side.samples));
-  const int count = settled() ? int(std::clamp(affordable, 1.0, double(most))) : 1;
+  int count = settled() ? int(std::clamp(affordable, 1.0, double(most))) : 1;
   const double before = side.times.renderMs;
   clock_.restart();
   // A frame of a moving picture is short, and worth its end: else nothing would be seen before the hand
-  // rests.
+  // rests. Its first sample says how many more it may have, which are drawn at once.
   int added = 0;
   do {
     const bool complete = renderer.addSamples(
@@ -76,8 +76,9 @@ bool ViewTracer::draw(Side& side) {
     if (!complete) return false;
     side.samples += count;
     added += count;
-  } while (request_.moving && side.samples < side.options.sampling.spp &&
-           fitsOneMore(resolution_, (side.times.renderMs - before) * double(sides_.size()), added));
+    const double elapsedMs = (side.times.renderMs - before) * double(sides_.size());
+    count = std::min(samplesThatFit(resolution_, elapsedMs, added), side.options.sampling.spp - side.samples);
+  } while (request_.moving && count > 0);
   clock_.end(Pass::Trace);
   const double filterMs = denoises(side) && !settled() ? filterMsPerPixel_ * size.x * size.y : 0.0;
   frameTaken(resolution_, request_.size, size,
