@@ -17,7 +17,8 @@ layout(location = 0) out vec4 denoised;
 /// below 1 brings noise back. With many samples that matters less than structure that the filter mistakes for noise.
 float trustAt(float samples) {
   const float few = 16.0;
-  return 1.0 + 0.5 * min(1.0, few / max(samples, 1.0));
+  const float many = 256.0;
+  return min(1.0, many / max(samples, 1.0)) + 0.5 * min(1.0, few / max(samples, 1.0));
 }
 
 void main() {

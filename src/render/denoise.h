@@ -14,7 +14,7 @@
 namespace fragtrace {
 
 /// The version changes whenever the filter gives another picture.
-inline constexpr std::string_view kVarianceFilter = "variance 4";
+inline constexpr std::string_view kVarianceFilter = "variance 5";
 
 /// The filter's programs and textures, which belong to one context. That context must be current in every
 /// call; framebuffer, viewport, program and texture units of it are changed.

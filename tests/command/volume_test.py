@@ -73,6 +73,11 @@ class Volumes(Case):
         luminance = 0.2126 * thick[0] + 0.7152 * thick[1] + 0.0722 * thick[2]
         self.assertAlmostEqual(luminance / 6, 1, delta=0.03)
 
+        # As hot as its surroundings, it is not seen.
+        equal = self.seen(self.camera_alone(), *WHITE, "--volume", self.grid("ember"), "--volume-density", 4, "--volume-color", "0.5,0.5,0.5",
+                          "--volume-emission", 1e-5 / thick[0], spp=256)
+        self.assertAlmostEqual(mean(equal), 1, delta=0.01)
+
     def test_place_and_scale(self):
         """A grid that is moved, scaled and made thinner for it looks as the one at the origin from as far away in proportion."""
         here = self.seen(self.camera_alone(), *WHITE, "--volume", self.grid("torus"), "--volume-density", 6, "--volume-color", "0.2,0.5,0.8",

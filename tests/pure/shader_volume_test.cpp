@@ -177,6 +177,70 @@ TEST(ShaderVolume, FlightsEndAsDenselyAsTheIntegralSays) {
   }
 }
 
+/// One brick of a quarter but for a corner of 1: walks are long, and most end by roulette.
+TEST(ShaderVolume, RouletteKeepsTheMeanOfWhatPassesADenseGrid) {
+  VolumeGrid grid;
+  grid.bricks = {1, 1, 1};
+  grid.largest = 1.0;
+  grid.table = {1};
+  grid.values.assign(kBrickVoxels, glm::packHalf1x16(0.25f));
+  grid.values.front() = glm::packHalf1x16(1.0f);
+  constexpr double kExtinction = 40.0;
+  const layout::Volume volume = shaderVolume(grid, kExtinction);
+  const RayCase ray{{0.41, 0.38, -1.0}, {0.0, 0.0, 1.0}};
+  const double expected = std::exp(-kExtinction * depthAlong(grid, ray, 3.0));
+  double sum = 0.0;
+  for (uint32_t k = 0; k < 4 * kWalks; ++k)
+    sum += double(glsl_float::walkVolume(volume, vec3(ray.origin), vec3(ray.direction), 0.0f, 3.0f, true,
+                                         glsl_float::mixBits(k))
+                      .transmittance);
+  EXPECT_NEAR(sum / (4 * kWalks) / expected, 1.0, 0.03);
+}
+
+TEST(ShaderVolume, RaysBesideTheGridMeetNothing) {
+  const VolumeGrid grid = sampleGrid();
+  const layout::Volume volume = shaderVolume(grid, 100.0);
+  const dvec3 low(-1.6, -0.8, 0.8);
+  const dvec3 high(1.6, 1.6, 3.2);
+  Draw draw(5);
+  for (uint32_t i = 0; i < 3000; ++i) {
+    // Both ends lie on the same outer side of the grid, by one axis after the other.
+    const int axis = int(i % 3);
+    dvec3 from(draw.between(-4, 4), draw.between(-4, 4), draw.between(-2, 6));
+    dvec3 to(draw.between(-4, 4), draw.between(-4, 4), draw.between(-2, 6));
+    from[axis] = i % 2 == 0 ? high[axis] + draw.unit() : low[axis] - draw.unit();
+    to[axis] = i % 2 == 0 ? high[axis] + draw.unit() : low[axis] - draw.unit();
+    const dvec3 way = to - from;
+    const auto walk = glsl_float::walkVolume(volume, vec3(from), vec3(glm::normalize(way)), 0.0f,
+                                             float(glm::length(way)), true, i);
+    EXPECT_EQ(walk.transmittance, 1.0f) << i;
+    EXPECT_EQ(walk.steps, 0) << i;
+  }
+}
+
+TEST(ShaderVolume, RadianceIsInterpolatedLinearly) {
+  VolumeGrid grid = sampleGrid();
+  VolumeGrid red = grid;
+  Draw draw(6);
+  for (uint16_t& value : red.values) {
+    value = glm::packHalf1x16(float(draw.between(0.5, 1.0)));
+    for (const uint16_t half : {value, uint16_t(0), value}) grid.radiance.push_back(half);
+  }
+  layout::Volume volume = shaderVolume(grid, 1.0);
+  volume.extinction.y = 3.0f;
+  for (int i = 0; i < 8; ++i) {
+    const dvec3 point(draw.between(-1.0, 1.8), draw.between(-0.2, 1.8), draw.between(1.4, 3.4));
+    dvec3 sum(0.0);
+    for (uint32_t k = 0; k < kWalks; ++k) {
+      const uint32_t bits = glsl_float::mixBits(k + 313u * uint32_t(i));
+      sum += dvec3(glsl_float::volumeRadiance(volume, vec3(point), bits));
+    }
+    EXPECT_NEAR(sum.x / kWalks, 3.0 * densityAt(red, point), 0.01) << i;
+    EXPECT_EQ(sum.y, 0.0);
+    EXPECT_EQ(sum.z, sum.x);
+  }
+}
+
 TEST(ShaderVolume, MajorantsBoundTheDensities) {
   const VolumeGrid grid = sampleGrid();
   const layout::Volume volume = shaderVolume(grid, 1.0);
