@@ -18,7 +18,8 @@ layout(location = 0) out vec4 denoised;
 float trustAt(float samples) {
   const float few = 16.0;
   const float many = 256.0;
-  return min(1.0, many / max(samples, 1.0)) + 0.5 * min(1.0, few / max(samples, 1.0));
+  float fading = min(1.0, many / max(samples, 1.0));
+  return fading * fading + 0.5 * min(1.0, few / max(samples, 1.0));
 }
 
 void main() {
