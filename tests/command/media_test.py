@@ -5,15 +5,8 @@ import copy
 import json
 import math
 import pathlib
-import statistics
 
-from support import SCENES, Case, main, run
-
-WHITE = ["--default-light", "white", "--background-color", "1,1,1", "--bounces", "unlimited"]
-
-
-def mean(picture, channel=0):
-    return statistics.fmean(pixel[channel] for row in picture for pixel in row)
+from support import SCENES, WHITE, Case, main, mean, run
 
 
 def half_space(albedo):

@@ -6,6 +6,7 @@ A test file is run as FILE FRAGTRACE SOURCE_FOLDER [unittest arguments].
 import ctypes.util
 import math
 import signal
+import statistics
 import struct
 import subprocess
 import sys
@@ -26,6 +27,8 @@ SCENES = Path(sys.argv[2]).resolve() / "scenes"
 BACKENDS = ("egl", "osmesa") if ctypes.util.find_library("OSMesa") else ("egl",)
 SMALL = ["--resolution", "16,16", "--spp", "2", "--quiet"]
 WEIGHTS = (0.2126, 0.7152, 0.0722)  # of luminance
+# A white world: what absorbs nothing is not seen in it.
+WHITE = ["--default-light", "white", "--background-color", "1,1,1", "--bounces", "unlimited"]
 TURNED = bytes(i ^ 128 for i in range(256))
 
 
@@ -51,6 +54,11 @@ def read_pfm(path):
 def luminances(picture):
     """Of a picture as read_pfm gives it, in one list."""
     return [sum(w * c for w, c in zip(WEIGHTS, pixel)) for row in picture for pixel in row]
+
+
+def mean(picture, channel=0):
+    """Of a channel of a picture as read_pfm gives it."""
+    return statistics.fmean(pixel[channel] for row in picture for pixel in row)
 
 
 def unzipped(data, size):

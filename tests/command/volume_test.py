@@ -4,20 +4,14 @@
 import json
 import math
 import random
-import statistics
 import subprocess
 import unittest
 from pathlib import Path
 
-from support import FRAGTRACE, SCENES, Case, main, run
+from support import FRAGTRACE, SCENES, WHITE, Case, main, mean, run
 
 # Beside the program, or in the build folder where a copy of it is tried.
 MAKE_GRID = next((path for path in (FRAGTRACE.parent / "make_grid", SCENES.parent / "build/make_grid") if path.exists()), Path("/nowhere"))
-WHITE = ["--default-light", "white", "--background-color", "1,1,1", "--bounces", "unlimited"]
-
-
-def mean(picture, channel=0):
-    return statistics.fmean(pixel[channel] for row in picture for pixel in row)
 
 
 @unittest.skipUnless(MAKE_GRID.exists(), "the program was built without the headers of NanoVDB")

@@ -116,9 +116,9 @@ LIKELY = {
 
 
 def likely(name):
-    """The tests to try first for a fault of this name, by the longest beginning that is listed."""
-    begin = max((begin for begin in LIKELY if name.startswith(begin)), key=len)
-    return [test if "command." in test or "pure." in test else f"picture.{test}.egl" for test in LIKELY[begin]]
+    """The tests to try first for a fault of this name, by the longest beginning that is listed; none where no beginning is."""
+    begin = max((begin for begin in LIKELY if name.startswith(begin)), key=len, default=None)
+    return [test if "command." in test or "pure." in test else f"picture.{test}.egl" for test in LIKELY.get(begin, ())]
 
 
 # Headers that compile shaders; what they name is not what a test looks at.
