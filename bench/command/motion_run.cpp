@@ -13,7 +13,7 @@
 
 #include "base/errors.h"
 #include "base/thread_name.h"
-#include "options/camera_text.h"
+#include "options/command_text.h"
 #include "session/phase_timer.h"
 #include "session/picture/denoising.h"
 #include "view/live/view_tracer.h"

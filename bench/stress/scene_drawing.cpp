@@ -3,7 +3,7 @@
 
 #include "base/errors.h"
 #include "bench/report/scratch_folder.h"
-#include "bvh/two_level.h"
+#include "bvh/bvh.h"
 #include "gl/schedule.h"
 #include "gltf/gltf.h"
 #include "pack/literals.h"

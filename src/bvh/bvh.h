@@ -85,4 +85,12 @@ struct BvhQuality {
 };
 BvhQuality bvhQuality(const Bvh& bvh);
 
+/// Returns true if both levels together fit kMaxTwoLevelDepth: a tree over so many primitives and instances,
+/// and a tree over so many triangles of a mesh.
+bool fitsTwoLevels(uint64_t topPrimitives, uint64_t meshTriangles);
+
+/// Without instances it has one level, as buildBvh(primitiveBounds()) builds it. Meshes of instances must
+/// fulfil fitsTwoLevels().
+Bvh buildSceneBvh(const Scene& scene);
+
 }  // namespace fragtrace

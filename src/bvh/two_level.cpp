@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bvh/two_level.h"
+#include "bvh/bvh.h"
 
 #include <algorithm>
 #include <bit>

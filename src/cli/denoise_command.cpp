@@ -8,7 +8,7 @@
 #include "base/errors.h"
 #include "cli/commands.h"
 #include "cli/denoise_options.h"
-#include "cli/leave.h"
+#include "cli/program.h"
 #include "image/channels.h"
 #include "image/format.h"
 #include "session/outputs.h"

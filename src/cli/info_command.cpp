@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "bvh/two_level.h"
+#include "bvh/bvh.h"
 #include "cli/commands.h"
 #include "gltf/gltf.h"
 #include "options/choose.h"
@@ -16,7 +16,7 @@
 #include "scene/parts.h"
 #include "scene/volume/read_grid.h"
 #include "session/scene_json.h"
-#include "session/volume.h"
+#include "session/setup.h"
 #include "shader/render_options.h"
 #include "shader/variant.h"
 

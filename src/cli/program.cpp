@@ -2,9 +2,13 @@
 #include "cli/program.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
 #include <new>
 #include <stdexcept>
 #include <system_error>
@@ -13,7 +17,6 @@
 #include "base/plugin.h"
 #include "base/report.h"
 #include "cli/command_line.h"
-#include "cli/leave.h"
 #include "session/interrupt.h"
 
 namespace fragtrace {
@@ -86,6 +89,34 @@ std::filesystem::path ownProgram(const std::string& name, const std::string& use
     throw RenderError(user + ": the program " + error.what() +
                       "; the package fragtrace holds it, and scripts/build makes it");
   }
+}
+
+namespace {
+
+/// Returns true if standard output is a pipe that nobody reads any more.
+bool readerHasLeft() {
+  pollfd stream{STDOUT_FILENO, 0, 0};
+  return ::poll(&stream, 1, 0) == 1 && (stream.revents & POLLERR) != 0;
+}
+
+}  // namespace
+
+bool standardOutputIsClosed() { return (::fcntl(STDOUT_FILENO, F_GETFL) & O_ACCMODE) == O_RDONLY; }
+
+void checkPrinted() {
+  std::cout.flush();
+  if (std::cout && std::fflush(stdout) == 0 && !std::ferror(stdout)) return;
+  if (readerHasLeft()) std::_Exit(1);  // `| head` is no error to read about
+  throw RenderError("cannot write to standard output");
+}
+
+int leave(int status) {
+  checkPrinted();
+  reportEnd(status);
+#ifndef __SANITIZE_ADDRESS__
+  std::_Exit(status);
+#endif
+  return status;
 }
 
 }  // namespace fragtrace

@@ -6,7 +6,7 @@
 #include "base/count_text.h"
 #include "base/errors.h"
 #include "base/report.h"
-#include "cli/leave.h"
+#include "cli/program.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
 #include "session/picture/finished_picture.h"

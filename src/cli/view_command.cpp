@@ -13,7 +13,6 @@
 #include "base/plugin.h"
 #include "base/thread_name.h"
 #include "cli/commands.h"
-#include "options/camera_text.h"
 #include "options/command_text.h"
 #include "options/view_options.h"
 #include "session/interrupt.h"

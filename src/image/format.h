@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: MIT The picture formats. A file to be written is known by its name, one that is
-// read by its first bytes.
+// SPDX-License-Identifier: MIT
+// The picture formats, and how numbers are encoded in them. A file to be written is known by its name, one
+// that is read by its first bytes.
 #pragma once
 
 #include <cstdint>
@@ -20,5 +21,13 @@ std::optional<ImageFormat> formatOfName(const std::filesystem::path& path);
 
 /// The format whose signature the bytes begin with.
 std::optional<ImageFormat> formatOfBytes(std::span<const uint8_t> bytes);
+
+struct Encoding {
+  bool half =
+      false;  ///< .exr: 16-bit floats in the channels that isStoredAsHalf() names, 32-bit ones elsewhere
+  int pngBits = 8;  ///< .png: 8 or 16 bits a channel
+
+  bool operator==(const Encoding&) const = default;
+};
 
 }  // namespace fragtrace

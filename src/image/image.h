@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "image/encoding.h"
+#include "image/format.h"
 #include "image/limits.h"
 #include "image/region.h"
 

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "base/errors.h"
-#include "options/camera_text.h"
 #include "options/config_file.h"
 #include "options/option_table.h"
 #include "options/option_text.h"
+#include "options/parse_render.h"
 #include "options/parse_words.h"
 #include "options/view_options.h"
 
@@ -31,6 +31,12 @@ RenderOptions parseCommand(const std::string& name, std::vector<std::string> wor
   parseWords(app, std::move(words));
   return finishConfigured(raw.render, raw.config, app);
 }
+
+constexpr const char* kView[] = {
+    "--camera-index",       "--camera",          "--camera-position",   "--camera-orbit",          "--fit",
+    "--camera-focal-point", "--camera-view-up",  "--camera-view-angle", "--camera-parallel-scale", "--f-stop",
+    "--focus-distance",     "--aperture-blades", "--scene-origin"};
+constexpr const char* kSize = "--resolution";
 
 }  // namespace
 
@@ -56,6 +62,26 @@ RenderOptions withCommandText(const RenderOptions& current, const std::string& t
     if (row.traits.kept) row.copy(options, current);
   }
   return options;
+}
+
+std::string cameraText(const RenderOptions& options) {
+  std::string text;
+  for (const char* name : kView) appendRow(text, rowOf(name), options);
+  appendRow(text, rowOf(kSize), options);
+  return text;
+}
+
+RenderOptions withCameraText(RenderOptions options, const std::string& text) {
+  CLI::App app;
+  app.set_help_flag();
+  RawRender raw{.options = std::move(options)};
+  for (const char* name : kView) {
+    rowOf(name).copy(raw.options, RenderOptions());
+    addOption(app, name, raw);
+  }
+  addOption(app, kSize, raw);
+  parseWords(app, splitWords(text));
+  return raw.options;
 }
 
 }  // namespace fragtrace

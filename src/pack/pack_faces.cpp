@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/errors.h"
-#include "pack/pack_instances.h"
+#include "pack/pack_tree.h"
 #include "pack/words.h"
 #include "scene/hit_error.h"
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "pack/pack_instances.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,7 +11,6 @@
 #include "pack/pack_environment.h"
 #include "pack/pack_faces.h"
 #include "pack/pack_grid.h"
-#include "pack/pack_instances.h"
 #include "pack/pack_lights.h"
 #include "pack/pack_textures.h"
 #include "pack/pack_tree.h"

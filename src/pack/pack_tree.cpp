@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pack/pack_instances.h"
 #include "pack/words.h"
 #include "scene/hit_error.h"
 

@@ -15,7 +15,6 @@
 #include "base/errors.h"
 #include "image/compare/difference.h"
 #include "image/compare/flip.h"
-#include "image/display/dither.h"
 #include "image/display/tone_map.h"
 #include "image/image.h"
 #include "options/choose.h"

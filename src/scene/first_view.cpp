@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/first_view.h"
+#include "scene/camera.h"
 
 #include <algorithm>
 #include <array>

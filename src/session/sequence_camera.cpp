@@ -5,14 +5,13 @@
 #include <cmath>
 
 #include "base/errors.h"
-#include "scene/first_view.h"
+#include "scene/camera.h"
 #include "scene/fit.h"
 #include "scene/parts.h"
 #include "session/caught_light.h"
 #include "session/environment.h"
 #include "session/say.h"
 #include "session/setup.h"
-#include "session/volume.h"
 
 namespace fragtrace {
 

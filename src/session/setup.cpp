@@ -10,8 +10,8 @@
 #include "base/count_text.h"
 #include "base/errors.h"
 #include "base/parallel.h"
+#include "bvh/bvh.h"
 #include "bvh/large_first.h"
-#include "bvh/two_level.h"
 #include "image/files/process.h"
 #include "image/files/video_format.h"
 #include "image/format.h"
@@ -22,14 +22,13 @@
 #include "pack/own_light.h"
 #include "pack/pack_textures.h"
 #include "pack/pack_tree.h"
-#include "scene/first_view.h"
+#include "scene/camera.h"
 #include "scene/fit.h"
 #include "scene/strokes.h"
 #include "session/caught_light.h"
 #include "session/environment.h"
 #include "session/outputs.h"
 #include "session/picture_memory.h"
-#include "session/volume.h"
 
 namespace fragtrace {
 

@@ -8,6 +8,7 @@
 #include "bvh/refit.h"
 #include "gltf/gltf.h"
 #include "render/renderer.h"
+#include "scene/scene.h"
 #include "session/say.h"
 #include "session/statistics.h"
 #include "shader/render_options.h"
@@ -117,5 +118,9 @@ class Stopwatch {
   using Clock = std::chrono::steady_clock;
   Clock::time_point last_ = Clock::now();
 };
+
+/// Reads the grid that the options, or else the scene ask for, unless `before` has it, and adds its box to
+/// the scene's. Warns in the scene of one that has no density. Throws InputError.
+void placeVolume(Scene& scene, const RenderOptions& options, const Volume* before);
 
 }  // namespace fragtrace

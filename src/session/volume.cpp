@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "session/volume.h"
+#include "session/setup.h"
 
 #include <array>
 #include <cstdio>

@@ -8,7 +8,6 @@
 
 #include "base/errors.h"
 #include "shader/layout.h"
-#include "shader/live_text.h"
 #include "shader/stack_text.h"
 
 namespace fragtrace {

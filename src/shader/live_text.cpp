@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "shader/live_text.h"
+#include "shader/assemble.h"
 
 #include <algorithm>
 #include <array>

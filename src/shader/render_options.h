@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "image/display/tone_map.h"
-#include "image/encoding.h"
+#include "image/format.h"
 #include "image/limits.h"
 #include "image/region.h"
 #include "scene/camera.h"

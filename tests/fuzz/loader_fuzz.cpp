@@ -14,7 +14,7 @@
 #include <string>
 
 #include "base/errors.h"
-#include "bvh/two_level.h"
+#include "bvh/bvh.h"
 #include "gltf/gltf.h"
 #include "image/image.h"
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "bvh/two_level.h"
+#include "bvh/bvh.h"
 #include "gl_probe.h"
 #include "gltf/gltf.h"
 #include "pack/pack_tree.h"

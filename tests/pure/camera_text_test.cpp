@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "options/camera_text.h"
+#include "options/command_text.h"
 
 #include <gtest/gtest.h>
 

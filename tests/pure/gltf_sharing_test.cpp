@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "bvh/bvh.h"
 #include "bvh/pick.h"
-#include "bvh/two_level.h"
 #include "gltf_builder.h"
 
 namespace fragtrace::gltf_test {

@@ -12,7 +12,6 @@
 
 #include "base/errors.h"
 #include "image/compare/difference.h"
-#include "image/display/dither.h"
 #include "image/display/tone_map.h"
 
 namespace fragtrace {

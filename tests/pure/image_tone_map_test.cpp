@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "base/errors.h"
-#include "image/display/dither.h"
 
 namespace fragtrace {
 namespace {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "shader/assemble.h"
-#include "shader/live_text.h"
 #include "shader/variant.h"
 
 namespace fragtrace {

@@ -7,8 +7,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "bvh/two_level.h"
-#include "pack/pack_instances.h"
+#include "bvh/bvh.h"
+#include "pack/pack_tree.h"
 #include "shader_scenes.h"
 
 namespace fragtrace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // EXT_mesh_gpu_instancing: a node shows its mesh at translation * rotation * scale, all of them attributes.
-#include "gltf/build/instancing.h"
+#include "gltf/build/nodes.h"
 
 #include <algorithm>
 #include <cmath>

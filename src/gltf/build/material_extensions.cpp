@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gltf/build/material_extensions.h"
+#include "gltf/build/materials.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/build/materials.h"
 
-#include "gltf/build/material_extensions.h"
 #include "gltf/build/material_part.h"
 #include "gltf/build/textures.h"
 #include "gltf/read/value.h"

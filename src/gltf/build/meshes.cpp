@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "gltf/build/instancing.h"
+#include "gltf/build/nodes.h"
 
 namespace fragtrace {
 namespace {

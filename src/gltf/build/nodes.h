@@ -35,4 +35,8 @@ bool isMultiplicable(const glm::dmat4& matrix);
 /// A node's or mesh's name, or its JSON pointer if it has none.
 std::string nameOrPlace(const std::string& name, const char* array, int index);
 
+/// From the mesh of a node into world space, once for each place where the node shows it: one unless it has
+/// EXT_mesh_gpu_instancing. Throws InputError for attributes of unlike counts, wrong types or values.
+std::vector<glm::dmat4> placesOfMesh(Document& document, const PlacedNode& node);
+
 }  // namespace fragtrace

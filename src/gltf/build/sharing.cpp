@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "bvh/two_level.h"
+#include "bvh/bvh.h"
 #include "scene/strokes.h"
 
 namespace fragtrace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "image/display/dither.h"
+#include "image/display/tone_map.h"
 
 #include <cmath>
 #include <cstdint>

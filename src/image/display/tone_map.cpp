@@ -11,7 +11,6 @@
 
 #include "base/errors.h"
 #include "image/channels.h"
-#include "image/display/dither.h"
 
 namespace fragtrace {
 namespace {

@@ -14,8 +14,8 @@
 #include "base/message.h"
 #include "base/worker.h"
 #include "image/files/whole_file.h"
-#include "scene/volume/black_body.h"
 #include "scene/volume/decode.h"
+#include "scene/volume/observer.h"
 
 namespace fragtrace {
 

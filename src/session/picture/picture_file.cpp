@@ -4,7 +4,6 @@
 #include <set>
 
 #include "image/channels.h"
-#include "image/display/dither.h"
 #include "image/display/heatmap.h"
 #include "image/display/lines.h"
 #include "image/display/tone_map.h"

@@ -16,7 +16,6 @@
 #include "gl/dynamic_library.h"
 #include "gl/gl.h"
 #include "view/window/status.h"
-#include "view/window/wayland.h"
 
 namespace fragtrace {
 

@@ -48,4 +48,8 @@ std::string portalName(GLFWwindow* window);
 /// Returns the errors of GLFW since the last call, from any thread; empty: none.
 std::string takeGlfwErrors();
 
+/// Why GLFW must not try Wayland; empty where it may. GLFW 3.4 crashes on a compositor without a seat, and
+/// the library of Wayland prints messages of its own where there is no compositor.
+std::string whyNoWayland();
+
 }  // namespace fragtrace

@@ -14,10 +14,7 @@
 #include "view/shown_text.h"
 #include "view/window/draw/text.h"
 #include "view/window/draw/theme.h"
-#include "view/window/figures.h"
 #include "view/window/panel_parts.h"
-#include "view/window/pixel_values.h"
-#include "view/window/status_bar.h"
 
 namespace fragtrace {
 

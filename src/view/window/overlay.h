@@ -63,4 +63,29 @@ struct ViewFacts {
 /// left to be done.
 Task drawOverlay(ViewState& state, ViewFacts& facts, const WindowLayout& layout, double now);
 
+/// The linear value at a place: of a side, or its difference from the other; none if it is not known.
+std::optional<glm::dvec3> shownValue(const ViewFacts& facts, size_t side, bool difference,
+                                     const glm::dvec2& place);
+
+/// The pixels of a side's picture, of that size, that somebody looks at.
+PixelArea wantedArea(const ViewState& state, const ViewFacts& facts, size_t side, glm::ivec2 whole);
+
+/// Returns true if pixels are enlarged enough for values in them.
+bool showsPixelValues(const ViewState& state);
+
+/// Writes the linear red, green and blue of the pixels into them, if they are enlarged enough.
+void drawPixelValues(const ViewState& state, const ViewFacts& facts, const WindowLayout& layout);
+
+/// Draws the figures at the top left, of one side or of both below each other: what the picture shown has
+/// cost, and how good it is.
+void drawFigures(const ViewState& state, ViewFacts& facts, const WindowLayout& layout);
+
+/// Draws the status bar below the picture: how good it is, how long it will take, and the pixel under the
+/// cursor. What has no room is left out, the least important first.
+void drawStatusBar(const ViewState& state, ViewFacts& facts, const WindowLayout& layout);
+
+/// Draws the stages above it in the same way, each a click away, and what is wanted beside them at any time.
+/// Returns what is left to be done.
+Task drawStageBar(ViewState& state, ViewFacts& facts, const WindowLayout& layout);
+
 }  // namespace fragtrace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/window/pixel_values.h"
+#include "view/window/overlay.h"
 
 #include <imgui.h>
 

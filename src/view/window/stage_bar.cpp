@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/window/status_bar.h"
+#include "view/window/overlay.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "view/window/status_bar.h"
 
 #include <imgui.h>
 
@@ -10,7 +9,7 @@
 #include "view/progress.h"
 #include "view/shown_text.h"
 #include "view/window/draw/text.h"
-#include "view/window/pixel_values.h"
+#include "view/window/overlay.h"
 
 namespace fragtrace {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Looks at the compositor before GLFW does, by the functions of libwayland-client that this takes
 // (Wayland, client API). The library is opened at run time, as GLFW opens it.
-#include "view/window/wayland.h"
+#include "view/window/glfw_window.h"
 
 #include <poll.h>
 

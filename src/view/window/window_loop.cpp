@@ -12,8 +12,8 @@
 #include "base/errors.h"
 #include "gl/gl.h"
 #include "view/shown_names.h"
+#include "view/window/overlay.h"
 #include "view/window/panel_parts.h"
-#include "view/window/pixel_values.h"
 
 namespace fragtrace {
 
