@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "base/errors.h"
-#include "image/files/jpeg.h"
-#include "image/files/png.h"
+#include "image/files/header.h"
 #include "image/files/whole_file.h"
 #include "image/image.h"
 #include "image_samples.h"

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "image/files/exr_header.h"
 
 #include <algorithm>
 #include <cstring>
@@ -7,6 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "image/files/header.h"
 #include "image/limits.h"
 
 namespace fragtrace {
@@ -110,7 +110,7 @@ Attributes takeAttributes(Bytes& bytes) {
 
 }  // namespace
 
-ExrHeader readExrHeader(Bytes bytes) {
+ImageHeader readExrHeader(Bytes bytes) {
   constexpr uint32_t kTiled = 0x200, kDeep = 0x800, kMultiPart = 0x1000;
   take(bytes, 4);  // the signature
   const auto version = uint32_t(takeInt(bytes));
@@ -134,7 +134,8 @@ ExrHeader readExrHeader(Bytes bytes) {
       tiled ? blocks(data.width(), found.tiles->width) * blocks(data.height(), found.tiles->height)
             : blocks(data.height(), linesOf(*found.compression));
   if (count > int64_t(bytes.size()) / kLeastOfABlock) throw std::runtime_error("the file is truncated");
-  return {display.width(), display.height(), found.channelCount};
+  checkImageSize(display.width(), display.height(), found.channelCount);
+  return {ImageFormat::OpenExr, int(display.width()), int(display.height()), found.channelCount};
 }
 
 }  // namespace fragtrace

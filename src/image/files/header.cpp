@@ -6,19 +6,13 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "image/files/exr_header.h"
-#include "image/files/jpeg.h"
-#include "image/files/ktx2.h"
 #include "image/files/pfm.h"
-#include "image/files/png.h"
 #include "image/limits.h"
 
 namespace fragtrace {
 namespace {
 
 using Bytes = std::span<const uint8_t>;
-
-constexpr int kMostDecodedChannels = 4;
 
 [[noreturn]] void refuseTruncated() { throw std::runtime_error("the file is truncated"); }
 
@@ -43,7 +37,7 @@ ImageHeader pngHeader(Bytes bytes) {
   const auto bigEndian = [&](size_t at) {
     return int64_t(bytes[at]) << 24 | bytes[at + 1] << 16 | bytes[at + 2] << 8 | bytes[at + 3];
   };
-  return checked(ImageFormat::Png, bigEndian(kWidthAt), bigEndian(kWidthAt + 4), kMostDecodedChannels);
+  return checked(ImageFormat::Png, bigEndian(kWidthAt), bigEndian(kWidthAt + 4), kMostTextureChannels);
 }
 
 ImageHeader jpegHeader(Bytes bytes) {
@@ -57,7 +51,7 @@ ImageHeader jpegHeader(Bytes bytes) {
     throw std::runtime_error(std::to_string(frame.scans) + " scans over " + std::to_string(frame.width) +
                              " x " + std::to_string(frame.height) + " pixels are not supported");
   }
-  return checked(ImageFormat::Jpeg, frame.width, frame.height, kMostDecodedChannels);
+  return checked(ImageFormat::Jpeg, frame.width, frame.height, kMostTextureChannels);
 }
 
 ImageHeader webpHeader(Bytes bytes) {
@@ -80,7 +74,7 @@ ImageHeader webpHeader(Bytes bytes) {
   } else {
     throw std::runtime_error("the WebP header is wrong");
   }
-  return checked(ImageFormat::WebP, width, height, kMostDecodedChannels);
+  return checked(ImageFormat::WebP, width, height, kMostTextureChannels);
 }
 
 ImageHeader hdrHeader(Bytes bytes) {
@@ -112,6 +106,59 @@ ImageHeader hdrHeader(Bytes bytes) {
 
 }  // namespace
 
+bool isCompletePng(Bytes bytes) {
+  // PNG specification, chapter 5: a signature, then chunks of length, type, data and checksum.
+  constexpr size_t kSignatureSize = 8, kTypeAt = 4, kTypeSize = 4, kOverhead = 12;
+  bytes = bytes.subspan(std::min(kSignatureSize, bytes.size()));
+  while (bytes.size() >= kOverhead) {
+    const size_t length =
+        size_t(bytes[0]) << 24 | size_t(bytes[1]) << 16 | size_t(bytes[2]) << 8 | size_t(bytes[3]);
+    if (length > bytes.size() - kOverhead) return false;
+    if (std::string_view(reinterpret_cast<const char*>(bytes.data()) + kTypeAt, kTypeSize) == "IEND")
+      return true;
+    bytes = bytes.subspan(length + kOverhead);
+  }
+  return false;
+}
+
+JpegFrame readJpegFrame(Bytes bytes) {
+  // Markers of ITU-T T.81, table B.1.
+  constexpr uint8_t kStuffedZero = 0x00, kTemporary = 0x01, kFirstFrame = 0xc0, kHuffmanTable = 0xc4,
+                    kExtension = 0xc8, kArithmeticTable = 0xcc, kLastFrame = 0xcf, kFirstRestart = 0xd0,
+                    kStartOfImage = 0xd8, kEndOfImage = 0xd9, kStartOfScan = 0xda, kFill = 0xff;
+  JpegFrame frame;
+  size_t at = 0;
+  while (at + 1 < bytes.size()) {
+    // Between segments, and in a scan's entropy-coded data, everything but 0xff and a marker is skipped.
+    const uint8_t marker = bytes[at + 1];
+    if (bytes[at] != 0xff || marker == kFill) {
+      ++at;
+      continue;
+    }
+    at += 2;
+    if (marker == kEndOfImage) {
+      frame.complete = frame.scans > 0;
+      return frame;
+    }
+    if (marker == kStuffedZero || marker == kTemporary ||
+        (marker >= kFirstRestart && marker <= kStartOfImage))
+      continue;
+
+    if (marker == kStartOfScan) ++frame.scans;
+    if (at + 1 >= bytes.size()) return frame;
+    const bool isFrame = marker >= kFirstFrame && marker <= kLastFrame && marker != kHuffmanTable &&
+                         marker != kExtension && marker != kArithmeticTable;
+    // B.2.2: length, precision, lines, samples a line.
+    constexpr size_t kFrameSize = 7;
+    if (isFrame && bytes.size() - at >= kFrameSize) {
+      frame.height = bytes[at + 3] << 8 | bytes[at + 4];
+      frame.width = bytes[at + 5] << 8 | bytes[at + 6];
+    }
+    at += size_t(bytes[at]) << 8 | bytes[at + 1];
+  }
+  return frame;
+}
+
 ImageHeader readImageHeader(Bytes bytes) {
   if (bytes.empty()) throw std::runtime_error("it is empty");
   const auto format = formatOfBytes(bytes);
@@ -126,17 +173,13 @@ ImageHeader readImageHeader(Bytes bytes) {
       return webpHeader(bytes);
     case ImageFormat::Hdr:
       return hdrHeader(bytes);
-    case ImageFormat::OpenExr: {
-      const ExrHeader exr = readExrHeader(bytes);
-      return checked(ImageFormat::OpenExr, exr.width, exr.height, exr.channelCount);
-    }
-    case ImageFormat::Ktx2: {
-      const Ktx2Size ktx2 = readKtx2Header(bytes);
-      return checked(ImageFormat::Ktx2, ktx2.width, ktx2.height, kMostDecodedChannels);
-    }
+    case ImageFormat::OpenExr:
+      return readExrHeader(bytes);
+    case ImageFormat::Ktx2:
+      return readKtx2Header(bytes);
     case ImageFormat::Pfm: {
       const PfmHeader pfm = readPfmHeader(bytes);
-      return checked(ImageFormat::Pfm, pfm.width, pfm.height, pfm.channelCount);
+      return {ImageFormat::Pfm, pfm.width, pfm.height, pfm.channelCount};
     }
   }
   refuseTruncated();

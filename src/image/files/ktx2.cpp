@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "image/files/ktx2.h"
-
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+
+#include "image/files/header.h"
 
 namespace fragtrace {
 namespace {
@@ -101,14 +101,14 @@ void checkMetadata(Bytes metadata) {
 
 }  // namespace
 
-Ktx2Size readKtx2Header(Bytes bytes) {
+ImageHeader readKtx2Header(Bytes bytes) {
   const auto header = valueAt<Fields>(bytes, 0);
   checkShape(header);
   checkFormat(header, partOf(bytes, header.formatOffset, header.formatLength));
   checkMetadata(partOf(bytes, header.metadataOffset, header.metadataLength));
   partOf(bytes, header.globalOffset, header.globalLength);
   if (partOf(bytes, header.levelOffset, header.levelLength).empty()) refuse("its level 0 is empty");
-  return {int(header.width), int(header.height)};
+  return {ImageFormat::Ktx2, int(header.width), int(header.height), kMostTextureChannels};
 }
 
 }  // namespace fragtrace
