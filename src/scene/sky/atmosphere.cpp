@@ -159,17 +159,7 @@ AirColumns AirTable::columnsFrom(double radius, double cosine) const {
   const double x = std::clamp((distanceToTop(radius, cosine) - nearest) / (farthest - nearest), 0.0, 1.0) *
                    (kTableCosines - 1);
   const double y = std::min(toHorizon / longest, 1.0) * (kTableRadii - 1);
-  const size_t x0 = std::min(size_t(x), size_t(kTableCosines - 2));
-  const size_t y0 = std::min(size_t(y), size_t(kTableRadii - 2));
-  const double fx = x - double(x0);
-  const double fy = y - double(y0);
-  const AirColumns* low = &values_[y0 * kTableCosines + x0];
-  const AirColumns* high = low + kTableCosines;
-  AirColumns result;
-  for (size_t k = 0; k < result.size(); ++k)
-    result[k] = (1.0 - fy) * ((1.0 - fx) * low[0][k] + fx * low[1][k]) +
-                fy * ((1.0 - fx) * high[0][k] + fx * high[1][k]);
-  return result;
+  return interpolated(values_, kTableCosines, x, y);
 }
 
 }  // namespace fragtrace

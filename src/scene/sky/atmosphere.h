@@ -3,6 +3,7 @@
 // kilometres, angles are given by their cosine to the zenith.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <glm/gtc/constants.hpp>
@@ -44,6 +45,22 @@ Atmosphere atmosphereOf(double turbidity);
 /// Phase functions (1/sr) by the cosine of the angle between the light before and after.
 double moleculesPhase(double cosine);
 double aerosolPhase(double cosine);
+
+/// Interpolates a table of rows of `width` entries linearly; x counts entries, y rows, both from 0.
+template <typename Values>
+Values interpolated(const std::vector<Values>& table, size_t width, double x, double y) {
+  const size_t x0 = std::min(size_t(x), width - 2);
+  const size_t y0 = std::min(size_t(y), table.size() / width - 2);
+  const double fx = x - double(x0);
+  const double fy = y - double(y0);
+  const Values* low = &table[y0 * width + x0];
+  const Values* high = low + width;
+  Values result;
+  for (size_t k = 0; k < result.size(); ++k)
+    result[k] = (1.0 - fy) * ((1.0 - fx) * low[0][k] + fx * low[1][k]) +
+                fy * ((1.0 - fx) * high[0][k] + fx * high[1][k]);
+  return result;
+}
 
 /// Columns of air (density times km) along rays that leave the atmosphere without meeting the ground.
 class AirTable {

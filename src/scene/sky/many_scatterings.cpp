@@ -168,17 +168,7 @@ Spectrum ScatteringTable::at(double radius, double sunCosine) const {
   const double y = std::min(std::sqrt(height), 1.0) * (kHeights - 1);
   const double root = std::sqrt(std::min(std::abs(sunCosine) / (sunCosine < 0.0 ? kNight : 1.0), 1.0));
   const double x = 0.5 * (1.0 + (sunCosine < 0.0 ? -root : root)) * (kSuns - 1);
-  const size_t x0 = std::min(size_t(x), size_t(kSuns - 2));
-  const size_t y0 = std::min(size_t(y), size_t(kHeights - 2));
-  const double fx = x - double(x0);
-  const double fy = y - double(y0);
-  const Spectrum* low = &values_[y0 * kSuns + x0];
-  const Spectrum* high = low + kSuns;
-  Spectrum result;
-  for (size_t k = 0; k < kWavelengths; ++k)
-    result[k] = (1.0 - fy) * ((1.0 - fx) * low[0][k] + fx * low[1][k]) +
-                fy * ((1.0 - fx) * high[0][k] + fx * high[1][k]);
-  return result;
+  return interpolated(values_, kSuns, x, y);
 }
 
 }  // namespace fragtrace
