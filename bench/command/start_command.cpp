@@ -14,13 +14,12 @@
 #include <functional>
 #include <iterator>
 
-#include "base/count_text.h"
 #include "base/errors.h"
 #include "base/report.h"
 #include "base/summary.h"
+#include "base/text.h"
 #include "bench/command/commands.h"
 #include "bench/command/results.h"
-#include "bench/report/formatted.h"
 #include "bench/report/json.h"
 #include "bench/report/scratch_folder.h"
 #include "cli/program.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/errors.h"
-#include "bench/report/formatted.h"
+#include "base/text.h"
 
 namespace fragtrace {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/errors.h"
-#include "bench/report/formatted.h"
+#include "base/text.h"
 
 namespace fragtrace {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/text.h"
 #include "bench/report/chart.h"
-#include "bench/report/formatted.h"
 #include "bench/report/json.h"
 
 namespace fragtrace {

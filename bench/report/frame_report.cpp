@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "bench/report/formatted.h"
+#include "base/text.h"
 #include "bench/report/json.h"
 
 namespace fragtrace {

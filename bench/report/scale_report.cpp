@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/summary.h"
+#include "base/text.h"
 #include "bench/report/chart.h"
-#include "bench/report/formatted.h"
 
 namespace fragtrace {
 

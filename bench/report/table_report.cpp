@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/text.h"
 #include "bench/report/chart.h"
-#include "bench/report/formatted.h"
 
 namespace fragtrace {
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "bench/report/traversal_report.h"
 
-#include "base/count_text.h"
 #include "base/summary.h"
-#include "bench/report/formatted.h"
+#include "base/text.h"
 
 namespace fragtrace {
 

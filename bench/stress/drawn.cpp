@@ -3,7 +3,7 @@
 
 #include <glm/gtc/constants.hpp>
 
-#include "bench/report/formatted.h"
+#include "base/text.h"
 #include "scene/creases.h"
 
 namespace fragtrace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "bench/report/formatted.h"
+#include "base/text.h"
 #include "bench/report/picture_check.h"
 #include "bench/stress/random_sketch.h"
 

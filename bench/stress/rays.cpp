@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
+#include "base/text.h"
 #include "bench/rays/ray_caster.h"
 #include "bench/rays/ray_judge.h"
-#include "bench/report/formatted.h"
 #include "bvh/large_first.h"
 #include "gl/driver_choice.h"
 #include "pack/literals.h"

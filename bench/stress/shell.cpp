@@ -4,9 +4,9 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "base/text.h"
 #include "bench/rays/ball_scene.h"
 #include "bench/rays/dice.h"
-#include "bench/report/formatted.h"
 #include "bench/stress/drawn.h"
 
 namespace fragtrace {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/text.h"
 #include "bvh/bvh.h"
 #include "cli/commands.h"
 #include "gltf/gltf.h"
@@ -69,9 +70,7 @@ void printAllParts(const Scene& scene) {
   }
   std::vector<std::string> durations;
   for (const std::optional<double>& seconds : scene.animationSeconds) {
-    char text[32] = "of unknown duration";
-    if (seconds) std::snprintf(text, sizeof text, "%.4g s", *seconds);
-    durations.emplace_back(text);
+    durations.push_back(seconds ? formatted("%.4g s", *seconds) : "of unknown duration");
   }
   if (cameras.empty()) std::printf("  cameras     none\n");
   printParts("cameras", cameras, kinds);
@@ -143,9 +142,7 @@ void printText(const std::filesystem::path& path, const SceneDescription& s, con
               s.images, double(s.imageBytes) / 1e6);
   std::printf("  lights      %zu point, %zu spot, %zu directional\n", s.pointLights, s.spotLights,
               s.directionalLights);
-  std::string extensions;
-  for (const std::string& name : s.extensionsUsed) extensions += (extensions.empty() ? "" : ", ") + name;
-  std::printf("  extensions  %s\n", extensions.empty() ? "none" : extensions.c_str());
+  std::printf("  extensions  %s\n", s.extensionsUsed.empty() ? "none" : joined(s.extensionsUsed).c_str());
   if (s.bounds.empty()) {
     std::printf("  bounds      empty\n");
   } else {

@@ -3,9 +3,9 @@
 
 #include <cstdio>
 
-#include "base/count_text.h"
 #include "base/errors.h"
 #include "base/report.h"
+#include "base/text.h"
 #include "cli/program.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
@@ -20,17 +20,13 @@ namespace {
 void sayWhatWasDone(const RenderOptions& options, const std::string& name, const Statistics& stats) {
   std::string noise;
   if (stats.adaptive) {
-    char text[96];
-    std::snprintf(text, sizeof text, ", 95 %% of the pixels within %.3g %% (estimated)",
-                  100.0 * stats.adaptive->error);
-    const bool tells = stats.adaptive->known && stats.adaptive->error <= 1.0;
-    noise = tells ? text : stats.adaptive->known ? ", noise above 100 % (estimated)" : ", error unknown";
+    const AdaptiveStatistics& a = *stats.adaptive;
+    noise = !a.known         ? ", error unknown"
+            : a.error <= 1.0 ? formatted(", 95 %% of the pixels within %.3g %% (estimated)", 100.0 * a.error)
+                             : ", noise above 100 % (estimated)";
   }
-  if (stats.denoise && !stats.denoise->filter.empty()) {
-    char text[32];
-    std::snprintf(text, sizeof text, " in %.2f s", stats.denoise->filterMs / 1000.0);
-    noise += ", " + stats.denoise->filter + text;
-  }
+  if (stats.denoise && !stats.denoise->filter.empty())
+    noise += ", " + stats.denoise->filter + formatted(" in %.2f s", stats.denoise->filterMs / 1000.0);
   sayHowItEnded(options, stats);
   if (!stats.complete) say(options, "interrupted: what was finished is written");
   reportEvent("picture", {{"width", stats.size.x},
@@ -40,8 +36,7 @@ void sayWhatWasDone(const RenderOptions& options, const std::string& name, const
   // Standard output is the statistics' or the picture's alone.
   const bool taken = isStandardOutput(options.output.statsFile) || options.output.toStandardOutput;
   if (options.output.quiet || (taken ? reportsAsJson() : standardOutputIsClosed())) return;
-  char samples[32];
-  std::snprintf(samples, sizeof samples, "%.4g", samplesPerPixel(stats));
+  const std::string samples = formatted("%.4g", samplesPerPixel(stats));
   std::fprintf(taken ? stderr : stdout, "%s: %d x %d, %s per pixel in %.2f s (%.2f million paths/s)%s\n",
                name.c_str(), stats.size.x, stats.size.y, countText(samples, "sample").c_str(),
                stats.times.renderMs / 1000.0, megaPathsPerSecond(stats), noise.c_str());

@@ -7,9 +7,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "base/count_text.h"
 #include "base/errors.h"
 #include "base/report.h"
+#include "base/text.h"
 #include "cli/program.h"
 #include "cli/render_picture.h"
 #include "image/files/process.h"
@@ -52,12 +52,10 @@ void warnBeyondEnd(const RenderOptions& options, const SequenceOptions& sequence
   const std::optional<double> length = animationLength(scene, options.selection);
   const int last = rangeOf(sequence).last;
   if (!length || last <= std::ceil(*length * sequence.fps)) return;
-  char text[128];
-  std::snprintf(
-      text, sizeof text,
-      "warning: --frames: the animation ends after %.4g s, at picture %d; those after it show its end",
-      *length, int(std::ceil(*length * sequence.fps)));
-  say(options, text);
+  say(options,
+      formatted(
+          "warning: --frames: the animation ends after %.4g s, at picture %d; those after it show its end",
+          *length, int(std::ceil(*length * sequence.fps))));
 }
 
 /// The scene as the picture shows it, on the device. A turntable loads it once; else the environment stays.
@@ -179,13 +177,11 @@ bool endVideo(const RenderOptions& options, SequenceRun& run) {
     if (interrupts() == 0) throw;
     return false;
   }
-  char text[96];
   const glm::ivec2 size = run.video->size;
   const double perSecond = picturesPerSecond(options.output.sequence);
-  std::snprintf(text, sizeof text, ": %s of %d x %d, %.4g s at %.4g per second",
-                countText(size_t(run.video->count), "picture").c_str(), size.x, size.y,
-                run.video->count / perSecond, perSecond);
-  say(options, nameOf(options.output) + text);
+  say(options, nameOf(options.output) + ": " + countText(size_t(run.video->count), "picture") +
+                   formatted(" of %d x %d, %.4g s at %.4g per second", size.x, size.y,
+                             run.video->count / perSecond, perSecond));
   return true;
 }
 

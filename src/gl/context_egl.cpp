@@ -9,6 +9,7 @@
 #include <cstring>
 #include <vector>
 
+#include "base/text.h"
 #include "gl/context.h"
 #include "gl/dynamic_library.h"
 
@@ -118,9 +119,7 @@ EGLContext createContext(const EglFunctions& egl, EGLDisplay display, EGLConfig 
 std::unique_ptr<Context> tryCandidate(const EglFunctions& egl, const Candidate& candidate,
                                       std::string& reason) {
   const auto fail = [&](const char* step) {
-    char code[16];
-    std::snprintf(code, sizeof code, "0x%04x", unsigned(egl.getError()));
-    reason = std::string(step) + " failed (" + code + ")";
+    reason = formatted("%s failed (0x%04x)", step, unsigned(egl.getError()));
     return nullptr;
   };
   EGLDisplay display = egl.getPlatformDisplay(candidate.platform, candidate.native, nullptr);

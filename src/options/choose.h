@@ -5,16 +5,10 @@
 #include <string>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "scene/parts.h"
 
 namespace fragtrace {
-
-template <typename Names>
-std::string joined(const Names& names) {
-  std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : ", ") + std::string(name);
-  return text;
-}
 
 /// "'x' is none of a, b, c"
 template <typename Names>

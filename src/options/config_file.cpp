@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "image/files/whole_file.h"
 #include "options/parse_words.h"
 
@@ -53,11 +54,7 @@ Json parseFile(const std::filesystem::path& path) {
 std::string spelled(const Json& value, const std::string& place) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_number_integer()) return value.dump();
-  if (value.is_number()) {
-    char text[32];  // 17 digits name a double
-    std::snprintf(text, sizeof text, "%.17g", value.get<double>());
-    return text;
-  }
+  if (value.is_number()) return formatted("%.17g", value.get<double>());  // 17 digits name a double
   throw InputError(place + ": is neither a number nor a string");
 }
 

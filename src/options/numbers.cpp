@@ -2,31 +2,23 @@
 #include "options/numbers.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
-#include "base/count_text.h"
+#include "base/text.h"
 #include "options/choose.h"
 
 namespace fragtrace {
 
 namespace {
 
-template <typename Number>
-bool parseWhole(const std::string& text, Number& number) {
-  const char* end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  return error == std::errc{} && rest == end;
-}
-
-/// With a unit or without; false for anything else.
-bool parseSize(std::string text, uint64_t& bytes) {
-  if (text.starts_with('-')) return false;
+/// With a unit or without; none for anything else.
+std::optional<uint64_t> sizeIn(std::string text) {
+  if (text.starts_with('-')) return std::nullopt;
   try {
-    return CLI::AsSizeValue(true)(text).empty() && parseWhole(text, bytes);
+    return CLI::AsSizeValue(true)(text).empty() ? numberOfAll<uint64_t>(text) : std::nullopt;
   } catch (const CLI::Error&) {
-    return false;
+    return std::nullopt;
   }
 }
 
@@ -49,8 +41,8 @@ CLI::Validator wholeNumber(int64_t least, int64_t most, const std::string& form)
                              (form.empty() ? "" : ", as in " + form);
   return CLI::Validator(
       [=](const std::string& text) -> std::string {
-        int64_t value = 0;
-        const bool good = parseWhole(text, value) && value >= least && value <= most;
+        const auto value = numberOfAll<int64_t>(text);
+        const bool good = value && *value >= least && *value <= most;
         return good ? "" : "'" + text + "' is no " + wanted;
       },
       "");
@@ -96,9 +88,9 @@ CLI::Validator memorySize(uint64_t least) {
       "no size from " + std::to_string(least / 1'000'000) + "MB on, such as 500MB or 2GiB";
   return CLI::Validator(
       [=](std::string& text) -> std::string {
-        uint64_t bytes = 0;
-        if (!parseSize(text, bytes) || bytes < least) return "'" + text + "' is " + wanted;
-        text = std::to_string(bytes);
+        const std::optional<uint64_t> bytes = sizeIn(text);
+        if (!bytes || *bytes < least) return "'" + text + "' is " + wanted;
+        text = std::to_string(*bytes);
         return "";
       },
       "");

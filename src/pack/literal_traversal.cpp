@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "base/text.h"
 #include "pack/pack_faces.h"
 #include "scene/hit_error.h"
 
@@ -17,9 +17,7 @@ namespace fragtrace {
 namespace {
 
 std::string number(double x) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.9g", double(float(x)));
-  std::string s(text);
+  std::string s = formatted("%.9g", double(float(x)));
   if (s.find_first_of(".e") == std::string::npos) s += ".0";
   return x < 0.0 ? "(" + s + ")" : s;
 }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "pack/literals.h"
 
-#include <algorithm>
-#include <cstdio>
 #include <optional>
 
+#include "base/text.h"
 #include "pack/literal_faces.h"
 #include "pack/literal_traversal.h"
 
@@ -12,11 +11,7 @@ namespace fragtrace {
 
 namespace {
 
-std::string word(uint32_t x) {
-  char text[16];
-  std::snprintf(text, sizeof text, "0x%xu", x);
-  return text;
-}
+std::string word(uint32_t x) { return formatted("0x%xu", x); }
 
 /// An expression for values[index], by bisection. Equal values need no choice, and values that nobody asks
 /// for may be anything.

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "base/count_text.h"
 #include "base/errors.h"
+#include "base/text.h"
 #include "base/vectors.h"
 #include "scene/parts.h"
 

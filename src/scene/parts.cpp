@@ -2,9 +2,9 @@
 #include "scene/parts.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include "base/errors.h"
+#include "base/text.h"
 
 namespace fragtrace {
 
@@ -39,10 +39,7 @@ bool isSameButForCase(std::string_view a, std::string_view b) {
 std::optional<size_t> findPart(const std::string& wanted, const std::vector<std::string>& names) {
   const auto named = std::find(names.begin(), names.end(), wanted);
   if (named != names.end()) return size_t(named - names.begin());
-  size_t index = 0;
-  const char* end = wanted.data() + wanted.size();
-  const auto parsed = std::from_chars(wanted.data(), end, index);
-  if (parsed.ec == std::errc{} && parsed.ptr == end && index < names.size()) return index;
+  if (const auto index = numberOfAll<size_t>(wanted); index && *index < names.size()) return index;
   const auto isAlike = [&](const std::string& name) { return isSameButForCase(name, wanted); };
   if (std::ranges::count_if(names, isAlike) == 1)
     return size_t(std::ranges::find_if(names, isAlike) - names.begin());

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "base/count_text.h"
 #include "base/errors.h"
+#include "base/text.h"
 #include "scene/blurred_map.h"
 #include "scene/sky/sky.h"
 #include "scene/studio.h"

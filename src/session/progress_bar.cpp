@@ -9,16 +9,15 @@
 #include <utility>
 
 #include "base/report.h"
+#include "base/text.h"
 
 namespace fragtrace {
 
 namespace {
 
 std::string timeText(double seconds) {
-  char text[32];
   const long whole = std::lround(seconds);
-  std::snprintf(text, sizeof text, "%ld:%02ld", whole / 60, whole % 60);
-  return text;
+  return formatted("%ld:%02ld", whole / 60, whole % 60);
 }
 
 }  // namespace

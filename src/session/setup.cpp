@@ -7,9 +7,9 @@
 #include <future>
 #include <iterator>
 
-#include "base/count_text.h"
 #include "base/errors.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "bvh/bvh.h"
 #include "bvh/large_first.h"
 #include "image/files/process.h"
@@ -175,11 +175,9 @@ void checkCatcherPlace(const RenderOptions& options, Scene& scene) {
   const double below = scene.bounds.minimum.y - *height;
   const double size = glm::length(scene.bounds.extent());
   if (std::abs(below) <= size) return;
-  char text[128];
-  std::snprintf(text, sizeof text,
-                "--shadow-catcher: the plane is %.3g m %s the bottom of the scene, whose diagonal is %.3g m",
-                std::abs(below), below > 0.0 ? "below" : "above", size);
-  scene.warnings.emplace_back(text);
+  scene.warnings.push_back(
+      formatted("--shadow-catcher: the plane is %.3g m %s the bottom of the scene, whose diagonal is %.3g m",
+                std::abs(below), below > 0.0 ? "below" : "above", size));
 }
 
 /// Fog so thick that paths are long, and that nearly nothing is seen through it.
@@ -188,13 +186,10 @@ void checkFogDepth(const RenderOptions& options, Scene& scene) {
   const Fog fog = fogOf(options.fog, scene.bounds);
   const double depth = 2.0 * fog.radius;
   if (!has(options.stages, Stage::Gi) || options.fog.height || fog.extinction * depth <= kMost) return;
-  char text[224];
-  std::snprintf(
-      text, sizeof text,
+  scene.warnings.push_back(formatted(
       "--fog-density: light goes %.2g m on average in fog that is %.3g m deep (--fog-distance): little "
       "is seen, and paths are long; a density of %.1g is a haze",
-      1.0 / fog.extinction, depth, 1.0 / depth);
-  scene.warnings.emplace_back(text);
+      1.0 / fog.extinction, depth, 1.0 / depth));
 }
 
 /// Options of an environment, where there is none, or one that is alike on all sides.

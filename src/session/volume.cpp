@@ -2,12 +2,12 @@
 #include "session/setup.h"
 
 #include <array>
-#include <cstdio>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtx/component_wise.hpp>
 #include <limits>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "options/option_row.h"
 #include "scene/volume/read_grid.h"
 
@@ -62,12 +62,10 @@ void warnOfVolume(const RenderOptions& options, Scene& scene) {
   double size = std::numeric_limits<double>::infinity();
   for (const size_t side : {1, 2, 4}) size = std::min(size, glm::distance(corners[0], corners[side]));
   if (extinction * size <= kMostDepth) return;
-  char text[160];
-  std::snprintf(
-      text, sizeof text,
-      "light goes %.2g m on average where the grid is densest, and the grid is %.3g m deep: paths are long",
-      1.0 / extinction, size);
-  scene.warnings.push_back(name + text);
+  scene.warnings.push_back(
+      name + formatted("light goes %.2g m on average where the grid is densest, and the grid is %.3g m deep: "
+                       "paths are long",
+                       1.0 / extinction, size));
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <map>
 #include <optional>
 #include <span>
@@ -13,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text.h"
 #include "shader/tokens.h"
 
 namespace fragtrace {
@@ -45,11 +45,7 @@ std::optional<int> numberOf(const Token& token, const ShaderConstants& constants
   if (found != constants.end()) return found->second;
   if (token.text == "true") return 1;
   if (token.text == "false") return 0;
-  int value = 0;
-  const char* end = token.text.data() + token.text.size();
-  const auto read = std::from_chars(token.text.data(), end, value);
-  if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
-  return value;
+  return numberOfAll<int>(token.text);
 }
 
 std::optional<bool> compare(int a, std::string_view comparison, int b) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "image/format.h"
 #include "view/files/file_question.h"
 
 namespace fragtrace {
@@ -10,13 +11,13 @@ namespace fragtrace {
 namespace {
 
 bool isOneOf(std::span<const char* const> extensions, const std::filesystem::path& path) {
-  return std::ranges::find(extensions, lowerExtension(path)) != extensions.end();
+  return std::ranges::find(extensions, extensionOf(path)) != extensions.end();
 }
 
 }  // namespace
 
 bool mayBeReference(const std::filesystem::path& path) {
-  const std::string extension = lowerExtension(path);
+  const std::string extension = extensionOf(path);
   return extension == ".exr" || extension == ".pfm";
 }
 

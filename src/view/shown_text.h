@@ -3,10 +3,11 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdio>
 #include <glm/vec3.hpp>
 #include <string>
 #include <string_view>
+
+#include "base/text.h"
 
 namespace fragtrace {
 
@@ -20,14 +21,6 @@ std::string shownText(std::string_view text, size_t most);
 
 /// Text for the command line, as a window says it: without options in brackets, " (--option)".
 std::string withoutOptions(const std::string& text);
-
-/// A text as printf writes it, of at most 255 characters.
-template <typename... Values>
-std::string formatted(const char* format, Values... values) {
-  char buffer[256];
-  std::snprintf(buffer, sizeof buffer, format, values...);
-  return buffer;
-}
 
 /// "distance 5 m: x 3, y 0, z -4", of places in metres.
 std::string distanceText(const glm::dvec3& from, const glm::dvec3& to);

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "base/count_text.h"
+#include "base/text.h"
 #include "gltf/read/value.h"
 
 namespace fragtrace {

@@ -2,12 +2,12 @@
 #include "gltf/build/nodes.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "scene/parts.h"
 
 namespace fragtrace {
@@ -119,10 +119,8 @@ std::vector<bool> chosenByUser(const Document& document, const std::vector<std::
       chosen[i] = found = true;
     }
     if (found) continue;
-    size_t index = 0;
-    const char* end = wanted.data() + wanted.size();
-    const auto parsed = std::from_chars(wanted.data(), end, index);
-    const bool isIndex = parsed.ec == std::errc{} && parsed.ptr == end && index < nodes.size();
+    const auto index = numberOfAll<size_t>(wanted);
+    const bool isIndex = index && *index < nodes.size();
     for (size_t i = 0; !isIndex && i < nodes.size(); ++i) {
       if (isSameButForCase(nodes[i].name, wanted)) chosen[i] = found = true;
     }
@@ -130,7 +128,7 @@ std::vector<bool> chosenByUser(const Document& document, const std::vector<std::
     if (!isIndex)
       throw UsageError("--hide: " + inQuotes(wanted) + " is no node of the file, which has " +
                        std::to_string(nodes.size()) + "; `fragtrace info --nodes` lists them");
-    chosen[index] = true;
+    chosen[*index] = true;
   }
   return chosen;
 }

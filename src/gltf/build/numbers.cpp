@@ -2,12 +2,11 @@
 #include "gltf/build/numbers.h"
 
 #include <algorithm>
-#include <charconv>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "base/count_text.h"
 #include "base/errors.h"
+#include "base/text.h"
 #include "gltf/check/schema_checker.h"
 
 namespace fragtrace {
@@ -23,12 +22,10 @@ bool isOfSomething(const json& root, std::string_view pointer) {
     const std::string_view part = cutPart(pointer);
     if (pointer.empty()) return value->is_object();
     if (value->is_array()) {
-      size_t index = 0;
-      const auto parsed = std::from_chars(part.data(), part.data() + part.size(), index);
-      const bool isIndex = parsed.ec == std::errc{} && parsed.ptr == part.data() + part.size() &&
-                           (part == "0" || part[0] != '0');
-      if (!isIndex || index >= value->size()) return false;
-      value = &(*value)[index];
+      const auto index = numberOfAll<size_t>(part);
+      const bool isIndex = index && (part == "0" || part[0] != '0');
+      if (!isIndex || *index >= value->size()) return false;
+      value = &(*value)[*index];
       continue;
     }
     const auto member = value->is_object() ? value->find(std::string(part)) : value->end();

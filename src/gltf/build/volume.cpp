@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "base/count_text.h"
+#include "base/text.h"
 #include "gltf/build/placed.h"
 #include "gltf/read/value.h"
 

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
+
+#include "base/text.h"
 
 namespace fragtrace {
 
@@ -80,11 +81,10 @@ Image paintHeatmap(const Image& counts, const std::string& countsAs) {
     }
   }
   for (int part = 0; part <= 4; ++part) {
-    std::array<char, 32> number{};
-    std::snprintf(number.data(), number.size(), "%.12g", limit * part / 4.0);
-    const int width = int(std::strlen(number.data())) * 4 * scale;
-    drawNumber(image, number.data(),
-               std::clamp(image.width * part / 4 - width / 2, scale, image.width - width), textTop, scale);
+    const std::string number = formatted("%.12g", limit * part / 4.0);
+    const int width = int(number.size()) * 4 * scale;
+    drawNumber(image, number, std::clamp(image.width * part / 4 - width / 2, scale, image.width - width),
+               textTop, scale);
   }
   return image;
 }

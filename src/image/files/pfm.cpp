@@ -2,12 +2,12 @@
 #include "image/files/pfm.h"
 
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "base/text.h"
 #include "image/channels.h"
 #include "image/limits.h"
 
@@ -30,11 +30,9 @@ std::string_view takeWord(std::span<const uint8_t>& bytes) {
 template <typename Number>
 Number parseNumber(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
-  Number number{};
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (word.empty() || error != std::errc{} || end != word.data() + word.size())
-    throw std::runtime_error("the PFM header is wrong");
-  return number;
+  const auto number = numberOfAll<Number>(word);
+  if (!number) throw std::runtime_error("the PFM header is wrong");
+  return *number;
 }
 
 float loadFloat(const uint8_t* bytes, bool littleEndian) {

@@ -2,7 +2,7 @@
 #include "session/picture/checkpoints.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <cinttypes>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
@@ -10,6 +10,7 @@
 
 #include "base/errors.h"
 #include "base/hash.h"
+#include "base/text.h"
 #include "image/files/whole_file.h"
 #include "image/format.h"
 #include "render/adaptive.h"
@@ -141,11 +142,8 @@ void restoreMeasured(const std::string& text, Statistics& stats) {
 std::string jobText(const PictureJob& job, const DrawingPlan& plan) {
   const RenderOptions& options = job.options;
   auto json = nlohmann::json::parse(settingsText(options, job.loaded, job.tracer));
-  char shader[17];
-  std::snprintf(shader, sizeof shader, "%016llx",
-                static_cast<unsigned long long>(
-                    hashOfText(variantName(job.tracer.variant) + job.tracer.variant.literals)));
-  json["shader (--traversal, --schedule, --dispatch, --buffer-reads)"] = shader;
+  json["shader (--traversal, --schedule, --dispatch, --buffer-reads)"] =
+      formatted("%016" PRIx64, hashOfText(variantName(job.tracer.variant) + job.tracer.variant.literals));
   json["shader_folder"] = options.device.shaderFolder.string();
   json["seed"] = options.sampling.seed;
   json["sample_offset"] = options.sampling.sampleOffset;

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "gl/context.h"
 #include "image/channels.h"
 #include "image/denoise/layers.h"
@@ -66,9 +66,7 @@ Image denoisedFile(const Image& drawn, const std::filesystem::path& name, const 
 }
 
 std::string filterText(const DenoiseStatistics& stats) {
-  char seconds[32];
-  std::snprintf(seconds, sizeof seconds, " in %.2f s", (stats.filterMs + stats.compileMs) / 1000.0);
-  return stats.filter + seconds;
+  return stats.filter + formatted(" in %.2f s", (stats.filterMs + stats.compileMs) / 1000.0);
 }
 
 }  // namespace fragtrace

@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <span>
 
-#include "base/count_text.h"
 #include "base/errors.h"
+#include "base/text.h"
 #include "image/channels.h"
 #include "render/adaptive.h"
 #include "session/interrupt.h"
@@ -233,10 +232,9 @@ Drawing drawEvenly(const PartRun& part, Film film) {
     const FilmTotals totals = totalsOf(sampled.film.read());
     sampled.fewest = int(std::min<uint32_t>(totals.fewestSamples, uint32_t(spp)));
     // Each pixel goes on from its own.
-    char mean[32];
-    std::snprintf(mean, sizeof mean, "%.4g", double(totals.samples) / areaOf(sampled.film.size()));
-    say(part.job.options, "--resume: goes on after " + std::string(mean) + " of " +
-                              countText(size_t(spp), "sample") + " per pixel" + placeOfPart(part.share));
+    const std::string mean = formatted("%.4g", double(totals.samples) / areaOf(sampled.film.size()));
+    say(part.job.options, "--resume: goes on after " + mean + " of " + countText(size_t(spp), "sample") +
+                              " per pixel" + placeOfPart(part.share));
   }
   const auto keep = [&] { part.keep({sampled.film.save()}, sampled.looks, {}); };
   Drawing drawing;

@@ -2,10 +2,9 @@
 #include "session/picture/finished_picture.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "gl/driver_choice.h"
 #include "image/channels.h"
 #include "render/adaptive.h"
@@ -71,10 +70,8 @@ void sayWhatIsDark(const RenderOptions& options, const LoadedScene& loaded, cons
 void sayWhatWasCut(const RenderOptions& options, const Statistics& stats) {
   constexpr double kNoticed = 0.01;
   if (cutShare(stats) <= kNoticed) return;
-  char share[32];
-  std::snprintf(share, sizeof share, "%.2g", cutShare(stats));
   say(options, "warning: --bounces " + std::to_string(options.sampling.bounces) +
-                   " cut paths that could still carry " + share +
+                   " cut paths that could still carry " + formatted("%.2g", cutShare(stats)) +
                    " of the light (cut_share); a larger value makes the picture brighter");
 }
 

@@ -2,12 +2,11 @@
 #include "session/picture/joined_parts.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <set>
 #include <stdexcept>
 
-#include "base/count_text.h"
 #include "base/errors.h"
+#include "base/text.h"
 #include "base/vectors.h"
 #include "image/channels.h"
 #include "image/over_white.h"
@@ -223,14 +222,9 @@ Part joinedParts(std::vector<Part> parts) {
 std::string describeParts(size_t count, const Part& joined) {
   const Spread spread = spreadOf(joined);
   std::string all = countText(count, "part") + ", ";
-  if (spread.fewest == spread.most) {
-    all += countText(size_t(spread.most), "sample") + " per pixel";
-  } else {
-    char text[128];
-    std::snprintf(text, sizeof text, "%.0f to %.0f samples per pixel, %.1f on average", spread.fewest,
-                  spread.most, spread.mean);
-    all += text;
-  }
+  all += spread.fewest == spread.most ? countText(size_t(spread.most), "sample") + " per pixel"
+                                      : formatted("%.0f to %.0f samples per pixel, %.1f on average",
+                                                  spread.fewest, spread.most, spread.mean);
   const std::vector<SampleRange> ranges = rangesOf(joined.made);
   std::set<uint32_t> seeds;
   for (const SampleRange& range : ranges) seeds.insert(range.seed);

@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "base/text.h"
 #include "image/channels.h"
 #include "image/display/heatmap.h"
 #include "image/display/lines.h"
@@ -43,8 +44,7 @@ std::string lostInPfm(const RenderOptions& options, const Image& linear) {
     if (channel != "R" && channel != "G" && channel != "B")
       layers.insert(channel == "A" ? "alpha" : channel.substr(0, channel.find('.')));
   }
-  std::string lost;
-  for (const std::string& layer : layers) lost += (lost.empty() ? "" : ", ") + layer;
+  std::string lost = joined(layers);
   const auto add = [&](const char* more) { lost += (lost.empty() ? "" : " and ") + std::string(more); };
   if (holdsDisplay(options.output.file)) add("what only a display has (exposure, tone curve, boxes)");
   if (!linear.attributes.empty()) add("what merge needs");

@@ -2,16 +2,15 @@
 #include "session/picture/provenance.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cstdio>
+#include <cinttypes>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <tuple>
 #include <type_traits>
 
-#include "base/count_text.h"
 #include "base/errors.h"
+#include "base/text.h"
 #include "options/option_table.h"
 
 namespace fragtrace {
@@ -33,11 +32,10 @@ std::string textOf(const Image& image, const char* name, const std::filesystem::
 
 int64_t numberOf(const Image& image, const char* name, const std::filesystem::path& path) {
   const std::string text = textOf(image, name, path);
-  int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < 0)
+  const auto value = numberOfAll<int64_t>(text);
+  if (!value || *value < 0)
     throw InputError(path.string() + ": attribute " + name + " is '" + text + "', no number from 0 on");
-  return value;
+  return *value;
 }
 
 std::vector<SampleRange> rangesIn(const std::string& text, const std::filesystem::path& path) {
@@ -63,9 +61,7 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
   const Camera& camera = loaded.camera;
   nlohmann::ordered_json json;
   json["scene"] = options.scene.filename().string();
-  char hash[17];
-  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(tracer.sceneHash));
-  json["scene_hash"] = hash;
+  json["scene_hash"] = formatted("%016" PRIx64, tracer.sceneHash);
   json["width"] = loaded.size.x;
   json["height"] = loaded.size.y;
   if (options.camera.region)
@@ -153,9 +149,7 @@ std::string differenceOf(const std::string& settings, const std::string& others)
   if (differs("scene"))
     return "scene " + a["scene"].dump() + " and " + b["scene"].dump() +
            (differences.size() > 1 ? ", and " + countText(differences.size() - 1, "more setting") : "");
-  std::string text;
-  for (const std::string& difference : differences) text += (text.empty() ? "" : ", ") + difference;
-  return text.empty() ? "of another version" : text;
+  return differences.empty() ? "of another version" : joined(differences);
 }
 
 void setProvenance(Image& image, const Provenance& provenance) {

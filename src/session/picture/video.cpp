@@ -15,6 +15,7 @@
 
 #include "base/errors.h"
 #include "base/spawn.h"
+#include "base/text.h"
 #include "image/files/whole_file.h"
 #include "options/option_text.h"
 #include "session/interrupt.h"
@@ -43,10 +44,7 @@ std::string lastWords(int said) {
   for (std::string line; std::getline(stream, line);) {
     if (line.find_first_not_of(" \r\t") != std::string::npos) lines.push_back(line);
   }
-  std::string words;
-  for (size_t i = lines.size() - std::min(lines.size(), kMostLines); i < lines.size(); ++i)
-    words += (words.empty() ? "" : "; ") + lines[i];
-  return words;
+  return joined(std::span(lines).last(std::min(lines.size(), kMostLines)), "; ");
 }
 
 /// Ends the process at once, if it still runs, and removes what it has written.

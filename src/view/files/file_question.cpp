@@ -2,7 +2,8 @@
 #include "view/files/file_question.h"
 
 #include <algorithm>
-#include <cctype>
+
+#include "image/format.h"
 
 namespace fragtrace {
 
@@ -48,17 +49,11 @@ FileQuestion saveModelQuestion(const std::filesystem::path& model) {
           .title = "Save the model as",
           .folder = model.parent_path(),
           .name = model.filename().string(),
-          .filters = {fileFilter("Models", {lowerExtension(model)})}};
-}
-
-std::string lowerExtension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return extension;
+          .filters = {fileFilter("Models", {extensionOf(model)})}};
 }
 
 bool passes(const FileFilter& filter, const std::filesystem::path& file) {
-  return std::ranges::find(filter.extensions, lowerExtension(file)) != filter.extensions.end();
+  return std::ranges::find(filter.extensions, extensionOf(file)) != filter.extensions.end();
 }
 
 }  // namespace fragtrace

@@ -38,9 +38,6 @@ FileQuestion saveQuestion(const std::filesystem::path& picture);
 /// For the name of a model, which keeps its extension.
 FileQuestion saveModelQuestion(const std::filesystem::path& model);
 
-/// The extension of a name, in lower case.
-std::string lowerExtension(const std::filesystem::path& path);
-
 /// Returns true if the filter lets the file pass.
 bool passes(const FileFilter& filter, const std::filesystem::path& file);
 

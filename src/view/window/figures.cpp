@@ -6,17 +6,12 @@
 #include <cstdio>
 #include <string_view>
 
+#include "base/text.h"
 #include "view/window/draw/text.h"
 
 namespace fragtrace {
 
 namespace {
-
-std::string megabytes(size_t bytes) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f MB", double(bytes) / 1e6);
-  return text;
-}
 
 template <typename... Values>
 void row(const char* name, const char* format, Values... values) {
@@ -33,10 +28,7 @@ std::string passText(const PassTimes& times) {
   std::string text;
   double host = 0.0;
   const auto add = [&](std::string_view name, double ms) {
-    char entry[48];
-    std::snprintf(entry, sizeof entry, "%s%.*s %.1f", text.empty() ? "" : ", ", int(name.size()), name.data(),
-                  ms);
-    text += entry;
+    text += (text.empty() ? "" : ", ") + std::string(name) + formatted(" %.1f", ms);
   };
   for (size_t pass = 0; pass < kPassNames.size(); ++pass) {
     if (times.wall[pass] >= 0.05) add(kPassNames[pass], times.wall[pass]);
@@ -63,7 +55,7 @@ void drawCosts(const ViewState& state, const ViewFacts& facts, size_t side, cons
     row("scene", "%zu triangles, %zu spheres", d.triangles, d.spheres);
   else
     row("scene", "%zu triangles", d.triangles);
-  row("memory", "%s", megabytes(s.deviceBytes).c_str());
+  row("memory", "%.1f MB", double(s.deviceBytes) / 1e6);
 }
 
 /// In the split view only the compared values. Returns the lower end.

@@ -13,6 +13,7 @@
 
 #include "advice.h"
 #include "base/report.h"
+#include "base/text.h"
 #include "gl/dynamic_library.h"
 #include "gl/gl.h"
 #include "view/window/status.h"
@@ -130,9 +131,7 @@ std::string portalName(GLFWwindow* window) {
   unsigned long (*numberOf)(GLFWwindow*) = nullptr;
   static const DynamicLibrary library({"libglfw.so.3"});
   if (!library.loaded() || !library.find("glfwGetX11Window", numberOf)) return "";
-  char name[32];
-  std::snprintf(name, sizeof name, "x11:%lx", numberOf(window));
-  return name;
+  return formatted("x11:%lx", numberOf(window));
 }
 
 std::string takeGlfwErrors() {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 
+#include "base/text.h"
 #include "view/presets.h"
 #include "view/progress.h"
 #include "view/set_by_eye.h"
@@ -108,9 +108,7 @@ void drawLabel(const Label& label, ViewFacts& facts, const std::string& place, c
 
 /// "3.5 ms"
 std::string frameText(const SideStatistics& s) {
-  char time[32];
-  std::snprintf(time, sizeof time, s.frameMs < 10.0 ? "%.1f ms" : "%.0f ms", s.frameMs);
-  return time;
+  return formatted(s.frameMs < 10.0 ? "%.1f ms" : "%.0f ms", s.frameMs);
 }
 
 /// ", 12 samples, 3.5 ms"
@@ -147,11 +145,9 @@ void drawSideNames(const ViewState& state, ViewFacts& facts, const WindowLayout&
     if (!file) label.texts.insert(label.texts.begin(), name + costText(facts.statistics[side]));
     drawLabel(label, facts, side == 0 ? "name A" : "name B", layout);
   };
-  if (state.comparison == CompareMode::Difference) {
-    char text[64];
-    std::snprintf(text, sizeof text, "|A - B| x %g", std::exp2(state.differenceStops));
-    return drawLabel({{text}, {right, 0.0f}, right}, facts, "name difference", layout);
-  }
+  if (state.comparison == CompareMode::Difference)
+    return drawLabel({{"|A - B| x " + shortText(std::exp2(state.differenceStops))}, {right, 0.0f}, right},
+                     facts, "name difference", layout);
   if (bar > 0.0f) draw(0, 0.0f, bar);
   if (bar < right) draw(1, bar, right);
 }

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
+#include "base/text.h"
 #include "view/picture/pixel_value.h"
 
 namespace fragtrace {
@@ -21,11 +21,11 @@ constexpr std::array<ImU32, 3> kValueColors{IM_COL32(255, 150, 150, 255), IM_COL
 /// Three lines in the middle of a pixel, on a dark ground.
 void drawValue(ImDrawList& list, ImVec2 middle, const glm::dvec3& value) {
   const float line = ImGui::GetFontSize();
-  std::array<std::array<char, 16>, 3> texts{};
+  std::array<std::string, 3> texts;
   float width = 0.0f;
   for (size_t c = 0; c < 3; ++c) {
-    std::snprintf(texts[c].data(), texts[c].size(), "%.3g", value[int(c)]);
-    width = std::max(width, ImGui::CalcTextSize(texts[c].data()).x);
+    texts[c] = formatted("%.3g", value[int(c)]);
+    width = std::max(width, ImGui::CalcTextSize(texts[c].c_str()).x);
   }
   const ImVec2 corner(std::round(middle.x - 0.5f * width), std::round(middle.y - 0.5f * kLines * line));
   list.AddRectFilled({corner.x - 2.0f, corner.y}, {corner.x + width + 2.0f, corner.y + kLines * line},

@@ -3,8 +3,8 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cstdio>
 
+#include "base/text.h"
 #include "view/picture/pixel_value.h"
 #include "view/progress.h"
 #include "view/shown_text.h"
@@ -17,13 +17,6 @@ namespace {
 
 constexpr float kProgressWidth = 150.0f;  // pixels at 96 dots an inch
 constexpr float kGap = 18.0f;
-
-template <typename... Values>
-std::string printed(const char* format, Values... values) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 /// A word or two for what the viewer does.
 std::string activity(const ViewState& state, const ViewFacts& facts) {
@@ -45,8 +38,8 @@ std::vector<std::string> firstTexts(const ViewState& state, const ViewFacts& fac
   // It is the error of light, which a debug view does not show.
   if (s.error >= 0.0 && o.output.debugView == DebugView::None) {
     texts.push_back(o.sampling.noise > 0.0
-                        ? printed("error %.2f %% of %.2f %%", 100.0 * s.error, 100.0 * o.sampling.noise)
-                        : printed("error %.2f %%", 100.0 * s.error));
+                        ? formatted("error %.2f %% of %.2f %%", 100.0 * s.error, 100.0 * o.sampling.noise)
+                        : formatted("error %.2f %%", 100.0 * s.error));
   }
   if (facts.pick && facts.pick->end) texts.push_back(distanceText(facts.pick->point, *facts.pick->end));
   return texts;
@@ -59,12 +52,12 @@ std::vector<std::string> moreTexts(const ViewState& state, const ViewFacts& fact
   const SideStatistics& s = facts.statistics[side];
   std::vector<std::string> texts;
   if (!s.resting && progress.seconds) texts.push_back(durationText(*progress.seconds) + " left");
-  if (facts.picturesPerSecond > 0.0) texts.push_back(printed("%.1f pictures/s", facts.picturesPerSecond));
+  if (facts.picturesPerSecond > 0.0) texts.push_back(formatted("%.1f pictures/s", facts.picturesPerSecond));
   const glm::ivec2 size = facts.pictureSize[side];
   if (size.x <= 0) return texts;  // there is no picture yet
   texts.push_back(size == state.size
-                      ? printed("%d x %d", size.x, size.y)
-                      : printed("%d x %d of %d x %d", size.x, size.y, state.size.x, state.size.y));
+                      ? formatted("%d x %d", size.x, size.y)
+                      : formatted("%d x %d of %d x %d", size.x, size.y, state.size.x, state.size.y));
   return texts;
 }
 
@@ -81,7 +74,7 @@ std::string pixelText(const ViewState& state, const ViewFacts& facts) {
   const auto value = shownValue(facts, side, difference, place);
   if (!value) return "";
   const char* name = !state.compares() ? "" : difference ? "|A - B| " : side == 0 ? "A " : "B ";
-  return printed("%s%d, %d: %.4g %.4g %.4g", name, pixel.x, pixel.y, value->x, value->y, value->z);
+  return formatted("%s%d, %d: %.4g %.4g %.4g", name, pixel.x, pixel.y, value->x, value->y, value->z);
 }
 
 }  // namespace

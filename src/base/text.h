@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Numbers and lists as text, and text as numbers.
+#pragma once
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace fragtrace {
+
+/// A text as printf writes it.
+template <typename... Values>
+std::string formatted(const char* format, Values... values) {
+  std::string text(size_t(std::max(0, std::snprintf(nullptr, 0, format, values...))), '\0');
+  std::snprintf(text.data(), text.size() + 1, format, values...);
+  return text;
+}
+
+/// At most six digits, as %g prints them.
+inline std::string shortText(double value) { return formatted("%g", value); }
+
+/// "1 part", "2 parts"; the number is a text as printed.
+inline std::string countText(const std::string& number, const std::string& what) {
+  return number + " " + what + (number == "1" ? "" : "s");
+}
+
+inline std::string countText(size_t number, const std::string& what) {
+  return countText(std::to_string(number), what);
+}
+
+/// The texts, with the separator between them.
+template <typename Texts>
+std::string joined(const Texts& texts, const char* separator = ", ") {
+  std::string all;
+  for (const auto& text : texts) all += (all.empty() ? "" : separator) + std::string(text);
+  return all;
+}
+
+/// The number that all of the text is, as std::from_chars reads it; none for any other text.
+template <typename Number>
+std::optional<Number> numberOfAll(std::string_view text) {
+  Number number{};
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc{} && rest == end ? std::optional(number) : std::nullopt;
+}
+
+}  // namespace fragtrace
