@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
+#include "base/text.h"
 #include "options/same_picture.h"
 #include "view/presets.h"
 #include "view/window/draw/text.h"
@@ -59,17 +59,13 @@ void drawSampling(ViewState& state, Places& places) {
     o.sampling.bounces = bounces >= kMostBouncesShown ? kUnlimitedBounces : bounces;
   label(places, "Roulette from");
   ImGui::SliderInt("##roulette", &o.sampling.rouletteDepth, 1, 32, "%d", kBounded);
-  label(places, "Noise to reach");
-  float noise = float(100.0 * o.sampling.noise);
-  if (ImGui::SliderFloat("##noise", &noise, 0.1f, 20.0f, "%.2f %%", kBoundedLogarithmic))
+  double noise = 100.0 * o.sampling.noise;
+  if (slider(places, "Noise to reach", noise, 0.1f, 20.0f, "%.2f %%", kBoundedLogarithmic))
     for (RenderOptions& side : state.sides) side.sampling.noise = 0.01 * noise;
   label(places, "Pixel filter");
   choose("##filter", kPixelFilterNames, o.camera.pixelFilter);
-  label(places, "Clamp indirect");
-  float clamp = float(o.sampling.clampIndirect);
-  if (ImGui::SliderFloat("##clamp", &clamp, 0.0f, 100.0f, clamp > 0.0f ? "%.2f (biased)" : "off",
-                         kBoundedLogarithmic))
-    o.sampling.clampIndirect = clamp;
+  slider(places, "Clamp indirect", o.sampling.clampIndirect, 0.0f, 100.0f,
+         o.sampling.clampIndirect > 0.0 ? "%.2f (biased)" : "off", kBoundedLogarithmic);
   label(places, "Traversal");
   choose("##traversal", kTraversalNames, o.device.traversal);
 }
@@ -85,18 +81,13 @@ void drawAnimation(ViewState& state, Places& places) {
     }
     ImGui::EndCombo();
   }
-  label(places, "Time");
-  float time = float(state.sides[0].selection.animationTime.value_or(0.0));
+  double time = state.sides[0].selection.animationTime.value_or(0.0);
   const bool posed = state.sides[0].selection.animationTime.has_value();
-  if (ImGui::SliderFloat("##time", &time, 0.0f, float(animationLength(state)), posed ? "%.2f s" : "at rest",
-                         kBounded)) {
+  if (slider(places, "Time", time, 0.0f, float(animationLength(state)), posed ? "%.2f s" : "at rest")) {
     state.playback.playing = false;
     showAnimation(state, shown, time);
   }
-  label(places, "Speed");
-  float speed = float(state.playback.speed);
-  if (ImGui::SliderFloat("##speed", &speed, 0.1f, 10.0f, "%.2f", kBoundedLogarithmic))
-    state.playback.speed = speed;
+  slider(places, "Speed", state.playback.speed, 0.1f, 10.0f, "%.2f", kBoundedLogarithmic);
   if (ImGui::Button(state.playback.playing ? "Pause" : "Play"))
     apply(state, *controlOf(Action::PlayAnimation), {});
   addItemPlace(places, "Play");
@@ -146,13 +137,9 @@ void drawCompare(ViewState& state, Places& places, Task& task) {
     addItemPlace(places, std::string("compare ") + kNames[size_t(i)]);
   }
   state.comparison = CompareMode(comparison);
-  if (state.comparison == CompareMode::Difference) {
-    label(places, "Amplify");
-    float stops = float(state.differenceStops);
-    char factor[32];
-    std::snprintf(factor, sizeof factor, "%.3g", std::exp2(stops));
-    if (ImGui::SliderFloat("##stops", &stops, -8.0f, 16.0f, factor, kBounded)) state.differenceStops = stops;
-  }
+  if (state.comparison == CompareMode::Difference)
+    slider(places, "Amplify", state.differenceStops, -8.0f, 16.0f,
+           formatted("%.3g", std::exp2(state.differenceStops)).c_str());
   drawSides(state, places, task);
 }
 

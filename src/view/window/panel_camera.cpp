@@ -59,11 +59,8 @@ void drawLens(ViewState& state, Places& places) {
     lens.fStop = blurred ? std::optional(firstStop(state.pose)) : std::nullopt;
   addItemPlace(places, "Depth of field");
   if (lens.fStop) {
-    label(places, "F-stop");
-    float stop = float(*lens.fStop);
-    if (ImGui::SliderFloat("##stop", &stop, float(kLeastStop), float(kMostStop), "f / %.3g",
-                           kBoundedLogarithmic))
-      lens.fStop = stop;
+    slider(places, "F-stop", *lens.fStop, float(kLeastStop), float(kMostStop), "f / %.3g",
+           kBoundedLogarithmic);
     label(places, "Blades");
     if (ImGui::SliderInt("##blades", &lens.blades, 2, 12, lens.blades < 3 ? "round" : "%d", kBounded))
       lens.blades = lens.blades < 3 ? 0 : lens.blades;
@@ -80,14 +77,10 @@ Task drawCamera(ViewState& state, ViewFacts& facts) {
   if (ImGui::Button(state.pose.perspective ? "perspective" : "orthographic", ImVec2(-1, 0)))
     apply(state, *controlOf(Action::OtherProjection), {});
   if (state.pose.perspective) {
-    label(places, "View angle");
-    float degrees = float(state.pose.viewAngleDegrees);
-    if (ImGui::SliderFloat("##angle", &degrees, 1.0f, 170.0f, "%.1f degrees", kBounded)) {
-      state.pose.viewAngleDegrees = degrees;
+    if (slider(places, "View angle", state.pose.viewAngleDegrees, 1.0f, 170.0f, "%.1f degrees"))
       state.posed = true;
-    }
+    drawLens(state, places);
   }
-  if (state.pose.perspective) drawLens(state, places);
   if (state.scene && !state.scene->cameras.empty()) {
     label(places, "Scene camera");
     const auto& cameras = state.scene->cameras;

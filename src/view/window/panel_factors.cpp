@@ -37,11 +37,9 @@ void drawLightSource(ViewState& state, Places& places, size_t index) {
   const LightSource& file = state.scene->lights[index];
   LightSource now = file;
   setLight(now, index, state.sides[0].selection.set);
-  label(places, "Light intensity");
-  auto intensity = float(now.intensity);
   const float most = file.intensity > 0.0 ? kMostBrighter * float(file.intensity) : kMostBrighter;
-  if (ImGui::SliderFloat("##intensity", &intensity, 0.0f, most, "%.4g", kBoundedLogarithmic)) {
-    now.intensity = shortest(intensity);
+  if (slider(places, "Light intensity", now.intensity, 0.0f, most, "%.4g", kBoundedLogarithmic)) {
+    now.intensity = shortest(float(now.intensity));
     setNumber(state, intensityOf(now, index), intensityOf(file, index));
   }
   label(places, "Light colour");

@@ -2,8 +2,8 @@
 // The histogram of the radiance in the active side's picture.
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
+#include "base/text.h"
 #include "view/window/panel_parts.h"
 
 namespace fragtrace {
@@ -53,10 +53,8 @@ void drawHistogram(const ViewState& state, ViewFacts& facts) {
   plot(histogram, ImGui::GetCursorScreenPos(), size);
   ImGui::Dummy(size);
   addItemPlace(facts.places, "histogram");
-  char text[96];
-  std::snprintf(text, sizeof text, "radiance from 2^%g to 2^%g with the exposure; the line is at 1",
-                kLowestStop, kHighestStop);
-  tip(facts.places, text);
+  tip(facts.places,
+      formatted("radiance from 2^%g to 2^%g with the exposure; the line is at 1", kLowestStop, kHighestStop));
   ImGui::TextDisabled("mean %.3g   max %.3g   above 1: %.2g %%", histogram.mean, histogram.most,
                       100.0 * histogram.above);
 }

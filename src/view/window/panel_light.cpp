@@ -63,23 +63,15 @@ Task chooseEnvironment(const ViewedScene& scene, ViewFacts& facts) {
 void drawSky(ViewState& state, Places& places) {
   SkyOptions sky = state.sides[0].light.sky;
   SunPlace sun = sunOf(sky);
-  label(places, "Sun height");
-  auto elevation = float(sun.elevation);
-  if (ImGui::SliderFloat("##sunheight", &elevation, kLowestSun, 90.0f, "%.1f degrees", kBounded)) {
-    sun.elevation = elevation;
-    placeSun(sky, sun);
-  }
+  if (slider(places, "Sun height", sun.elevation, kLowestSun, 90.0f, "%.1f degrees")) placeSun(sky, sun);
   tip(places, "Degrees above the horizon (--sun-elevation). Shift and the right button drag the sun");
-  label(places, "Sun from");
-  auto azimuth = float(std::remainder(sun.azimuth, 360.0));
-  if (ImGui::SliderFloat("##sunfrom", &azimuth, -180.0f, 180.0f, "%.0f degrees", kBounded)) {
+  double azimuth = std::remainder(sun.azimuth, 360.0);
+  if (slider(places, "Sun from", azimuth, -180.0f, 180.0f, "%.0f degrees")) {
     sun.azimuth = azimuth;
     placeSun(sky, sun);
   }
   tip(places, "Degrees clockwise from north, which is -Z: 90 is east, +X (--sun-azimuth)");
-  label(places, "Haze");
-  auto turbidity = float(sky.turbidity);
-  if (ImGui::SliderFloat("##haze", &turbidity, 1.0f, 10.0f, "%.1f", kBounded)) sky.turbidity = turbidity;
+  slider(places, "Haze", sky.turbidity, 1.0f, 10.0f, "%.1f");
   tip(places, "1 is air without haze, 3 a clear day (--sky-turbidity)");
   for (RenderOptions& side : state.sides) side.light.sky = sky;
 }
@@ -107,18 +99,14 @@ void drawFog(ViewState& state, Places& places) {
       fog.color = glm::clamp(color, glm::vec3(0.0f), glm::vec3(1.0f));
     addItemPlace(places, "Fog colour");
     tip(places, "The part of the light that the fog scatters rather than swallows (--fog-color)");
-    label(places, "Fog forward");
-    float anisotropy = float(fog.anisotropy);
-    if (ImGui::SliderFloat("##foganisotropy", &anisotropy, -kMostForward, kMostForward, "%.2f", kBounded))
-      fog.anisotropy = anisotropy;
+    slider(places, "Fog forward", fog.anisotropy, -kMostForward, kMostForward, "%.2f");
     tip(places,
         "Where the fog scatters light: above 0 rather forwards, as mist before a lamp; below 0 rather "
         "back (--fog-anisotropy)");
-    label(places, "Fog height");
-    float height = float(fog.height.value_or(0.0));
-    if (ImGui::SliderFloat("##fogheight", &height, 0.0f, kMostFogHeight,
-                           height > 0.0f ? "%.2f m" : "no limit", kBoundedLogarithmic))
-      fog.height = height > 0.0f ? std::optional(double(height)) : std::nullopt;
+    double height = fog.height.value_or(0.0);
+    if (slider(places, "Fog height", height, 0.0f, kMostFogHeight, height > 0.0 ? "%.2f m" : "no limit",
+               kBoundedLogarithmic))
+      fog.height = height > 0.0 ? std::optional(height) : std::nullopt;
     tip(places,
         "Ground fog: every so many metres up, it is thinner by a factor of e. At 0 it is as dense above "
         "as below (--fog-height)");
@@ -152,9 +140,8 @@ Task drawLight(ViewState& state, ViewFacts& facts) {
   Places& places = facts.places;
   Task task;
   RenderOptions& o = state.sides[0];
-  label(places, "Exposure");
-  float exposure = float(o.output.exposure);
-  if (ImGui::SliderFloat("##exposure", &exposure, -8.0f, 8.0f, "%.1f EV", kBounded))
+  double exposure = o.output.exposure;
+  if (slider(places, "Exposure", exposure, -8.0f, 8.0f, "%.1f EV"))
     for (RenderOptions& side : state.sides) side.output.exposure = exposure;
   label(places, "Tone map");
   ToneMap curve = o.output.toneMap;

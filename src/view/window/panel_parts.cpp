@@ -33,6 +33,16 @@ void label(Places& places, const char* text) {
   places[text] = {at.x, at.y, ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight()};
 }
 
+bool slider(Places& places, const char* name, double& value, float least, float most, const char* format,
+            ImGuiSliderFlags flags) {
+  label(places, name);
+  float shown = float(value);
+  const bool moved =
+      ImGui::SliderFloat((std::string("##") + name).c_str(), &shown, least, most, format, flags);
+  if (moved) value = shown;
+  return moved;
+}
+
 void tip(Places& places, const std::string& text) {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   const float left = ImGui::GetWindowPos().x - ImGui::GetStyle().ItemSpacing.x;

@@ -23,6 +23,10 @@ void dimAtEnd(const std::string& text);
 /// A label, and room for a control up to the end of the row, which has the label's place.
 void label(Places& places, const char* text);
 
+/// A slider for a number, with its label. Returns true when it has set the number.
+bool slider(Places& places, const char* name, double& value, float least, float most, const char* format,
+            ImGuiSliderFlags flags = kBounded);
+
 /// A sentence on the latest item, while the cursor is over it, even if that is greyed: beside the panel, or
 /// else above the item, so that no other control is covered.
 void tip(Places& places, const std::string& text);
