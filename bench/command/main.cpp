@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "bench/command/commands.h"
-#include "cli/bench_program.h"
 #include "cli/command_line.h"
+#include "cli/commands.h"
 #include "cli/program.h"
 
 namespace {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "cli/bench_program.h"
 
 #include <unistd.h>
 

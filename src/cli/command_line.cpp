@@ -13,7 +13,6 @@
 #include "base/errors.h"
 #include "options/choose.h"
 #include "options/parse_words.h"
-#include "options/suggestion.h"
 #include "version_text.h"
 
 namespace fragtrace {

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <array>
+#include <span>
 
-#include "cli/bench_program.h"
 #include "options/command.h"
 
 namespace fragtrace {
+
+struct RawRender;
 
 RunCommand addRender(CLI::App& app);
 RunCommand addView(CLI::App& app);
@@ -17,6 +19,8 @@ RunCommand addMerge(CLI::App& app);
 RunCommand addDenoise(CLI::App& app);
 /// For --help alone: the program has become another one before it asks for this command's options.
 RunCommand addBench(CLI::App& app);
+
+inline constexpr const char* kBenchSentence = "measure speed and error";  ///< of --help
 
 /// In the order of --help.
 inline constexpr std::array kCommandRows{
@@ -28,5 +32,13 @@ inline constexpr std::array kCommandRows{
     CommandRow{"denoise", "remove noise from a picture file", addDenoise},
     CommandRow{"bench", kBenchSentence, addBench},
 };
+
+/// Adds what a command needs that can filter a file: the filter itself is another option's.
+void addFileFilterOptions(CLI::App& app, RawRender& raw);
+
+/// Replaces this process by that program if the command is `bench`, with the words that follow; else returns.
+/// The program's name comes first.
+/// Throws RenderError if the program is missing.
+void becomeBenchProgram(std::span<const char* const> asked);
 
 }  // namespace fragtrace

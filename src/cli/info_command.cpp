@@ -10,7 +10,7 @@
 #include "cli/commands.h"
 #include "gltf/gltf.h"
 #include "options/choose.h"
-#include "options/option_table.h"
+#include "options/option_row.h"
 #include "options/parse_render.h"
 #include "pack/gpu_scene.h"
 #include "pack/pack_grid.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <vector>
 
-#include "cli/bench_program.h"
 #include "cli/command_line.h"
 #include "cli/commands.h"
 #include "cli/program.h"

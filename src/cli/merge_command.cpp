@@ -7,7 +7,6 @@
 
 #include "base/errors.h"
 #include "cli/commands.h"
-#include "cli/denoise_options.h"
 #include "cli/program.h"
 #include "image/format.h"
 #include "options/choose.h"

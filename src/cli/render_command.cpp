@@ -11,7 +11,6 @@
 #include "cli/commands.h"
 #include "cli/program.h"
 #include "cli/render_picture.h"
-#include "cli/render_sequence.h"
 #include "gltf/gltf.h"
 #include "image/files/process.h"
 #include "options/command_text.h"

@@ -9,6 +9,7 @@
 #include "bvh/tree_boxes.h"
 #include "session/picture/finished_picture.h"
 #include "session/statistics.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
 
@@ -33,5 +34,9 @@ std::string nameOf(const OutputOptions& output);
 
 /// The context of a picture's events: its file.
 nlohmann::ordered_json eventContext(const RenderOptions& options);
+
+/// Draws all pictures that are wanted of a sequence, to numbered files, a video or standard output, and ends
+/// as leave() does. Returns the status. Throws what all pictures have in common.
+int runSequence(const RenderOptions& options);
 
 }  // namespace fragtrace

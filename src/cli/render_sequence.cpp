@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "cli/render_sequence.h"
 
 #include <algorithm>
 #include <cmath>
