@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "base/errors.h"
-#include "options/option_table.h"
+#include "options/option_row.h"
 #include "options/row_makers.h"
 
 namespace fragtrace {

@@ -6,7 +6,7 @@
 
 #include "base/errors.h"
 #include "options/config_file.h"
-#include "options/option_table.h"
+#include "options/option_row.h"
 #include "options/option_text.h"
 #include "options/parse_render.h"
 #include "options/parse_words.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "options/option_table.h"
+#include "options/option_row.h"
 #include "options/row_makers.h"
 
 namespace fragtrace {

@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "options/option_table.h"
 #include "options/option_text.h"
 
 namespace fragtrace {

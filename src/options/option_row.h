@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
-// An option of `render`: one row of a table (option_table.h), from which its declaration, its text in
+// An option of `render`: one row of a table (optionRows()), from which its declaration, its text in
 // commands and option files, and what has to be done again when it changes follow.
 #pragma once
 
+namespace CLI {
+class App;
+}
+
 #include <functional>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "shader/render_options.h"
 #include "shader/stage.h"
-
-namespace CLI {
-class App;
-}
 
 namespace fragtrace {
 
@@ -83,5 +84,19 @@ RenderOptions sceneOptions(RenderOptions options);
 
 /// The same for makeTracer(), the options that loading depends on included.
 RenderOptions programOptions(RenderOptions options);
+
+/// All options of `render`, in the order of --help, in one list for each part of RenderOptions.
+std::span<const OptionRow> optionRows();
+
+std::vector<OptionRow> fileRows();  ///< the scene and the picture
+std::vector<OptionRow> cameraRows();
+std::vector<OptionRow> samplingRows();  ///< stages included
+std::vector<OptionRow> lightRows();
+std::vector<OptionRow> skyRows();
+std::vector<OptionRow> fogRows();
+std::vector<OptionRow> volumeRows();
+std::vector<OptionRow> deviceRows();
+std::vector<OptionRow> inputRows();
+std::vector<OptionRow> outputRows();
 
 }  // namespace fragtrace

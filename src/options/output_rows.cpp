@@ -4,7 +4,7 @@
 
 #include "base/errors.h"
 #include "bvh/bvh.h"
-#include "options/option_table.h"
+#include "options/option_row.h"
 #include "options/row_makers.h"
 
 namespace fragtrace {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/errors.h"
-#include "options/suggestion.h"
 
 namespace fragtrace {
 

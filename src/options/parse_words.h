@@ -2,14 +2,14 @@
 // Words of a command line given to the option library, and its errors in the words of this program.
 #pragma once
 
-#include <string>
-#include <string_view>
-#include <vector>
-
 namespace CLI {
 class App;
 class ParseError;
 }  // namespace CLI
+
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace fragtrace {
 
@@ -27,5 +27,12 @@ std::string plainText(const CLI::ParseError& error, const CLI::App& app);
 /// find `more`, and names the word that is not known with the one that was meant; without `more`, as for a
 /// pasted text, it lists all such words in that order. Throws CLI::Success for --help and --version.
 void parseWords(CLI::App& app, std::vector<std::string> words, const char* more = "");
+
+/// The option that an unknown one probably means: what other programs call it, the same beginning, or similar
+/// letters; empty if none is near. Names have their dashes.
+std::string suggestedOption(const std::string& unknown, const std::vector<std::string>& known);
+
+/// The most similar name; empty if more than a third of the letters differ.
+std::string nearestName(std::string_view unknown, const std::vector<std::string>& known);
 
 }  // namespace fragtrace

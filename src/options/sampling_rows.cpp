@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "options/option_table.h"
+#include "options/option_row.h"
 #include "options/row_makers.h"
 #include "options/stage_names.h"
 

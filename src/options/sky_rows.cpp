@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "base/errors.h"
-#include "options/option_table.h"
+#include "options/option_row.h"
 #include "options/row_makers.h"
 
 namespace fragtrace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "options/suggestion.h"
+#include "options/parse_words.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Each row of the option table goes round: parsed, written, parsed again; on the command line, in an option
 // file and in the command that the viewer copies.
-#include "options/option_table.h"
+#include "options/option_row.h"
 
 #include <gtest/gtest.h>
 

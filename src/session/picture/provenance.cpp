@@ -11,7 +11,7 @@
 
 #include "base/errors.h"
 #include "base/text.h"
-#include "options/option_table.h"
+#include "options/option_row.h"
 
 namespace fragtrace {
 
