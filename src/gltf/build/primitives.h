@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
+#include <compare>
 #include <vector>
 
 #include "gltf/build/skin.h"
@@ -23,14 +23,10 @@ struct MeshPrimitive {
 
 /// The pose of a mesh; by default that of the file.
 struct MeshPose {
-  std::vector<double> weights;  ///< a weight per morph target; those left out are 0
   size_t jointCount = 0;        ///< joints in the skin that bends it; 0: none does
+  std::vector<double> weights;  ///< a weight per morph target; those left out are 0
 
-  bool operator<(const MeshPose& other) const {
-    if (jointCount != other.jointCount) return jointCount < other.jointCount;
-    return std::lexicographical_compare(weights.begin(), weights.end(), other.weights.begin(),
-                                        other.weights.end());
-  }
+  auto operator<=>(const MeshPose&) const = default;
 };
 
 /// Decodes /meshes/MESH/primitives/PRIMITIVE with its morph targets applied; primitives

@@ -2,7 +2,7 @@
 // Records in a rendered .exr how it was made, so that parts of one render can be joined.
 #pragma once
 
-#include <tuple>
+#include <compare>
 #include <vector>
 
 #include "image/image.h"
@@ -16,10 +16,7 @@ struct SampleRange {
   int64_t first = 0;
   int64_t count = 0;
 
-  bool operator==(const SampleRange&) const = default;
-  bool operator<(const SampleRange& other) const {
-    return std::tie(seed, first, count) < std::tie(other.seed, other.first, other.count);
-  }
+  auto operator<=>(const SampleRange&) const = default;
 };
 
 /// The string attributes fragtrace:settings, :seed, :sampleOffset, :samples, :uniform and, if these do not
