@@ -10,6 +10,7 @@
 #include "cli/program.h"
 #include "image/format.h"
 #include "options/choose.h"
+#include "options/parse_render.h"
 #include "session/outputs.h"
 #include "session/picture/denoised_file.h"
 #include "session/picture/joined_parts.h"
