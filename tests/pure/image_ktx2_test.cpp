@@ -173,6 +173,16 @@ TEST(Ktx2Header, WhatGltfDoesNotAllowIsNamed) {
             std::string::npos);
 }
 
+TEST(Ktx2Header, ColoursThatAreMultipliedByAlphaAreRefused) {
+  Bytes file = fileOf("libktx_uastc_alpha.ktx2");
+  uint32_t format = 0;
+  std::memcpy(&format, file.data() + 48, sizeof format);
+  constexpr size_t kFlags = 15;
+  EXPECT_EQ(file[format + kFlags], 0);  // KHR_DF_FLAG_ALPHA_STRAIGHT
+  file[format + kFlags] = 1;            // KHR_DF_FLAG_ALPHA_PREMULTIPLIED
+  EXPECT_EQ(headerRefusal(file), "its colours are multiplied by alpha, which textures of glTF must not be");
+}
+
 TEST(Ktx2Header, MetadataThatTurnOrSwizzleAreRefused) {
   const Bytes whole = fileOf("libktx_uastc_alpha.ktx2");
   const auto with = [&whole](const std::string& from, const std::string& to) {
