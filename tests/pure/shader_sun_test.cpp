@@ -156,6 +156,19 @@ TEST(ShaderSun, SampledIrradianceIsThatOfSunAndMap) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], exact[c], 0.005 * exact[c]);
 }
 
+TEST(ShaderSun, BitsBeyondItsChanceDrawTheWholeMap) {
+  const Sky here(sunAt(40.0));
+  const double border = double(glsl_float::sunOfSky().chance) * 4294967040.0;
+  for (const double share : {0.001, 0.25, 0.5, 0.75, 0.98, 0.999}) {
+    for (const uint32_t row : {0x20000000u, 0xd0000000u}) {
+      const auto first = uint32_t(border + share * (4294967040.0 - border));
+      const auto place = glsl_float::sampleEnvironment(uvec2(uint32_t(share * 4294967040.0), row));
+      const dvec3 expected(glsl_float::environmentDirection(place / glm::vec2(kWidth, kHeight)));
+      EXPECT_LT(glm::distance(dvec3(glsl_float::sampleSky(uvec2(first, row))), expected), 1e-3) << share;
+    }
+  }
+}
+
 TEST(ShaderSun, DirectionsToItFollowItsLight) {
   const SunDisc sun = sunAt(40.0);
   const Sky here(sun);
