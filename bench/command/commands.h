@@ -29,7 +29,7 @@ inline constexpr std::array kBenchRows{
     CommandRow{"scale", "measure time and memory from 1 thousand to 10 million triangles", addBenchScale},
     CommandRow{"traversal", "measure rays per second without shading", addBenchTraversal},
     CommandRow{"start", "measure the steps from a cold start to a written picture", addBenchStart},
-    CommandRow{"motion", "measure the viewer's pictures while the camera moves", addBenchMotion},
+    CommandRow{"motion", "measure the viewer's pictures while something moves", addBenchMotion},
     CommandRow{"stress", "measure failure rates in cases that break ray tracers", addBenchStress},
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `fragtrace bench motion`: the viewer's pictures while the camera moves, without a window: how many a
+// `fragtrace bench motion`: the viewer's pictures while something moves, without a window: how many a
 // second, how late, at what cost to the processor, and how far from what `render` draws.
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -50,12 +50,14 @@ void declareMotion(CLI::App& app, MotionOptions& o) {
   addOption(app, "file", o.raw)->required();
   app.add_option("--path", o.path,
                  "path of the camera: orbit, a turn about what it looks at; dolly, towards it and back; or a "
-                 "file of camera options, a line a place, as the viewer copies these")
+                 "file of camera options, a line a place, as the viewer copies these; or what moves before a "
+                 "camera at rest: sun, the sun of --sky from 2 to 60 degrees and back; color, the base colours "
+                 "of all materials round the circle of hues; roughness, theirs from 0.1 to 0.9 and back")
       ->capture_default_str();
   app.add_option("--period", o.period, "seconds that the path takes before it begins again")
       ->check(realNumber(0.1, 1e4))
       ->capture_default_str();
-  app.add_option("--interval", o.plan.intervalMs, "milliseconds from one move of the camera to the next")
+  app.add_option("--interval", o.plan.intervalMs, "milliseconds from one move to the next")
       ->check(realNumber(1.0, 1e5))
       ->default_str("16.7");
   app.add_option("--target", o.targetMs,
@@ -95,7 +97,7 @@ void settleMotion(const CLI::App&, MotionOptions& o) {
   if (isAdaptive(o.render)) throw UsageError("--noise and --time: a picture in motion has no end of its own");
   o.plan.size = o.render.camera.resolution.value_or(o.plan.size);
   o.render.camera.resolution = o.plan.size;
-  o.plan.path = cameraPath(o.path, o.period, o.render);
+  o.plan.move = motionOf(o.path, o.period, o.render);
   checkChart(o.files);
   if (!o.files.chart.empty() && o.plan.compared == 0) throw UsageError("--chart: needs --compare");
 }
@@ -141,25 +143,22 @@ Image enlarged(const Image& image, glm::ivec2 size) {
 /// Draws what `render` draws of the pictures that were kept, and what the window shows of these.
 class References {
  public:
-  References(const MotionOptions& o)
-      : options_(o), context_(contextOf(o.render)), loaded_(loadScene(o.render, stats_)) {
+  References(const MotionOptions& o) : options_(o), context_(contextOf(o.render)) {
     window_.emplace();
-    RenderOptions plain = o.render;
-    plain.output.denoise = Denoise::None;
-    tracer_ = makeTracer(*context_, loaded_, plain, stats_);
     film_.emplace(o.plan.size);
-    tracer_.renderer->compile(tracer_.variant, *film_, loaded_.view);
+    load(o.render);
   }
 
   /// Linear, through the camera of the options; none when interrupted.
   std::optional<Image> of(const RenderOptions& options) {
     const CameraOverrides& overrides = options.camera.overrides;
     const double aspect = double(options_.plan.size.x) / options_.plan.size.y;
+    if (options.light.sky != shown_.light.sky || options.selection != shown_.selection) load(options);
     const Camera camera =
         chooseCamera(loaded_.scene.cameras, options.camera.index, overrides, loaded_.scene.bounds, aspect);
     film_->clear();
     RenderTimes times;
-    const bool complete = tracer_.renderer->addSamples(*film_, makeView(options_.render, loaded_, camera), 0,
+    const bool complete = tracer_.renderer->addSamples(*film_, makeView(shown_, loaded_, camera), 0,
                                                        options_.referenceSamples, times,
                                                        [](double) { return interrupts() == 0; });
     if (!complete) return std::nullopt;
@@ -169,7 +168,19 @@ class References {
   Image shown(const Image& display) const { return window_->of(display, options_.plan.size); }
 
  private:
+  void load(const RenderOptions& options) {
+    shown_ = options_.render;
+    shown_.light.sky = options.light.sky;
+    shown_.selection = options.selection;
+    shown_.output.denoise = Denoise::None;
+    tracer_ = {};
+    loaded_ = loadScene(shown_, stats_);
+    tracer_ = makeTracer(*context_, loaded_, shown_, stats_);
+    tracer_.renderer->compile(tracer_.variant, *film_, loaded_.view);
+  }
+
   const MotionOptions& options_;
+  RenderOptions shown_;  ///< as they are loaded
   Statistics stats_;
   std::unique_ptr<Context> context_;
   LoadedScene loaded_;

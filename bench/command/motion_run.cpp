@@ -13,17 +13,24 @@
 
 #include "base/errors.h"
 #include "base/thread_name.h"
+#include "gltf/edit/factors.h"
 #include "options/command_text.h"
 #include "session/phase_timer.h"
 #include "session/picture/denoising.h"
+#include "view/camera_controller.h"
 #include "view/live/view_tracer.h"
-#include "view/view_state.h"
+#include "view/set_by_eye.h"
 
 namespace fragtrace {
 
 namespace {
 
-constexpr double kDolly = 0.5;  // of the distance
+constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kDolly = 0.5;                    // of the distance
+constexpr double kLowSun = 2.0, kHighSun = 60.0;  // degrees
+constexpr double kSmooth = 0.1, kRough = 0.9;
+
+using CameraPath = std::function<CameraPose(const CameraPose& start, double seconds)>;
 
 /// The tracing thread for as long as it lives.
 class TracingThread {
@@ -107,6 +114,19 @@ CameraPath pathThrough(const std::filesystem::path& file, double period, const R
   };
 }
 
+/// Sets what materials offer by that name as its slider does.
+void setFactor(ViewState& state, std::string_view member, const std::function<float(size_t part)>& value) {
+  for (size_t i = 0; i < state.scene->materials.size(); ++i) {
+    const Material& file = state.scene->materials[i];
+    for (const Factor& factor : factors()) {
+      if (factor.member != member || !isOffered(factor, file)) continue;
+      Material now = file;
+      for (size_t part = 0; part < std::min<size_t>(factor.width, 3); ++part) factor.at(now)[part] = value(part);
+      setNumber(state, numberOf(factor, now), numberOf(factor, file));
+    }
+  }
+}
+
 ViewedScene awaitScene(Exchange& exchange) {
   for (;;) {
     Delivery news = exchange.take();
@@ -137,17 +157,39 @@ bool isDue(const MotionFigures& figures, const MotionPlan& plan, int pictures) {
 
 }  // namespace
 
-CameraPath cameraPath(const std::string& name, double period, const RenderOptions& options) {
-  constexpr double kTurn = 2.0 * std::numbers::pi;
-  if (name == "orbit")
-    return [period](const CameraPose& start, double s) { return orbit(start, kTurn * s / period, 0.0); };
-  if (name == "dolly") {
-    return [period](const CameraPose& start, double s) {
-      const double part = kDolly * 0.5 * (1.0 - std::cos(kTurn * s / period));
-      return zoom(start, -std::log(1.0 - part));
+Motion motionOf(const std::string& name, double period, const RenderOptions& options) {
+  const auto turnAt = [period](double s) { return kTurn * s / period; };
+  const auto shareAt = [turnAt](double s) { return 0.5 * (1.0 - std::cos(turnAt(s))); };  // 0 to 1 and back
+  if (name == "sun") {
+    if (!options.light.sky.on) throw UsageError("--path sun: needs --sky");
+    return [shareAt](ViewState& state, const CameraPose&, double s) {
+      SkyOptions& sky = state.sides[0].light.sky;
+      placeSun(sky, {std::lerp(kLowSun, kHighSun, shareAt(s)), sunOf(sky).azimuth});
     };
   }
-  return pathThrough(name, period, options);
+  if (name == "roughness") {
+    return [shareAt](ViewState& state, const CameraPose&, double s) {
+      setFactor(state, "roughnessFactor",
+                [&](size_t) { return float(std::lerp(kSmooth, kRough, shareAt(s))); });
+    };
+  }
+  if (name == "color") {
+    return [turnAt](ViewState& state, const CameraPose&, double s) {
+      setFactor(state, "baseColorFactor",
+                [&](size_t part) { return float(0.5 + 0.25 * std::cos(turnAt(s) - kTurn * double(part) / 3.0)); });
+    };
+  }
+  CameraPath path;
+  if (name == "orbit") {
+    path = [turnAt](const CameraPose& start, double s) { return orbit(start, turnAt(s), 0.0); };
+  } else if (name == "dolly") {
+    path = [shareAt](const CameraPose& start, double s) {
+      return zoom(start, -std::log(1.0 - kDolly * shareAt(s)));
+    };
+  } else {
+    path = pathThrough(name, period, options);
+  }
+  return [path](ViewState& state, const CameraPose& start, double s) { state.pose = path(start, s); };
 }
 
 MotionFigures runMotion(const MotionPlan& plan, const std::function<bool(double fraction)>& goOn) {
@@ -175,7 +217,7 @@ MotionFigures runMotion(const MotionPlan& plan, const std::function<bool(double 
          goOn(std::min(double(seen) / all, 1.0))) {
     const double now = steadyMilliseconds();
     if (now >= next) {
-      state.pose = plan.path(start, 1e-3 * (now - begin));
+      plan.move(state, start, 1e-3 * (now - begin));
       const bool kept = isDue(figures, plan, std::min(figures.pictures + 1, plan.pictures));
       wishes.push_back(
           {exchange.ask(tracedSides(state), plan.size, true, kept), now, renderOptionsOf(state, 0)});

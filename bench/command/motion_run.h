@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The viewer's tracing thread driven without a window along a camera path, and what its pictures cost.
+// The viewer's tracing thread driven without a window while something moves, and what its pictures cost.
 #pragma once
 
 #include <functional>
@@ -7,24 +7,25 @@
 #include <vector>
 
 #include "options/view_options.h"
-#include "view/camera_controller.h"
-#include "view/exchange.h"
+#include "view/view_state.h"
 
 namespace fragtrace {
 
-/// Gives the camera at a time in seconds; the path begins near the scene's own camera.
-using CameraPath = std::function<CameraPose(const CameraPose& start, double seconds)>;
+/// Brings what moves to its place at a time in seconds. A path of the camera begins near `start`, the scene's own.
+using Motion = std::function<void(ViewState& state, const CameraPose& start, double seconds)>;
 
-/// "orbit": a turn about the focal point in `period` seconds; "dolly": towards it by half of the distance and
-/// back; else a file of camera options, as the viewer copies these, a line a place: through all of them and
-/// back to the first. Throws UsageError, InputError.
-CameraPath cameraPath(const std::string& name, double period, const RenderOptions& options);
+/// All of these begin again after `period` seconds. Of the camera, "orbit": a turn about the focal point;
+/// "dolly": towards it by half of the distance and back; else a file of camera options, as the viewer copies
+/// these, a line a place: through all of them and back to the first. Before a camera at rest, "sun": the sun
+/// from 2 to 60 degrees and back; "roughness": that of all materials from 0.1 to 0.9 and back; "color": all base
+/// colours round the circle of hues. Throws UsageError, InputError.
+Motion motionOf(const std::string& name, double period, const RenderOptions& options);
 
 struct MotionPlan {
   ViewOptions view;
   glm::ivec2 size{1280, 720};
-  CameraPath path;
-  double intervalMs = 1000.0 / 60;  ///< from one move of the camera to the next
+  Motion move;
+  double intervalMs = 1000.0 / 60;  ///< from one move to the next
   int warmUp = 20;                  ///< pictures that do not count
   int pictures = 100;
   int compared = 0;  ///< of these, evenly spread, are kept
@@ -44,7 +45,7 @@ struct MotionFigures {
   double cpuMs = 0.0;       ///< of the tracing thread
   double movedBytes = 0.0;  ///< between host and device
   PassTimes passes{};
-  std::vector<double> latencyMs{};  ///< from a move of the camera to the first picture that answers it
+  std::vector<double> latencyMs{};  ///< from a move to the first picture that answers it
   std::vector<double> gapMs{};      ///< from picture to picture
   std::vector<KeptPicture> kept{};
 };

@@ -44,10 +44,21 @@ class BenchMotion(Case):
         path.write_text("--camera-position 0,1,3\n")
         self.fails(3, "bench", "motion", BOX, *SHORT, "--path", path, says=["path.txt", "two places"])
 
+    def test_a_sun_or_a_slider_that_moves_has_no_past(self):
+        """So slowly that all pictures are alike: with the past of a camera at rest, whose noise is the same, the error would be ten times as large."""
+        for scene, path, light in (("sun-sky", "sun", "--sky"), ("plastics", "color", "--studio")):
+            with self.subTest(path=path):
+                _, report = self.motion(SCENES / f"{scene}.gltf", *SHORT, "--warm-up", 4, light, "--path", path, "--period", 10000, "--target", 0, "--compare", 1,
+                                        "--reference-spp", 64, "--modes", "filtered,no-past")
+                with_past, without = (row["relmse"] for row in report["rows"])
+                self.assertGreater(without, 0)
+                self.assertLess(with_past, 3 * without)
+
     def test_what_cannot_be_measured_is_refused(self):
         self.fails(2, "bench", "motion", BOX, *SHORT, "--time", 1, says=["--time"])
         self.fails(2, "bench", "motion", BOX, *SHORT, "--chart", self.folder / "c.svg", says=["--chart", "--compare"])
         self.fails(2, "bench", "motion", BOX, *SHORT, "--modes", "blurred", says=["--modes"])
+        self.fails(2, "bench", "motion", BOX, *SHORT, "--path", "sun", says=["--path sun: needs --sky"])
         self.fails(3, "bench", "motion", self.folder / "none.gltf", *SHORT, says=["none.gltf"])
 
 
