@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -6,6 +7,7 @@
 #include "base/errors.h"
 #include "options/option_row.h"
 #include "options/row_makers.h"
+#include "scene/up_axis.h"
 
 namespace fragtrace {
 
@@ -109,6 +111,47 @@ OptionRow setRow() {
   return row;
 }
 
+/// Throws UsageError.
+glm::dvec3 upOf(const char* option, const std::string& word) {
+  for (size_t i = 0; i < kUpAxes.size(); ++i) {
+    if (isSameButForCase(word, kUpAxisNames[i])) return kUpAxes[i];
+  }
+  std::vector<double> values;
+  for (const std::string& part : CLI::detail::split(word, ',')) {
+    const std::optional<double> value = numberIn(part);
+    if (value && std::isfinite(*value)) values.push_back(*value);
+  }
+  if (values.size() != 3 || std::ranges::count(word, ',') != 2)
+    throw UsageError(std::string(option) + ": " + whyNoneOf(word, kUpAxisNames) +
+                     ", and no direction X,Y,Z");
+  const glm::dvec3 up(values[0], values[1], values[2]);
+  if (up == glm::dvec3(0.0)) throw UsageError(std::string(option) + ": is zero");
+  return up;
+}
+
+OptionRow upRow() {
+  OptionRow row = memberRow(
+      "--up",
+      "direction that points up in the scene's own space: " + joined(kUpAxisNames) +
+          " or X,Y,Z; the scene is turned the shortest way so that it becomes +Y, from -y about Z; with z, -Y "
+          "becomes the front, as in Blender",
+      FRAGTRACE_MEMBER(selection.up), {.effect = Effect::Picture, .renewal = Renewal::Scene});
+  row.examples = {"x", "-z", "0.1,-0.9,0.30000001192092896"};
+  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
+    addWord(app, r, raw, [name = r.name](RenderOptions& o, const std::string& word) {
+      o.selection.up = upOf(name, word);
+    });
+    app.get_option(r.name)->default_str("y");
+  };
+  row.words = [](const RenderOptions& o) {
+    const glm::dvec3& up = o.selection.up;
+    const auto axis = std::ranges::find(kUpAxes, up);
+    if (axis == kUpAxes.end()) return std::vector{numbersText(up.x, up.y, up.z)};
+    return std::vector{std::string(kUpAxisNames[size_t(axis - kUpAxes.begin())])};
+  };
+  return row;
+}
+
 OptionRow memoryRow() {
   OptionRow row =
       memberRow("--memory-limit",
@@ -161,11 +204,7 @@ std::vector<OptionRow> inputRows() {
           FRAGTRACE_MEMBER(selection.materialVariant), kScene),
       hiddenRow(),
       setRow(),
-      choice(
-          "--up",
-          "axis that points up in the scene's own space; the scene is turned so that it becomes +Y, about X "
-          "for z (whose -Y becomes the front, as in Blender) and -z, else about Z",
-          FRAGTRACE_MEMBER(selection.up), kUpAxisNames, kScene),
+      upRow(),
       memoryRow(),
       limit<int>("--texture-limit",
                  "maximum width and height of textures in pixels; larger ones are scaled down",

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace fragtrace {
-
-/// The axis of a file that points up in it.
-enum class UpAxis : uint8_t { X, Y, Z, MinusX, MinusY, MinusZ };
-inline constexpr std::array<std::string_view, 6> kUpAxisNames{"x", "y", "z", "-x", "-y", "-z"};
 
 /// Numbers that stand in place of the file's.
 struct SetNumber {
@@ -33,7 +27,7 @@ struct SceneSelection {
   std::vector<std::string> hiddenNodes{};  ///< by name (all that have it), JSON pointer or index; not drawn,
                                            ///< nor what is below them
   std::vector<SetNumber> set{};            ///< of several for one place the last counts
-  UpAxis up = UpAxis::Y;                   ///< turns the whole file, so that this axis becomes +Y
+  glm::dvec3 up{0.0, 1.0, 0.0};            ///< turns the whole file, so that this direction, not 0, is +Y
 
   bool operator==(const SceneSelection&) const = default;
 };

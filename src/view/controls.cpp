@@ -304,6 +304,7 @@ constexpr std::pair<Action, Errand> kErrands[] = {
     {Action::CenterOn, Errand::CenterOn},
     {Action::Inspect, Errand::Inspect},
     {Action::Measure, Errand::Measure},
+    {Action::Level, Errand::Level},
     {Action::CopyCommand, Errand::CopyCommand},
     {Action::PasteCommand, Errand::PasteCommand},
     {Action::Undo, Errand::Undo},

@@ -133,12 +133,19 @@ struct SaveRequest {
   ToneMap toneMap = ToneMap::Neutral;
 };
 
+/// The use of the answer to a pick.
+enum class PickUse : uint8_t {
+  Select,
+  Center,   ///< the camera is centred on it
+  Measure,  ///< its distance from the selected point is wanted
+  Level     ///< the plane through it and the two points of the distance becomes level
+};
+
 /// A question for the thing at a place of the picture.
 struct PickRequest {
   size_t side = 0;
   glm::dvec2 place{0.0};           ///< parts of width and height, from the top left
-  bool center = false;             ///< the camera is to be centred on it
-  bool measures = false;           ///< its distance from the selected point is wanted
+  PickUse use = PickUse::Select;
   bool clear = false;              ///< nothing is selected any more
   std::optional<uint32_t> node{};  ///< this one and what is below it, rather than a place (SceneNode::index)
   uint64_t number = 0;             ///< number of the latest selection that was asked for

@@ -16,6 +16,7 @@ Settings settingsOf(const ViewState& state) {
     kept.hiddenNodes = side.selection.hiddenNodes;
     kept.materialVariant = side.selection.materialVariant;
     kept.set = side.selection.set;
+    kept.up = side.selection.up;
     side.selection = kept;
   }
   return settings;
@@ -104,6 +105,7 @@ RenderOptions withLight(const History& history, RenderOptions options) {
   options.scene = before.scene;
   options.selection = before.selection;
   options.selection.materialVariant = history.now->sides[0].selection.materialVariant;
+  options.selection.up = history.now->sides[0].selection.up;
   return options;
 }
 

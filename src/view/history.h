@@ -8,8 +8,8 @@
 
 namespace fragtrace {
 
-/// Undo restores these: camera and settings of both sides, light and material variant. It restores neither
-/// the scene nor its animation's time.
+/// Undo restores these: camera and settings of both sides, light, material variant and up axis. It restores
+/// neither the scene nor its animation's time.
 struct Settings {
   std::array<RenderOptions, 2> sides;
   CameraPose pose;
@@ -51,8 +51,8 @@ void giveUp(History& history, ViewState& state);
 /// Takes what has changed since the last call, which the user did not do, as if it had been so.
 void overlook(History& history, const ViewState& state);
 
-/// The options with the light and the material variant of the latest step, which undo and redo leave to be
-/// loaded.
+/// The options with the light, the material variant and the up axis of the latest step, which undo and redo
+/// leave to be loaded.
 RenderOptions withLight(const History& history, RenderOptions options);
 
 }  // namespace fragtrace

@@ -110,6 +110,8 @@ void addWindow(std::vector<Control>& rows) {
   };
   add(Click, mouse::kLeft, 0, Action::Inspect, "select what is under the cursor, and say what it is");
   add(Click, mouse::kLeft, kShift, Action::Measure, "measure from there to the point under the cursor");
+  add(Click, mouse::kLeft, kControl | kShift, Action::Level,
+      "turn the model until the plane of both points and the one under the cursor is level");
   add(Press, 'O', 0, Action::ToggleOverview,
       "all seven stages side by side, with the times of their frames, on or off");
   add(Press, 'C', 0, Action::ToggleSplit, "compare: split view on or off");

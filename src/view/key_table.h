@@ -54,6 +54,7 @@ enum class Action : uint8_t {
   // Window.
   Inspect,
   Measure,
+  Level,
   ToggleOverview,
   ToggleSplit,
   FlipSides,

@@ -83,6 +83,7 @@ enum class Errand : uint8_t {
   CenterOn,
   Inspect,
   Measure,
+  Level,
   SelectNode,  ///< Task::index, as SceneNode::index
   Deselect,
   CopyCommand,

@@ -191,9 +191,26 @@ class Selections(Case):
         root["scenes"][0]["nodes"] = [len(root["nodes"]) - 1]
         turned = self.folder / "turned.gltf"
         turned.write_text(json.dumps(root))
-        for name, scene, options in (("node", turned, []), ("option", SCENES / "lights.gltf", ["--up", "Z"])):
+        for name, scene, options in (("node", turned, []), ("option", SCENES / "lights.gltf", ["--up", "Z"]), ("direction", SCENES / "lights.gltf", ["--up", "0,0,7.5"])):
             self.renders(scene, "-o", self.folder / f"{name}.pfm", *SMALL, *options)
-        self.assertEqual((self.folder / "node.pfm").read_bytes(), (self.folder / "option.pfm").read_bytes())
+            self.assertEqual((self.folder / "node.pfm").read_bytes(), (self.folder / f"{name}.pfm").read_bytes(), name)
+
+    def test_any_direction_may_point_up(self):
+        """A turn by 30 degrees about Z moves what lies on the Z axis nowhere; what is wrong is said."""
+        up = (math.sin(math.radians(30)), math.cos(math.radians(30)), 0)
+        gltf = Gltf()
+        corner = [(x, y, z) for x, y, z in ((0, 0, 1), (2 * up[0], 2 * up[1], 0), (3 * up[1], -3 * up[0], 0))]
+        gltf.root.update(scenes=[{"nodes": [0]}], nodes=[{"mesh": 0}], meshes=[{"primitives": [{"attributes": {"POSITION": gltf.accessor("VEC3", corner)}}]}])
+        for numbers, bound in zip((min, max), ("min", "max")):
+            gltf.root["accessors"][0][bound] = [numbers(c[i] for c in corner) for i in range(3)]
+        scene = gltf.write(self.folder / "tilted.gltf")
+        found = json.loads(run("info", scene, "--json", "--up", ",".join(map(str, up))).stdout)["scene"]["bounds"]
+        for bound, expected in (("min", (0, 0, 0)), ("max", (3, 2, 1))):
+            for a, b in zip(found[bound], expected, strict=True):
+                self.assertAlmostEqual(a, b, places=6)
+        for word, says in (("0,0,0", "--up: is zero"), ("w", "--up: 'w' is none of x, y, z, -x, -y, -z, and no direction X,Y,Z"), ("1,2", "'1,2' is none of"),
+                           ("1,2,", "'1,2,' is none of"), ("1,2,nan", "'1,2,nan' is none of"), ("1,2,3,4", "'1,2,3,4' is none of")):
+            self.fails(2, "info", scene, "--up", word, says=[says])
 
     def test_nodes_are_listed_and_hidden(self):
         scene = SCENES / "plastics.gltf"

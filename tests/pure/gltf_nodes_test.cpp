@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/gtx/string_cast.hpp>
 
 #include "gltf_builder.h"
 
@@ -82,24 +83,24 @@ TEST(GltfNodes, TheUpAxisOfAFileIsTurnedToY) {
   builder.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}}};
   builder.root["nodes"].push_back({{"camera", 0}, {"translation", {4, 5, 6}}});
   struct Case {
-    UpAxis up;
+    glm::dvec3 up;
     glm::dvec3 x, y, z;  ///< where the file's axes go
   };
-  const Case cases[] = {{UpAxis::X, {0, 1, 0}, {-1, 0, 0}, {0, 0, 1}},
-                        {UpAxis::Y, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-                        {UpAxis::Z, {1, 0, 0}, {0, 0, -1}, {0, 1, 0}},
-                        {UpAxis::MinusX, {0, -1, 0}, {1, 0, 0}, {0, 0, 1}},
-                        {UpAxis::MinusY, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}},
-                        {UpAxis::MinusZ, {1, 0, 0}, {0, 0, 1}, {0, -1, 0}}};
+  const Case cases[] = {{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, 0, 1}},
+                        {{0, 1, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                        {{0, 0, 1}, {1, 0, 0}, {0, 0, -1}, {0, 1, 0}},
+                        {{-1, 0, 0}, {0, -1, 0}, {1, 0, 0}, {0, 0, 1}},
+                        {{0, -1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}},
+                        {{0, 0, -1}, {1, 0, 0}, {0, 0, 1}, {0, -1, 0}}};
   for (const auto& [up, x, y, z] : cases) {
     GltfOptions options;
     options.selection.up = up;
     const Scene scene = load(builder, options);
     EXPECT_NEAR(glm::dot(glm::cross(x, y), z), 1.0, 0.0);
-    EXPECT_TRUE(isNear(worldCornerOf(scene, 0, 0), x + 2.0 * y + 3.0 * z)) << int(up);
-    EXPECT_TRUE(isNear(worldCornerOf(scene, 0, 1), 2.0 * x + 2.0 * y + 3.0 * z)) << int(up);
-    EXPECT_EQ(scene.cameras.at(0).position, 4.0 * x + 5.0 * y + 6.0 * z) << int(up);
-    EXPECT_EQ(scene.cameras.at(0).forward, -z) << int(up);
+    EXPECT_TRUE(isNear(worldCornerOf(scene, 0, 0), x + 2.0 * y + 3.0 * z)) << glm::to_string(up);
+    EXPECT_TRUE(isNear(worldCornerOf(scene, 0, 1), 2.0 * x + 2.0 * y + 3.0 * z)) << glm::to_string(up);
+    EXPECT_EQ(scene.cameras.at(0).position, 4.0 * x + 5.0 * y + 6.0 * z) << glm::to_string(up);
+    EXPECT_EQ(scene.cameras.at(0).forward, -z) << glm::to_string(up);
   }
 }
 

@@ -8,6 +8,9 @@ import time
 from comfort_test import copied_command
 from support import FRAGTRACE, SCENES, Case, largest_difference, main, pixels_of
 from xdnd import drop
+from geometry import quad  # noqa: E402
+from gltf_writer import GltfWriter  # noqa: E402
+from scene_parts import place_quad  # noqa: E402
 
 PANEL = ["--resolution", "640,700", "--spp", "1", "--stage", "flat"]
 SIZE = ["--resolution", "160,120"]
@@ -85,6 +88,58 @@ class Sun(Case):
         viewer.key("ctrl+z")
         viewer.rest(lambda s: s["sun"] == [30, 225], "as before the drag")
         self.same(before, pixels_of(viewer.press_for_file("F12", ".png")))
+        self.ends_well(viewer, viewer.close())
+
+
+class Level(Case):
+    def click(self, viewer, x, y, *modifiers):
+        viewer.at(x, y)
+        viewer.xdotool(*(word for m in modifiers for word in ("keydown", m)), "click", 1, *(word for m in modifiers for word in ("keyup", m)))
+
+    def test_three_points_level_a_tilted_file(self):
+        """Click, Shift+click, Ctrl+Shift+click; the camera stays upright and goes with what it looks at."""
+        gltf = GltfWriter(self.folder, "tilted")
+        right, front = (4, 1, 0.5), (0.3, 0.8, -4)
+        place_quad(gltf, "floor", quad((3, 1, -1), right, front), gltf.add_lambert("white", (0.8, 0.8, 0.8)))
+        gltf.write()
+        middle = [a + 0.5 * (b + c) for a, b, c in zip((3, 1, -1), right, front)]
+        viewer = self.view(self.folder / "tilted.gltf", "--resolution", "320,240", "--spp", "1", "--stage", "flat", "--camera-parallel-scale", "2.5",
+                           "--camera-position", f"{middle[0]},{middle[1] + 3},{middle[2] + 4}", "--camera-focal-point", ",".join(map(str, middle)))
+        before = viewer.rest()["camera"]
+        tilted = pixels_of(viewer.press_for_file("F12", ".png"))
+        self.click(viewer, 150, 150, "ctrl", "shift")
+        viewer.until(lambda s: "click on a point and Shift+click on another one first" in s["messages"], "two points are missing", 8)
+        self.click(viewer, 230, 100)
+        viewer.until(lambda s: s["pick"], "the first point", 8)
+        self.click(viewer, 180, 90, "shift")
+        viewer.until(lambda s: s["measured"], "the second point")
+        self.click(viewer, 130, 80, "ctrl", "shift")
+        viewer.until(lambda s: any("lie on a line" in m for m in s["messages"]), "points on a line")
+        self.click(viewer, 200, 140, "ctrl", "shift")
+        turned = viewer.rest(lambda s: s["up"] != "y", "the turn")
+        self.assertIn(f"the model is turned as --up {turned['up']} turns it", turned["messages"])
+        up = [float(x) for x in turned["up"].split(",")]
+        normal = [right[1] * front[2] - right[2] * front[1], right[2] * front[0] - right[0] * front[2], right[0] * front[1] - right[1] * front[0]]
+        length = sum(n * n for n in normal)**0.5
+        for found, expected in zip(up, normal, strict=True):
+            self.assertAlmostEqual(found, expected / length, delta=2e-6)
+        camera = turned["camera"]
+        levelled = pixels_of(viewer.press_for_file("F12", ".png"))
+        self.assertGreater(sum(a != b for a, b in zip(tilted, levelled)), 2000)
+        words = copied_command(self, viewer)
+        self.assertEqual([float(x) for x in words[words.index("--up") + 1].split(",")], up)
+        words[words.index("--output") + 1] = str(self.folder / "command.png")
+        subprocess.run([FRAGTRACE, *words[1:], "--quiet"], check=True, cwd=self.folder, timeout=300)
+        self.same(levelled, pixels_of(self.folder / "command.png"))
+        # The floor stays in the middle of the picture, and is level.
+        place = lambda text, option: [float(x) for x in text.split(option + " ")[1].split()[0].split(",")]
+        way = [a - b for a, b in zip(place(camera, "--camera-position"), place(camera, "--camera-focal-point"))]
+        for a, b in zip(way, (0, 3, 4)):
+            self.assertAlmostEqual(a, b, places=6)
+        self.assertAlmostEqual(place(camera, "--camera-focal-point")[1], sum(u * m for u, m in zip(up, middle)), places=5)
+        viewer.key("ctrl+z")
+        self.assertEqual(viewer.rest(lambda s: s["up"] == "y", "as it was")["camera"].split(" --scene-origin")[0], before.split(" --scene-origin")[0])
+        self.same(tilted, pixels_of(viewer.press_for_file("F12", ".png")))
         self.ends_well(viewer, viewer.close())
 
 

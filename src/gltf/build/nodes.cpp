@@ -9,6 +9,7 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "scene/parts.h"
+#include "scene/up_axis.h"
 
 namespace fragtrace {
 namespace {
@@ -133,32 +134,6 @@ std::vector<bool> chosenByUser(const Document& document, const std::vector<std::
   return chosen;
 }
 
-/// The rotation that turns the axis to +Y: exact, so that it moves no bit of a number. It is about the X axis
-/// for Z, and about the Z axis for all others, whose front stays the front.
-glm::dmat4 turnedUp(UpAxis up) {
-  glm::dmat3 turn(1.0);  // columns: the places of the file's X, Y and Z
-  switch (up) {
-    case UpAxis::X:
-      turn = {{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}};
-      break;
-    case UpAxis::Y:
-      break;
-    case UpAxis::Z:
-      turn = {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
-      break;
-    case UpAxis::MinusX:
-      turn = {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
-      break;
-    case UpAxis::MinusY:
-      turn = {{-1, 0, 0}, {0, -1, 0}, {0, 0, 1}};
-      break;
-    case UpAxis::MinusZ:
-      turn = {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
-      break;
-  }
-  return glm::dmat4(turn);
-}
-
 /// A scale of 0, which may well be meant.
 bool flattensAll(const glm::dmat4& matrix) { return glm::dmat3(matrix) == glm::dmat3(0.0); }
 
@@ -186,7 +161,7 @@ std::vector<PlacedNode> placeNodes(const Document& document, const SceneSelectio
       waiting.push_back({node, parent.world, parent.hidden, parent.hiddenInFile, depth});
     std::reverse(waiting.begin() + first, waiting.end());
   };
-  await(roots, {.world = turnedUp(selection.up)}, 0);
+  await(roots, {.world = glm::dmat4(turnToY(selection.up))}, 0);
   while (!waiting.empty()) {
     PlacedNode node = waiting.back();
     waiting.pop_back();

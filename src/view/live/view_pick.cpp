@@ -42,7 +42,7 @@ void ViewTracer::answer(const PickRequest& request) {
       answer.lines = {"nothing is there"};
     }
   }
-  if (!request.center && !request.measures) select(std::move(chosen));
+  if (request.use == PickUse::Select) select(std::move(chosen));
   exchange_.deliver(std::move(answer));
 }
 

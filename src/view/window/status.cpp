@@ -7,6 +7,7 @@
 
 #include "base/summary.h"
 #include "image/files/whole_file.h"
+#include "options/option_row.h"
 #include "view/set_by_eye.h"
 #include "view/shown_text.h"
 
@@ -115,6 +116,7 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["tone_map"] = toneMapNames()[size_t(state.sides[0].output.toneMap)];
   json["thumbnails"] = facts.thumbnails.size();
   json["reference"] = state.reference.string();
+  json["up"] = state.scene ? rowOf("--up").words(state.scene->options).front() : "";
   json["hidden"] = state.sides[0].selection.hiddenNodes;
   json["set"] = Json::object();
   for (const SetNumber& set : state.sides[0].selection.set) json["set"][set.pointer] = set.values;

@@ -53,6 +53,8 @@ class Window {
   // window_tasks.cpp
   void takePictures(std::vector<TracedPicture> pictures);
   void takeReference(const TracedPicture& picture);
+  void pick(const Task& task);
+  void level(const PickAnswer& answer);
   void takePick(PickAnswer answer);
   void compareSizes();
   void takeThumbnail(const EnvironmentThumbnail& thumbnail);

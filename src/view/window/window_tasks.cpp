@@ -9,6 +9,8 @@
 #include "base/errors.h"
 #include "gl/gl.h"
 #include "image/image.h"
+#include "options/option_row.h"
+#include "scene/up_axis.h"
 #include "view/shown_names.h"
 #include "view/window/view_window.h"
 
@@ -70,19 +72,9 @@ void Window::executeOnScene(const Task& task) {
   switch (task.errand) {
     case Errand::CenterOn:
     case Errand::Inspect:
-    case Errand::Measure: {
-      if (sideAt(state_, task.place) >= kMostSides) return;
-      const glm::dvec2 place = magnifiedPlace(state_, task.place);
-      const bool center = task.errand == Errand::CenterOn;
-      // Without a first point, this one is it.
-      const bool measures = task.errand == Errand::Measure && facts_.pick && facts_.pick->hit;
-      if (!center && !measures) ++picksAsked_;
-      return exchange_.pick({.side = sideAt(state_, task.place),
-                             .place = place,
-                             .center = center,
-                             .measures = measures,
-                             .number = picksAsked_});
-    }
+    case Errand::Measure:
+    case Errand::Level:
+      return pick(task);
     case Errand::SelectNode:
       return exchange_.pick({.node = uint32_t(task.index), .number = ++picksAsked_});
     case Errand::Deselect:
@@ -125,6 +117,44 @@ void Window::executeOnScene(const Task& task) {
     default:
       return;
   }
+}
+
+/// Asks for what is under the cursor.
+void Window::pick(const Task& task) {
+  if (sideAt(state_, task.place) >= kMostSides) return;
+  PickUse use = PickUse::Select;
+  if (task.errand == Errand::CenterOn) use = PickUse::Center;
+  // Without a first point, this one is it.
+  if (task.errand == Errand::Measure && facts_.pick && facts_.pick->hit) use = PickUse::Measure;
+  if (task.errand == Errand::Level) {
+    if (!facts_.pick || !facts_.pick->end) return say("click on a point and Shift+click on another one first");
+    use = PickUse::Level;
+  }
+  if (use == PickUse::Select) ++picksAsked_;
+  exchange_.pick({.side = sideAt(state_, task.place),
+                  .place = magnifiedPlace(state_, task.place),
+                  .use = use,
+                  .number = picksAsked_});
+}
+
+/// Turns the file, so that the plane through the point and the two that were measured between is level.
+void Window::level(const PickAnswer& answer) {
+  if (!answer.hit) return say("nothing is there");
+  if (!facts_.pick || !facts_.pick->end) return;
+  RenderOptions options = renderOptionsOf(state_, state_.active);
+  const std::optional<glm::dvec3> up =
+      levelUp({facts_.pick->point, *facts_.pick->end, answer.point}, options.selection.up);
+  if (!up) return say("the three points lie on a line: none of the planes through them is the one that is meant");
+  // The camera stays upright, and goes with what it looks at.
+  CameraPose pose = state_.pose;
+  pose.focalPoint = turnToY(*up) * (pose.focalPoint * turnToY(options.selection.up));
+  pose.position += pose.focalPoint - state_.pose.focalPoint;
+  options.camera.index.reset();
+  options.camera.overrides = overridesOf(pose);
+  options.selection.up = *up;
+  load(options);
+  pasted_ = options;
+  say("the model is turned as --up " + rowOf("--up").words(options).front() + " turns it");
 }
 
 /// Loads a scene for pictures of the size that is shown.
@@ -295,13 +325,14 @@ void Window::takePick(PickAnswer answer) {
   frames_ = kSettleFrames;
   const bool awaited = answer.request.number > picksAnswered_;
   picksAnswered_ = std::max(picksAnswered_, answer.request.number);
-  if (answer.request.center) {
+  if (answer.request.use == PickUse::Level) return level(answer);
+  if (answer.request.use == PickUse::Center) {
     if (!answer.hit) return;
     state_.pose = centerOn(state_.pose, answer.point);
     state_.posed = true;
     return;
   }
-  if (answer.request.measures) {
+  if (answer.request.use == PickUse::Measure) {
     if (!answer.hit) return say("nothing is there");
     if (facts_.pick) facts_.pick->end = answer.point;
     return;
