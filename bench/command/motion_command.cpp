@@ -48,11 +48,12 @@ struct MotionOptions {
 void declareMotion(CLI::App& app, MotionOptions& o) {
   o.raw.options.output.denoise = Denoise::Variance;
   addOption(app, "file", o.raw)->required();
-  app.add_option("--path", o.path,
-                 "path of the camera: orbit, a turn about what it looks at; dolly, towards it and back; or a "
-                 "file of camera options, a line a place, as the viewer copies these; or what moves before a "
-                 "camera at rest: sun, the sun of --sky from 2 to 60 degrees and back; color, the base colours "
-                 "of all materials round the circle of hues; roughness, theirs from 0.1 to 0.9 and back")
+  app.add_option(
+         "--path", o.path,
+         "path of the camera: orbit, a turn about what it looks at; dolly, towards it and back; or a "
+         "file of camera options, a line a place, as the viewer copies these; or what moves before a "
+         "camera at rest: sun, the sun of --sky from 2 to 60 degrees and back; color, the base colours "
+         "of all materials round the circle of hues; roughness, theirs from 0.1 to 0.9 and back")
       ->capture_default_str();
   app.add_option("--period", o.period, "seconds that the path takes before it begins again")
       ->check(realNumber(0.1, 1e4))
@@ -158,9 +159,9 @@ class References {
         chooseCamera(loaded_.scene.cameras, options.camera.index, overrides, loaded_.scene.bounds, aspect);
     film_->clear();
     RenderTimes times;
-    const bool complete = tracer_.renderer->addSamples(*film_, makeView(shown_, loaded_, camera), 0,
-                                                       options_.referenceSamples, times,
-                                                       [](double) { return interrupts() == 0; });
+    const bool complete =
+        tracer_.renderer->addSamples(*film_, makeView(shown_, loaded_, camera), 0, options_.referenceSamples,
+                                     times, [](double) { return interrupts() == 0; });
     if (!complete) return std::nullopt;
     return imageOf(film_->read(), {});
   }

@@ -121,7 +121,8 @@ void setFactor(ViewState& state, std::string_view member, const std::function<fl
     for (const Factor& factor : factors()) {
       if (factor.member != member || !isOffered(factor, file)) continue;
       Material now = file;
-      for (size_t part = 0; part < std::min<size_t>(factor.width, 3); ++part) factor.at(now)[part] = value(part);
+      for (size_t part = 0; part < std::min<size_t>(factor.width, 3); ++part)
+        factor.at(now)[part] = value(part);
       setNumber(state, numberOf(factor, now), numberOf(factor, file));
     }
   }
@@ -175,8 +176,9 @@ Motion motionOf(const std::string& name, double period, const RenderOptions& opt
   }
   if (name == "color") {
     return [turnAt](ViewState& state, const CameraPose&, double s) {
-      setFactor(state, "baseColorFactor",
-                [&](size_t part) { return float(0.5 + 0.25 * std::cos(turnAt(s) - kTurn * double(part) / 3.0)); });
+      setFactor(state, "baseColorFactor", [&](size_t part) {
+        return float(0.5 + 0.25 * std::cos(turnAt(s) - kTurn * double(part) / 3.0));
+      });
     };
   }
   CameraPath path;

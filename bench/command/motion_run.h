@@ -11,14 +11,15 @@
 
 namespace fragtrace {
 
-/// Brings what moves to its place at a time in seconds. A path of the camera begins near `start`, the scene's own.
+/// Brings what moves to its place at a time in seconds. A path of the camera begins near `start`, the scene's
+/// own.
 using Motion = std::function<void(ViewState& state, const CameraPose& start, double seconds)>;
 
 /// All of these begin again after `period` seconds. Of the camera, "orbit": a turn about the focal point;
 /// "dolly": towards it by half of the distance and back; else a file of camera options, as the viewer copies
 /// these, a line a place: through all of them and back to the first. Before a camera at rest, "sun": the sun
-/// from 2 to 60 degrees and back; "roughness": that of all materials from 0.1 to 0.9 and back; "color": all base
-/// colours round the circle of hues. Throws UsageError, InputError.
+/// from 2 to 60 degrees and back; "roughness": that of all materials from 0.1 to 0.9 and back; "color": all
+/// base colours round the circle of hues. Throws UsageError, InputError.
 Motion motionOf(const std::string& name, double period, const RenderOptions& options);
 
 struct MotionPlan {

@@ -122,20 +122,20 @@ glm::dvec3 upOf(const char* option, const std::string& word) {
     if (value && std::isfinite(*value)) values.push_back(*value);
   }
   if (values.size() != 3 || std::ranges::count(word, ',') != 2)
-    throw UsageError(std::string(option) + ": " + whyNoneOf(word, kUpAxisNames) +
-                     ", and no direction X,Y,Z");
+    throw UsageError(std::string(option) + ": " + whyNoneOf(word, kUpAxisNames) + ", and no direction X,Y,Z");
   const glm::dvec3 up(values[0], values[1], values[2]);
   if (up == glm::dvec3(0.0)) throw UsageError(std::string(option) + ": is zero");
   return up;
 }
 
 OptionRow upRow() {
-  OptionRow row = memberRow(
-      "--up",
-      "direction that points up in the scene's own space: " + joined(kUpAxisNames) +
-          " or X,Y,Z; the scene is turned the shortest way so that it becomes +Y, from -y about Z; with z, -Y "
-          "becomes the front, as in Blender",
-      FRAGTRACE_MEMBER(selection.up), {.effect = Effect::Picture, .renewal = Renewal::Scene});
+  OptionRow row =
+      memberRow("--up",
+                "direction that points up in the scene's own space: " + joined(kUpAxisNames) +
+                    " or X,Y,Z; the scene is turned the shortest way so that it becomes +Y, from -y about Z; "
+                    "with z, -Y "
+                    "becomes the front, as in Blender",
+                FRAGTRACE_MEMBER(selection.up), {.effect = Effect::Picture, .renewal = Renewal::Scene});
   row.examples = {"x", "-z", "0.1,-0.9,0.30000001192092896"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
     addWord(app, r, raw, [name = r.name](RenderOptions& o, const std::string& word) {

@@ -21,8 +21,8 @@ glm::dmat3 turnToY(const glm::dvec3& up) {
   const glm::dvec3 unit = glm::normalize(up / std::max({size.x, size.y, size.z}));
   const double across = std::hypot(unit.x, unit.z);
   if (unit.y < 0.0 && across == 0.0) return {{-1, 0, 0}, {0, -1, 0}, {0, 0, 1}};
-  // Rodrigues' formula with the part of the direction across Y, which is of length 1 for the lower half: 1 + y
-  // would be cancelled there.
+  // Rodrigues' formula with the part of the direction across Y, which is of length 1 for the lower half: 1 +
+  // y would be cancelled there.
   const double length = unit.y < 0.0 ? across : 1.0;
   const double k = unit.y < 0.0 ? 1.0 - unit.y : 1.0 / (1.0 + unit.y);
   const double x = unit.x / length;

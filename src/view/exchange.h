@@ -144,7 +144,7 @@ enum class PickUse : uint8_t {
 /// A question for the thing at a place of the picture.
 struct PickRequest {
   size_t side = 0;
-  glm::dvec2 place{0.0};           ///< parts of width and height, from the top left
+  glm::dvec2 place{0.0};  ///< parts of width and height, from the top left
   PickUse use = PickUse::Select;
   bool clear = false;              ///< nothing is selected any more
   std::optional<uint32_t> node{};  ///< this one and what is below it, rather than a place (SceneNode::index)

@@ -20,8 +20,8 @@ double apart(const glm::dvec3& a, const glm::dvec3& b) {
 TEST(UpAxis, TheTurnIsTheShortestRotation) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
-  std::vector<glm::dvec3> directions{{1e-9, -1, 0}, {3e-5, -1, -4e-5}, {0, -1, 1e-160}, {1e300, -1e300, 1e300},
-                                     {1e-300, 0, 0}};
+  std::vector<glm::dvec3> directions{
+      {1e-9, -1, 0}, {3e-5, -1, -4e-5}, {0, -1, 1e-160}, {1e300, -1e300, 1e300}, {1e-300, 0, 0}};
   for (int i = 0; i < 100; ++i) directions.emplace_back(normal(random), normal(random), normal(random));
   for (const glm::dvec3& up : directions) {
     const glm::dvec3 size = glm::abs(up);

@@ -127,7 +127,8 @@ void Window::pick(const Task& task) {
   // Without a first point, this one is it.
   if (task.errand == Errand::Measure && facts_.pick && facts_.pick->hit) use = PickUse::Measure;
   if (task.errand == Errand::Level) {
-    if (!facts_.pick || !facts_.pick->end) return say("click on a point and Shift+click on another one first");
+    if (!facts_.pick || !facts_.pick->end)
+      return say("click on a point and Shift+click on another one first");
     use = PickUse::Level;
   }
   if (use == PickUse::Select) ++picksAsked_;
@@ -144,7 +145,8 @@ void Window::level(const PickAnswer& answer) {
   RenderOptions options = renderOptionsOf(state_, state_.active);
   const std::optional<glm::dvec3> up =
       levelUp({facts_.pick->point, *facts_.pick->end, answer.point}, options.selection.up);
-  if (!up) return say("the three points lie on a line: none of the planes through them is the one that is meant");
+  if (!up)
+    return say("the three points lie on a line: none of the planes through them is the one that is meant");
   // The camera stays upright, and goes with what it looks at.
   CameraPose pose = state_.pose;
   pose.focalPoint = turnToY(*up) * (pose.focalPoint * turnToY(options.selection.up));
