@@ -4,6 +4,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/errors.h"
@@ -147,10 +148,13 @@ void Window::level(const PickAnswer& answer) {
       levelUp({facts_.pick->point, *facts_.pick->end, answer.point}, options.selection.up);
   if (!up)
     return say("the three points lie on a line: none of the planes through them is the one that is meant");
-  // The camera stays upright, and goes with what it looks at.
+  // The camera goes with what it looks at, and stands upright.
   CameraPose pose = state_.pose;
   pose.focalPoint = turnToY(*up) * (pose.focalPoint * turnToY(options.selection.up));
   pose.position += pose.focalPoint - state_.pose.focalPoint;
+  constexpr double kSteep = 0.999;  // cosine between the view and the vertical: what is up then stays so
+  const glm::dvec3 view = glm::normalize(pose.focalPoint - pose.position);
+  if (std::abs(view.y) < kSteep) pose.viewUp = {0.0, 1.0, 0.0};
   options.camera.index.reset();
   options.camera.overrides = overridesOf(pose);
   options.selection.up = *up;
