@@ -14,6 +14,7 @@
 #include "options/parse_render.h"
 #include "pack/gpu_scene.h"
 #include "pack/pack_grid.h"
+#include "scene/odd_content.h"
 #include "scene/parts.h"
 #include "scene/volume/read_grid.h"
 #include "session/scene_json.h"
@@ -211,6 +212,9 @@ int inform(const InfoOptions& options) {
   loading.limits = options.render.limits;
   Scene scene = loadGltf(options.render.scene, loading);
   placeVolume(scene, options.render, nullptr);
+  for (const std::string& odd : {whyEmpty(scene, loading.selection), strayNode(scene)}) {
+    if (!odd.empty()) scene.warnings.push_back(options.render.scene.string() + ": " + odd);
+  }
   if (options.decode) {
     for (const EncodedImage& image : scene.images) decodeTexels(image.bytes, nameOf(image));
   }

@@ -24,6 +24,7 @@
 #include "pack/pack_tree.h"
 #include "scene/camera.h"
 #include "scene/fit.h"
+#include "scene/odd_content.h"
 #include "scene/strokes.h"
 #include "session/caught_light.h"
 #include "session/environment.h"
@@ -225,15 +226,15 @@ void sayLight(const RenderOptions& options, OwnLight light, const Scene& scene, 
     say(options, "emissive textures are the scene's only light (--studio adds one)");
 }
 
-/// Says the warnings of the scene, with those about options in vain.
-void sayWarnings(const RenderOptions& options, Scene& scene) {
+/// Says the warnings of the scene, with those about options in vain, and of a node far off, if the scene is
+/// framed.
+void sayWarnings(const RenderOptions& options, bool isFramed, Scene& scene) {
   std::ranges::move(vainOptions(options), std::back_inserter(scene.warnings));
+  if (const std::string stray = isFramed ? strayNode(scene) : ""; !stray.empty())
+    scene.warnings.push_back(options.scene.string() + ": " + stray);
   for (const std::string& warning : scene.warnings) say(options, "warning: " + warning);
-  if (scene.triangles.empty() && scene.spheres.empty() && !scene.volume.grid) {
-    const bool hidden = !options.selection.hiddenNodes.empty();
-    say(options, "warning: " + options.scene.string() + ": no triangle, sphere, point or line: " +
-                     (hidden ? "--hide leaves nothing to draw" : "nothing to draw"));
-  }
+  if (const std::string empty = whyEmpty(scene, options.selection); !empty.empty())
+    say(options, "warning: " + options.scene.string() + ": " + empty);
 }
 
 /// The tree: an earlier one refitted, if it fits the scene, or a new one.
@@ -341,7 +342,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   checkCatcherPlace(options, loaded.scene);
   checkFogDepth(options, loaded.scene);
   checkMapOptions(options, light, loaded.scene);
-  sayWarnings(options, loaded.scene);
+  sayWarnings(options, loaded.overrides.fit, loaded.scene);
   stats.loadMs = watch.lap();
   step("building the tree", 0.5);
   loaded.bvh = refitOrBuild(before.tree, scene, options, stats);

@@ -4,10 +4,11 @@
 import json
 import math
 import os
+import struct
 import unittest
 from pathlib import Path
 
-from materials_test import quad
+from materials_test import data_uri, quad
 from support import BACKENDS, Case, Exr, main, run
 
 ASSETS = Path(os.environ.get("FRAGTRACE_ASSETS", "/work/shared/assets")) / "scenes"
@@ -56,6 +57,37 @@ class Framing(FramingCase):
                              min(rows) / size[1], 1 - (max(rows) + 1) / size[1])
                 self.assertGreaterEqual(margin, 0, (scale, options))
                 self.assertLess(margin, 0.05, (scale, options))
+
+    def test_what_lies_far_off_is_named(self):
+        """A grid of 200 triangles, and a quad or a vertex of the grid far from it."""
+        def write(vertex=0.0, quad_at=0.0, camera=False):
+            gltf = quad({})
+            places = [(x / 10, y / 10, 0.0) for y in range(11) for x in range(11)]
+            places[60] = (*places[60][:2], vertex)
+            corners = [c for y in range(10) for x in range(10) for a in [11 * y + x] for c in (a, a + 1, a + 12, a, a + 12, a + 11)]
+            data = b"".join(struct.pack("<3f", *place) for place in places) + struct.pack("<600H", *corners)
+            gltf["buffers"].append({"byteLength": len(data), "uri": data_uri("application/octet-stream", data)})
+            gltf["bufferViews"] += [{"buffer": 1, "byteLength": 1452}, {"buffer": 1, "byteOffset": 1452, "byteLength": 1200}]
+            gltf["accessors"] += [{"bufferView": 3, "componentType": 5126, "count": 121, "type": "VEC3", "min": [0, 0, min(vertex, 0)], "max": [1, 1, max(vertex, 0)]},
+                                  {"bufferView": 4, "componentType": 5123, "count": 600, "type": "SCALAR"}]
+            gltf["meshes"].append({"primitives": [{"attributes": {"POSITION": 3}, "indices": 4}]})
+            gltf["nodes"] = [{"mesh": 0, "name": "dust", "translation": [quad_at, 0, 0]}, {"mesh": 1, "name": "model"}, {"camera": 0}]
+            gltf["scenes"] = [{"nodes": [0, 1, 2] if camera else [0, 1]}]
+            path = self.folder / "scene.gltf"
+            path.write_text(json.dumps({key: value for key, value in gltf.items() if value}))
+            return path
+
+        tiny = ("--resolution", "8,8", "--spp", 1, "--stage", "flat")
+        for options in ({}, {"quad_at": 50}):
+            self.assertNotIn("reaches", run("info", write(**options)).stderr)
+        for options, said in (({"quad_at": 500}, r'node "dust" reaches \d+ times .* framed; --hide 0 leaves the node out'),
+                              ({"vertex": 500}, r'node "model" reaches \d+ times .* framed: a vertex of its mesh lies far off')):
+            scene = write(**options)
+            for stderr in (self.renders(scene, "-o", self.folder / "x.png", *tiny).stderr, run("info", scene).stderr):
+                self.assertRegex(stderr, f"{scene}: {said}")
+        self.assertNotIn("reaches", run("info", write(quad_at=500), "--hide", 0).stderr)
+        # A camera of the file frames nothing.
+        self.assertNotIn("reaches", self.renders(write(quad_at=500, camera=True), "-o", self.folder / "x.png", *tiny).stderr)
 
     def test_an_orbit_does_not_go_with_a_position(self):
         for options in (("--camera-position", "1,2,3"), ("--frames", "0:3", "--fit")):
