@@ -85,6 +85,20 @@ class Ktx2(Case):
         self.assertEqual((scene["textures"], scene["images"]), (1, 1))
 
     @has_codec
+    def test_it_is_drawn_where_the_fallback_is_missing(self):
+        scene = self.scene(required=False, fallback=True)
+        (self.folder / "green.png").unlink()
+        (red, green, _), said = self.middle(scene)
+        self.assertAlmostEqual(red, green, delta=0.05)
+        self.assertIn('/images/1: "green.png" is missing; the KTX2 picture beside it is drawn', said)
+        for gone, program in ((None, self.run_without_codec), ("wood.ktx2", run)):
+            if gone:
+                (self.folder / gone).unlink()
+            result = program("info", scene)
+            self.assertEqual(result.returncode, 3)
+            self.assertIn("green.png cannot be opened", result.stderr)
+
+    @has_codec
     def test_a_broken_one_is_named_by_file_and_by_place(self):
         scene = self.scene(name="basisu_uastc_zstd_alpha")
         whole = (self.folder / "wood.ktx2").read_bytes()

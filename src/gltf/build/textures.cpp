@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "gltf/read/uri.h"
@@ -124,6 +126,26 @@ bool isDispensable(const tinygltf::Model& model, const tinygltf::Texture& textur
          std::ranges::find(required, kBasisu) == required.end();
 }
 
+/// Returns true if a picture is a file that is not there.
+bool isMissing(const Document& document, int image) {
+  const ImageSource& source = document.images.at(size_t(image));
+  std::error_code error;
+  return source.bufferView < 0 && source.bytes.empty() && !isDataUri(source.uri) &&
+         !std::filesystem::exists(pathOfUri(document.access, source.uri), error);
+}
+
+/// The picture to draw: the fallback of a KTX2 picture stays away where its file is missing.
+int drawnImage(Document& document, const tinygltf::Texture& texture) {
+  const int image = sourceOf(texture);
+  const int ktx2 = sourceIn(texture, kBasisu, -1);
+  const bool isAlone = image >= 0 && ktx2 >= 0 && isMissing(document, image) && !isMissing(document, ktx2);
+  if (!isAlone || !whyNoKtx2().empty()) return image;
+  document.diagnostics.warn(
+      pointerTo("images", image),
+      inQuotes(document.images[size_t(image)].uri) + " is missing; the KTX2 picture beside it is drawn");
+  return ktx2;
+}
+
 }  // namespace
 
 TextureTable::TextureTable(Document& document, Scene& scene)
@@ -176,7 +198,7 @@ TextureRef TextureTable::use(int texture, const std::string& place) {
   ref.texture = known;
   if (known != kMissIndex) return ref;
   const tinygltf::Texture& source = document_.model.textures[size_t(texture)];
-  const int image = sourceOf(source);
+  const int image = drawnImage(document_, source);
   if (image < 0) {
     document_.diagnostics.warn(place, "a texture without a picture is left out");
     return ref;
