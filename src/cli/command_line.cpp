@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "base/near_name.h"
 #include "options/choose.h"
 #include "options/parse_words.h"
 #include "version_text.h"
@@ -35,10 +36,8 @@ void checkCommand(const CLI::App& app, std::optional<std::string> word) {
   std::error_code error;
   if (atFirst && std::filesystem::is_directory(*word, error))
     throw UsageError("'" + *word + "' is a folder; name the .gltf or .glb in it");
-  const std::string meant = nearestName(*word, names);
   throw UsageError("'" + *word + "' is no command of " + app.get_name() +
-                   (atFirst ? ", and no file: " : ": ") + joined(names) +
-                   (meant.empty() ? "" : "; did you mean " + meant + "?"));
+                   (atFirst ? ", and no file: " : ": ") + joined(names) + didYouMean(*word, names));
 }
 
 }  // namespace

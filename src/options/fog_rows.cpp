@@ -68,7 +68,7 @@ std::vector<OptionRow> fogRows() {
           FRAGTRACE_MEMBER(fog.color), 3,
           [](const std::vector<double>& v) { return albedoOf("--fog-color", v); },
           [](const glm::vec3& c) { return numbersText(double(c.r), double(c.g), double(c.b)); },
-          {"0.8999999761581421,0.5,1"}, kDrawn),
+          {"0.8999999761581421,0.5,1"}, kDrawn, std::nullopt, kColorForm),
       number<double>("--fog-anisotropy",
                      "mean cosine of the angle by which the fog scatters light: above 0 it goes on forward",
                      FRAGTRACE_MEMBER(fog.anisotropy), {-kMostAnisotropy, kMostAnisotropy}, kDrawn),

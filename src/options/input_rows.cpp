@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "options/option_row.h"
 #include "options/row_makers.h"
 #include "scene/up_axis.h"
@@ -71,14 +71,17 @@ OptionRow hiddenRow() {
 SetNumber setNumberIn(const std::string& text) {
   const size_t equals = text.rfind('=');
   SetNumber set{text.substr(0, equals), {}};
-  std::istringstream numbers(equals == std::string::npos ? "" : text.substr(equals + 1));
-  for (std::string word; std::getline(numbers, word, ',');) {
-    const std::optional<double> number = numberIn(word);
-    if (!number || !std::isfinite(*number)) throw UsageError("--set: '" + word + "' is no number");
-    set.values.push_back(*number);
-  }
-  if (!set.pointer.starts_with('/') || set.values.empty())
+  if (!set.pointer.starts_with('/') || equals >= text.size() - 1)
     throw UsageError("--set: '" + text + "' is not of the form PLACE=NUMBERS");
+  for (size_t start = equals + 1; start <= text.size();) {
+    const size_t end = std::min(text.find(',', start), text.size());
+    const std::string word = text.substr(start, end - start);
+    const std::optional<double> number = numberOfAll<double>(word);
+    if (!number || !std::isfinite(*number))
+      throw UsageError("--set: " + set.pointer + ": '" + word + "' is no number");
+    set.values.push_back(*number);
+    start = end + 1;
+  }
   return set;
 }
 

@@ -115,12 +115,13 @@ std::vector<OptionRow> lightRows() {
       catcherHeightRow(),
       offFlag("--no-background", "hide the environment map from the camera, and write alpha",
               FRAGTRACE_MEMBER(light.background), {.effect = Effect::Picture, .attribute = "background"}),
-      numbers<double>("--background-color",
-                      "linear R,G,B that the camera sees where there is no surface, instead of the "
-                      "environment map; it lights nothing",
-                      FRAGTRACE_MEMBER(light.backgroundColor), 3, colorOf,
-                      [](const glm::vec3& c) { return numbersText(double(c.r), double(c.g), double(c.b)); },
-                      {"0.10000000149011612,0.2,1"}, {.effect = Effect::Picture}),
+      numbers<double>(
+          "--background-color",
+          "linear R,G,B that the camera sees where there is no surface, instead of the "
+          "environment map; it lights nothing",
+          FRAGTRACE_MEMBER(light.backgroundColor), 3, colorOf,
+          [](const glm::vec3& c) { return numbersText(double(c.r), double(c.g), double(c.b)); },
+          {"0.10000000149011612,0.2,1"}, {.effect = Effect::Picture}, std::nullopt, kColorForm),
       choice("--default-light",
              "what lights a scene that has no light of its own: {}; white comes from all sides, and studio "
              "is the environment of --studio",

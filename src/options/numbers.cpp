@@ -48,8 +48,13 @@ CLI::Validator wholeNumber(int64_t least, int64_t most, const std::string& form)
       "");
 }
 
-CLI::Validator realNumber() {
-  return CLI::Validator([](const std::string& text) { return whyNoNumber(text); }, "");
+CLI::Validator realNumber(const std::string& form) {
+  return CLI::Validator(
+      [=](const std::string& text) {
+        const std::string reason = whyNoNumber(text);
+        return reason.empty() || form.empty() ? reason : reason + ", as in " + form;
+      },
+      "");
 }
 
 CLI::Validator realNumberFrom(double least, const char* type) {

@@ -16,8 +16,8 @@ std::optional<double> numberIn(const std::string& text);
 /// A whole number within these bounds. A message about it names the `form` that the word has, if it is given.
 CLI::Validator wholeNumber(int64_t least, int64_t most, const std::string& form = "");
 
-/// A number that is neither infinite nor NaN.
-CLI::Validator realNumber();
+/// A number that is neither infinite nor NaN. `form` as above.
+CLI::Validator realNumber(const std::string& form = "");
 
 /// The same from `least` on; `type` is what --help calls it.
 CLI::Validator realNumberFrom(double least, const char* type);

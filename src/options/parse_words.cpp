@@ -4,7 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <regex>
+#include <system_error>
 #include <utility>
 
 #include "base/errors.h"
@@ -65,6 +67,8 @@ std::string whatIsUnknown(const CLI::App& app, const std::vector<std::string>& l
   const std::string text = unknown + " is no option of " + command.get_name();
   const std::string meant = optionMeant(unknown, command);
   const std::string other = commandWith(unknown, command);
+  std::error_code error;
+  if (std::filesystem::exists(*option, error)) return text + "; a file of that name is ./" + *option;
   if (!meant.empty()) return text + "; did you mean " + meant + "?";
   return text + (other.empty() ? "" : "; did you mean the command " + other + "?");
 }

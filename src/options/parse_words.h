@@ -32,7 +32,4 @@ void parseWords(CLI::App& app, std::vector<std::string> words, const char* more 
 /// letters; empty if none is near. Names have their dashes.
 std::string suggestedOption(const std::string& unknown, const std::vector<std::string>& known);
 
-/// The most similar name; empty if more than a third of the letters differ.
-std::string nearestName(std::string_view unknown, const std::vector<std::string>& known);
-
 }  // namespace fragtrace

@@ -180,6 +180,9 @@ OptionRow word(const char* name, std::string help, Member member, OptionTraits t
   return row;
 }
 
+/// How a colour is written, for messages.
+inline constexpr const char* kColorForm = "1,1,1 for white";
+
 /// Numbers in one word, separated by commas, which `take` puts into the options; it throws UsageError. `form`
 /// is how the word may be written, for messages.
 template <typename Number, typename Member, typename Take, typename Write>
@@ -195,7 +198,7 @@ OptionRow numbers(const char* name, std::string help, Member member, int count, 
         r.help);
     option->delimiter(',')->expected(count);
     if constexpr (std::floating_point<Number>)
-      option->check(realNumber());
+      option->check(realNumber(form));
     else if (range)
       option->check(wholeNumber(range->least, range->most, form));
   };

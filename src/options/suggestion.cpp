@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <string_view>
+
+#include "base/near_name.h"
 
 namespace fragtrace {
 
@@ -15,7 +17,7 @@ struct OtherName {
 };
 
 /// As other renderers have it.
-constexpr std::array<OtherName, 23> kOtherNames = {{
+constexpr std::array<OtherName, 25> kOtherNames = {{
     {"--samples", "--spp"},
     {"--samples-per-pixel", "--spp"},
     {"--size", "--resolution"},
@@ -28,6 +30,8 @@ constexpr std::array<OtherName, 23> kOtherNames = {{
     {"--envmap", "--hdri-file"},
     {"--hdri", "--hdri-file"},
     {"--fov", "--camera-view-angle"},
+    {"--background", "--background-color"},
+    {"--bg-color", "--background-color"},
     {"--transparent", "--no-background"},
     {"--film-transparent", "--no-background"},
     {"--integrator", "--stage"},
@@ -41,31 +45,7 @@ constexpr std::array<OtherName, 23> kOtherNames = {{
     {"-q", "--quiet"},
 }};
 
-/// Letters to insert, remove or replace (Levenshtein).
-size_t editDistance(std::string_view a, std::string_view b) {
-  std::vector<size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), size_t(0));
-  for (size_t i = 0; i < a.size(); ++i) {
-    size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (size_t j = 0; j < b.size(); ++j) {
-      const size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
-}
-
 }  // namespace
-
-std::string nearestName(std::string_view unknown, const std::vector<std::string>& known) {
-  const size_t letters = unknown.size() - std::min(unknown.find_first_not_of('-'), unknown.size());
-  const auto distance = [&](const std::string& name) { return editDistance(unknown, name); };
-  const auto nearest = std::ranges::min_element(known, {}, distance);
-  const bool isNear = nearest != known.end() && distance(*nearest) <= letters / 3;
-  return isNear ? *nearest : std::string();
-}
 
 std::string suggestedOption(const std::string& unknown, const std::vector<std::string>& known) {
   const auto isKnown = [&](std::string_view name) { return std::ranges::find(known, name) != known.end(); };

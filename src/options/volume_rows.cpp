@@ -60,7 +60,7 @@ std::vector<OptionRow> volumeRows() {
           FRAGTRACE_MEMBER(volume.color), 3,
           [](const std::vector<double>& v) { return albedoOf("--volume-color", v); },
           [](const glm::vec3& c) { return numbersText(double(c.r), double(c.g), double(c.b)); },
-          {"0.8999999761581421,0.5,1"}, kPlaced),
+          {"0.8999999761581421,0.5,1"}, kPlaced, std::nullopt, kColorForm),
       limit<double>("--volume-anisotropy",
                     "mean cosine of the angle by which the grid scatters light: above 0 it goes on forward; "
                     "by default 0",

@@ -375,10 +375,10 @@ struct Scene {
   std::vector<Instance> instances;
   std::string sharing;  ///< why meshes are shared or are not, in a few words
   std::vector<std::string> extensionsUsed;
+  bool refersToFiles = false;           ///< its file does: to buffers or pictures
   std::vector<std::string> sceneNames;  ///< all that SceneSelection may name; "" for one without a name
   std::vector<std::string> animationNames;
-  std::vector<std::optional<double>>
-      animationSeconds;  ///< when the last key stands; none: the file does not say
+  std::vector<std::optional<double>> animationSeconds;  ///< time of the last key; none: it is not said
   std::vector<std::string> materialVariants;
   std::vector<std::string> warnings;  ///< one line each, for stderr; names the file and the place
   Volume volume;                      ///< its grid is read after the scene's file

@@ -40,6 +40,12 @@ void warn(const RenderOptions& options, const std::string& what, std::vector<std
 
 }  // namespace
 
+std::string whyDark(const SkyOptions& sky) {
+  return sunOf(sky).elevation < 0.0
+             ? "the sun is below the horizon: the sky gives little light, or none (--exposure)"
+             : "";
+}
+
 Environment skyOf(const RenderOptions& options, std::vector<std::string>& warnings) {
   constexpr double kNight = -18.0;  // degrees
   const SkyOptions& sky = options.light.sky;
@@ -48,6 +54,8 @@ Environment skyOf(const RenderOptions& options, std::vector<std::string>& warnin
     warnings.emplace_back("--sky: the sun is " + std::to_string(std::lround(-elevation)) +
                           " degrees below the horizon: it is night");
     say(options, "warning: " + warnings.back());
+  } else if (const std::string dark = whyDark(sky); !dark.empty()) {
+    say(options, dark);
   }
   SkyMap map = makeSky(sky.turbidity, sky.groundAlbedo, elevation);
   Environment environment{Surroundings::Map, std::move(map.image), {}, map.sun};

@@ -21,7 +21,10 @@ LinearImage readMap(const RenderOptions& options);
 Environment makeEnvironment(const RenderOptions& options, std::future<LinearImage>& map, OwnLight light,
                             std::vector<std::string>& warnings);
 
-/// The sky of the options. Says a warning at night, and adds it to `warnings`.
+/// Says that the sky is dark, since the sun is below the horizon; empty: it is not.
+std::string whyDark(const SkyOptions& sky);
+
+/// The sky of the options. Says that it is dark, and adds a warning to `warnings` at night.
 Environment skyOf(const RenderOptions& options, std::vector<std::string>& warnings);
 
 /// Tells if the scene has a light of its own that the options let count.

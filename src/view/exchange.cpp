@@ -227,6 +227,10 @@ void Exchange::tell(std::string message) {
   inform([&](Delivery& d) { d.messages.push_back(std::move(message)); });
 }
 
+void Exchange::tellSaved(std::vector<SetNumber> set) {
+  inform([&](Delivery& d) { d.saved = std::move(set); });
+}
+
 void Exchange::fail(std::exception_ptr failure) {
   inform([&](Delivery& d) { d.failure = std::move(failure); });
 }

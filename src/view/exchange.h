@@ -104,6 +104,7 @@ struct ViewedScene {
   SceneDescription description;
   bool defaultLight = false;                        ///< it has no light of its own
   bool map = false;                                 ///< an environment map lights it
+  bool refersToFiles = false;                       ///< its file can only be written into its own folder
   std::vector<std::filesystem::path> environments;  ///< files near it that may
   std::vector<SceneNode> nodes;                     ///< nodes as they were loaded
   std::vector<Material> materials;                  ///< those of the file, without what is set in their place
@@ -175,6 +176,7 @@ struct Delivery {
   std::optional<PickAnswer> pick;
   std::optional<BoundsDouble> bounds;  ///< bounds of the scene as it is posed now
   std::vector<EnvironmentThumbnail> thumbnails;
+  std::optional<std::vector<SetNumber>> saved;  ///< numbers that a model has just been written with
   LoadStatus load;
   uint64_t request = 0;               ///< the latest that the tracing thread has seen
   bool resting = false;               ///< it has nothing to do
@@ -240,6 +242,7 @@ class Exchange {
   void tellNote(std::string note);
   void tellError(std::string error);
   void tell(std::string message);
+  void tellSaved(std::vector<SetNumber> set);
   void fail(std::exception_ptr failure);
   /// Ends a wait() from a third thread.
   void nudge();

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "view/history.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include "view/set_by_eye.h"
 
 namespace fragtrace {
 
@@ -11,6 +15,8 @@ namespace {
 Settings settingsOf(const ViewState& state) {
   Settings settings{state.sides, state.pose,   state.posed,     state.sceneCamera,
                     state.split, state.active, state.treeBoxes, state.treeLevel};
+  // A side that was never shown has what the panel makes of it.
+  if (state.sides[1].scene.empty()) settings.sides[1] = {};
   for (RenderOptions& side : settings.sides) {
     SceneSelection kept;
     kept.hiddenNodes = side.selection.hiddenNodes;
@@ -22,10 +28,20 @@ Settings settingsOf(const ViewState& state) {
   return settings;
 }
 
-/// Returns true if a user made the step: an animation that is shown holds the camera where it is
+/// Directions that are whole turns apart are the same.
+void keepTurnsWithin(Settings& settings) {
+  for (RenderOptions& side : settings.sides) {
+    for (double* degrees : {&side.light.sky.sun.azimuth, &side.light.hdriRotationDegrees})
+      *degrees -= 360.0 * std::floor(*degrees / 360.0);
+  }
+}
+
+/// Returns true if a user made the step, and sees it: an animation that is shown holds the camera where it is
 /// (showAnimation), which nobody sees.
-bool differs(Settings a, const Settings& b) {
+bool differs(Settings a, Settings b) {
   if (a.pose == b.pose) a.posed = b.posed;
+  keepTurnsWithin(a);
+  keepTurnsWithin(b);
   return a != b;
 }
 
@@ -97,6 +113,24 @@ void giveUp(History& history, ViewState& state) {
 
 void overlook(History& history, const ViewState& state) {
   if (history.now) history.now = settingsOf(state);
+}
+
+void takeOver(History& history, ViewState& state, const std::vector<ChangedNumber>& changed) {
+  const auto apply = [&](RenderOptions& side) {
+    std::vector<SetNumber>& set = side.selection.set;
+    if (side.scene.empty()) return;
+    for (const auto& [before, now] : changed) {
+      const auto found = std::ranges::find(set, now.pointer, &SetNumber::pointer);
+      const SetNumber shown = found != set.end() ? *found : before;
+      setNumberIn(set, shown, now);
+    }
+  };
+  const auto applyToAll = [&](Settings& settings) { std::ranges::for_each(settings.sides, apply); };
+  std::ranges::for_each(history.past, applyToAll);
+  std::ranges::for_each(history.future, applyToAll);
+  if (history.now) applyToAll(*history.now);
+  std::ranges::for_each(state.sides, apply);
+  if (state.scene) apply(state.scene->options);
 }
 
 RenderOptions withLight(const History& history, RenderOptions options) {

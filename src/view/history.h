@@ -51,6 +51,15 @@ void giveUp(History& history, ViewState& state);
 /// Takes what has changed since the last call, which the user did not do, as if it had been so.
 void overlook(History& history, const ViewState& state);
 
+/// A number of the scene's file that is another one by now.
+struct ChangedNumber {
+  SetNumber before;
+  SetNumber now;
+};
+
+/// The file has by now what was set in it: all steps go on to show what they showed.
+void takeOver(History& history, ViewState& state, const std::vector<ChangedNumber>& changed);
+
 /// The options with the light, the material variant and the up axis of the latest step, which undo and redo
 /// leave to be loaded.
 RenderOptions withLight(const History& history, RenderOptions options);

@@ -50,11 +50,19 @@ std::vector<std::string> materialLines(const Material& m) {
   return lines;
 }
 
+bool isSame(const SetNumber& a, const SetNumber& b) {
+  const auto sameFloat = [](double x, double y) { return float(x) == float(y); };
+  return a.pointer == b.pointer && std::ranges::equal(a.values, b.values, sameFloat);
+}
+
+void setNumberIn(std::vector<SetNumber>& set, SetNumber number, const SetNumber& inFile) {
+  std::erase_if(set, [&](const SetNumber& one) { return one.pointer == number.pointer; });
+  if (!isSame(number, inFile)) set.push_back(std::move(number));
+}
+
 void setNumber(ViewState& state, SetNumber number, const SetNumber& inFile) {
   std::vector<SetNumber> set = state.sides[0].selection.set;
-  std::erase_if(set, [&](const SetNumber& one) { return one.pointer == number.pointer; });
-  const auto sameFloat = [](double a, double b) { return float(a) == float(b); };
-  if (!std::ranges::equal(number.values, inFile.values, sameFloat)) set.push_back(std::move(number));
+  setNumberIn(set, std::move(number), inFile);
   for (RenderOptions& side : state.sides) side.selection.set = set;
   state.scene->options.selection = state.sides[0].selection;
 }

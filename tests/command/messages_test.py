@@ -81,6 +81,22 @@ class Values(Case):
     def test_names_are_found_without_regard_to_case(self):
         self.renders(BOX, "-o", self.folder / "x.png", *TINY, "--stage", "PHONG", "--tone-map", "AgX")
 
+    def test_a_number_that_is_set_is_told_its_place(self):
+        for value in ("0.5,", "0x1", "1,,1", "1e999"):
+            self.fails(2, "render", BOX, "-o", self.folder / "x.png", "--set", f"/materials/0/emissiveFactor={value}",
+                       says=["--set: /materials/0/emissiveFactor: '", "' is no number"])
+        for place, said in (("/materials/lamp/alphaCutoff", "; did you mean /materials/3/alphaCutoff?"),
+                            ("/materials/candle/alphaCutoff", '/materials has 0 "white", 1 "red", 2 "green", 3 "lamp"\n'),
+                            ("/materials/grren/alphaCutoff", "; did you mean /materials/2/alphaCutoff?"),
+                            ("/materials/99/alphaCutoff", '/materials has 0 "white", 1 "red", 2 "green", 3 "lamp"\n'),
+                            ("/material/0/alphaCutoff", "; did you mean /materials/0/alphaCutoff?"),
+                            ("/materials/0/pbrMetallicRoughness/roughnesFactor", "; did you mean /materials/0/pbrMetallicRoughness/roughnessFactor?"),
+                            ("/materials/0/extensions/KHR_materials_sheen/sheenRoughnessFactor", ": /materials/0/extensions has no KHR_materials_sheen\n"),
+                            ("/materials/0/name", "of the file that is read\n")):
+            self.fails(2, "render", BOX, "-o", self.folder / "x.png", "--set", f"{place}=1", says=[f"--set: {place} is no number of the file that is read", said])
+        said = self.renders(BOX, "-o", self.folder / "x.png", *TINY, "--set", "/materials/0/emissiveFactor=0,5,0").stderr
+        self.assertIn("/materials/0/emissiveFactor: is above 1, and drawn so", said)
+
     def test_fog_s_options_are_named_that_miss_its_density(self):
         for option, value in (("--fog-height", "2"), ("--fog-color", "1,1,1"), ("--fog-anisotropy", "0.1"), ("--fog-distance", "3")):
             self.fails(2, "render", BOX, "-o", self.folder / "x.png", option, value, says=[f"fragtrace: {option}: goes with --fog-density\n"])
@@ -103,6 +119,11 @@ class UnknownWords(Case):
         self.fails(2, BOX, "-o", self.folder / "a.png", says=["-o is no option of view; did you mean the command render?"])
         self.fails(2, "render", BOX, "-v", says=["did you mean --verbose?"])
         self.fails(2, "render", BOX, "--transparent", says=["did you mean --no-background?"])
+        self.fails(2, "render", BOX, "--background", "white", says=["did you mean --background-color?"])
+        self.fails(2, "render", BOX, "-o", self.folder / "x.png", "--background-color", "white", says=["'white' is no number, as in 1,1,1 for white"])
+        (self.folder / "-file.glb").touch()
+        for words in (["-file.glb"], ["render", "-file.glb", "-o", "x.png"]):
+            self.fails(2, *words, cwd=self.folder, says=["-file.glb is no option of", "; a file of that name is ./-file.glb"])
         self.assertIn("`fragtrace FILE` is short for `fragtrace view", run("--help").stdout)
 
     def test_no_equals_sign_follows_a_letter(self):
@@ -184,6 +205,7 @@ class InVain(Case):
         nodes = json.loads(run("info", "--nodes", "--json", BOX).stdout)["nodes"]
         hide = [word for node in nodes for word in ("--hide", node["index"])]
         self.warned(f"{BOX}: no triangle, sphere, point or line: --hide leaves nothing", *hide)
+        self.assertIn(f"warning: {BOX}: no triangle, sphere, point or line: --hide leaves nothing", run("info", BOX, *hide).stderr)
 
     def test_a_view_of_nothing(self):
         self.warned("this view shows nothing of the scene", "--camera-position", "0,0,5", "--camera-focal-point", "0,0,10")

@@ -122,6 +122,11 @@ TEST_F(FolderLists, AsksBeforeAFileIsReplaced) {
   EXPECT_STREQ(list.text.data(), "old.png");
 }
 
+TEST_F(FolderLists, SayThatAModelStaysInItsFolder) {
+  EXPECT_NE(saveModelQuestion(folder / "a.gltf", true).title.find("in this folder"), std::string::npos);
+  EXPECT_EQ(saveModelQuestion(folder / "a.gltf", false).title, "Save the model as");
+}
+
 TEST_F(FolderLists, SaysWhyAFolderCannotBeRead) {
   FolderList list = listFor(openQuestion(folder, false));
   takeContent(list, readFolder(folder / "away"));

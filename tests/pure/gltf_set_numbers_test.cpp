@@ -2,6 +2,7 @@
 // Numbers in place of the file's: as they are loaded, set in a scene that is there, and written.
 #include <gtest/gtest.h>
 
+#include "gltf/build/numbers.h"
 #include "gltf/edit/changed_file.h"
 #include "gltf/edit/factors.h"
 #include "gltf/edit/json_text.h"
@@ -77,6 +78,26 @@ TEST(SetNumbers, MakeTheSceneThatWouldBeLoaded) {
   // A number that is no longer set is the file's again.
   ASSERT_TRUE(setByEye(scene, file.materials, file.lightSources, {}));
   EXPECT_EQ(numbersOf(scene), numbersOf(file));
+}
+
+TEST(SetNumbers, BeyondTheirRangeCountAsTheNearest) {
+  const std::string emission = "/materials/0/emissiveFactor";
+  const std::vector<SetNumber> all = {{kRoughness, {7.0}}, {emission, {0, 3, 0}}};
+  const Scene loaded = loadWith(all);
+  Material material = loadWith({}).materials.at(0);
+  setFactors(material, all);
+  EXPECT_EQ(material.roughnessFactor, 1.0f);
+  EXPECT_EQ(material.roughnessFactor, loaded.materials[0].roughnessFactor);
+  EXPECT_EQ(material.emissiveFactor, glm::vec3(0, 3, 0));
+  EXPECT_EQ(loaded.materials[0].emissiveFactor, glm::vec3(0, 3, 0));
+  // The loader says what the viewer says of the numbers alone.
+  ASSERT_EQ(loaded.warnings.size(), 2u);
+  const std::vector<std::string> warnings = warningsOf(all);
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_EQ(warnings[0],
+            "--set: " + kRoughness + ": is out of range, the nearest possible value is taken: 1");
+  EXPECT_EQ(warnings[1], "--set: " + emission + ": " + kBrightEmission);
+  EXPECT_TRUE(warningsOf(std::vector<SetNumber>{{kRoughness, {0.3}}, {emission, {0, 1, 0}}}).empty());
 }
 
 TEST(SetNumbers, OfAnotherKindOfMaterialAskForAnotherScene) {
@@ -179,6 +200,8 @@ TEST(ChangedFile, ThatRefersToOthersStaysInItsFolder) {
   builder.root["buffers"] = {{{"byteLength", builder.buffer().size()}, {"uri", "a.bin"}}};
   folder.write("a.bin", builder.buffer());
   const auto refers = folder.write("refers.gltf", builder.text());
+  EXPECT_TRUE(loadGltf(refers).refersToFiles);
+  EXPECT_FALSE(loadGltf(whole).refersToFiles);
   writeChanged(whole, other.path() / "whole.gltf", {{{kRoughness, {0.5}}}});
   EXPECT_EQ(loadGltf(other.path() / "whole.gltf").materials.at(0).roughnessFactor, 0.5f);
   writeChanged(refers, folder.path() / "b.gltf", {{{kRoughness, {0.5}}}});

@@ -40,6 +40,44 @@ TEST(History, GoesBackAndForth) {
   EXPECT_EQ(state.sides[0].output.exposure, 2.0);
 }
 
+TEST(History, TurnsAndASideThatNobodySeesAreNoSteps) {
+  ViewState state = shownState();
+  History history;
+  restart(history, state);
+  for (const double turn : {-360.0, 360.0}) {
+    state.sides[0].light.sky.sun.azimuth += turn;
+    state.sides[0].light.hdriRotationDegrees += turn;
+    state.sides[1].output.toneMap = ToneMap::Aces;  // as the panel sets both
+    record(history, state);
+    EXPECT_TRUE(history.past.empty());
+  }
+  state.sides[0].light.sky.sun.azimuth += 1.0;
+  record(history, state);
+  EXPECT_EQ(history.past.size(), 1u);
+}
+
+TEST(History, NumbersThatTheFileHasByNowAreTakenBack) {
+  const auto with = [](double value) { return std::vector<SetNumber>{{"/a", {value}}}; };
+  ViewState state = shownState();
+  History history;
+  restart(history, state);
+  const auto set = [&](std::vector<SetNumber> numbers) {
+    state.sides[0].selection.set = std::move(numbers);
+    record(history, state);
+  };
+  set(with(2.0));
+  set(with(3.0));
+  // The file had 1, and has 2.
+  takeOver(history, state, {{{"/a", {1.0}}, {"/a", {2.0}}}});
+  EXPECT_EQ(state.sides[0].selection.set, with(3.0));
+  record(history, state);
+  ASSERT_EQ(history.past.size(), 2u);
+  EXPECT_TRUE(undo(history, state));
+  EXPECT_TRUE(state.sides[0].selection.set.empty());
+  EXPECT_TRUE(undo(history, state));
+  EXPECT_EQ(state.sides[0].selection.set, with(1.0));
+}
+
 TEST(History, WhatWasNotRecordedIsAStepToo) {
   ViewState state = shownState();
   History history;

@@ -11,10 +11,15 @@ PANEL = ["--resolution", "560,400", "--spp", "1", "--stage", "phong"]
 
 
 class Materials(Case):
-    def start(self, name, **keywords):
+    def start(self, name, *options, **keywords):
         self.scene = self.folder / "scene.gltf"
         shutil.copy(SCENES / (name + ".gltf"), self.scene)
-        return self.view(self.scene, *PANEL, **keywords)
+        return self.view(self.scene, *PANEL, *options, **keywords)
+
+    def is_asked_for(self, viewer):
+        """Quitting says that numbers are not saved, and does nothing else at first."""
+        viewer.key("ctrl+q")
+        viewer.until(lambda s: any("are not saved" in m for m in s["messages"]), "asked")
 
     def picture(self, viewer):
         return pixels_of(viewer.press_for_file("F12", ".png"))
@@ -64,6 +69,7 @@ class Materials(Case):
         viewer.until(lambda s: "no number of a material or a light has been set" in s["messages"], "nothing to write")
         viewer.key("ctrl+y")
         viewer.rest(lambda s: s["set"], "again")
+        self.is_asked_for(viewer)
         viewer.key("ctrl+shift+s")
         viewer.until(lambda s: s["dialog"] == "list", "a list")
         time.sleep(0.2)
@@ -71,10 +77,13 @@ class Materials(Case):
         written = self.folder / "scene-1.gltf"
         viewer.until(lambda s: f"wrote {written}" in s["messages"], "the model")
         self.assertEqual(written.read_bytes(), file.read_bytes())
+        viewer.click("close news")
+        viewer.until(lambda s: "news" not in s["places"], "no question is seen")
         self.ends_well(viewer, viewer.close())
 
     def test_lights_too_and_what_needs_another_program(self):
-        viewer = self.start("lights")
+        viewer = self.start("lights", "--watch")
+        whole = self.picture(viewer)
         viewer.click("section Scene")
         viewer.click("lights")
         viewer.click("light 1")
@@ -89,7 +98,24 @@ class Materials(Case):
         # Metal, which the scene has not had.
         metal = self.slide(viewer, "Metallic", 0.9)["/materials/0/pbrMetallicRoughness/metallicFactor"][0]
         file.write_text(file.read_text().replace('"metallicFactor": 0,', f'"metallicFactor": {metal},', 1))
-        self.same(self.picture(viewer), pixels_of(self.render(file, *PANEL)))
+        changed = self.picture(viewer)
+        self.same(changed, pixels_of(self.render(file, *PANEL)))
+        # Written over, and read again, the file has the numbers; undo takes them back, which is not saved.
+        viewer.key("ctrl+shift+s")
+        viewer.until(lambda s: s["dialog"] == "list", "a list")
+        time.sleep(0.2)
+        viewer.xdotool("type", "scene")
+        time.sleep(0.2)
+        viewer.key("Return", "Return")
+        viewer.rest(lambda s: not s["set"], "read again")
+        self.assertEqual(self.scene.read_text(), file.read_text())
+        self.same(self.picture(viewer), changed)
+        viewer.key("ctrl+z")
+        self.assertEqual(viewer.rest(lambda s: s["set"], "undone")["set"], {"/materials/0/pbrMetallicRoughness/metallicFactor": [0]})
+        viewer.key("ctrl+z")
+        self.assertEqual(viewer.rest(lambda s: len(s["set"]) == 2, "undone")["set"][place], [9])
+        self.same(self.picture(viewer), whole)
+        self.is_asked_for(viewer)
         self.ends_well(viewer, viewer.close())
 
 

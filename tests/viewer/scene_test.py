@@ -71,6 +71,13 @@ class Sun(Case):
     def test_it_is_dragged_and_drawn_as_by_the_command(self):
         viewer = self.view("sun-sky", *SIZE, "--spp", "2", "--sky", "--sun-elevation", "30")
         self.assertEqual(viewer.rest()["sun"], [30, 225])
+        # The panel makes no step of undo.
+        viewer.key("Tab")
+        viewer.until(lambda s: "Sun from" in s["places"], "the panel")
+        viewer.key("ctrl+z")
+        viewer.until(lambda s: "there is nothing to undo" in s["messages"], "no step")
+        viewer.key("Tab")
+        viewer.until(lambda s: not s["panel"], "without the panel")
         before = pixels_of(viewer.press_for_file("F12", ".png"))
         viewer.xdotool("keydown", "shift")
         viewer.drag((60, 50), (90, 40), button=3)
@@ -86,8 +93,14 @@ class Sun(Case):
         self.same(moved, pixels_of(self.folder / "command.png"))
         self.assertGreater(sum(a != b for a, b in zip(before, moved)), 1000)
         viewer.key("ctrl+z")
-        viewer.rest(lambda s: s["sun"] == [30, 225], "as before the drag")
+        status = viewer.rest(lambda s: s["sun"] == [30, 225], "as before the drag")
+        self.assertFalse(any("horizon" in m for m in status["messages"]))
         self.same(before, pixels_of(viewer.press_for_file("F12", ".png")))
+        viewer.xdotool("keydown", "shift")
+        viewer.drag((60, 20), (60, 110), button=3)
+        viewer.xdotool("keyup", "shift")
+        said = viewer.rest(lambda s: s["sun"][0] == -18, "night")["messages"]
+        self.assertEqual([m for m in said if "horizon" in m], ["the sun is below the horizon: the sky gives little light, or none"])
         self.ends_well(viewer, viewer.close())
 
 

@@ -134,6 +134,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
   Document document = posed(keeps ? lend(*read) : std::move(*read), options.selection);
   Scene scene;
   scene.extensionsUsed = document.model.extensionsUsed;
+  scene.refersToFiles = document.refersToFiles;
   scene.sceneNames = document.sceneNames;
   scene.animationNames = document.animationNames;
   scene.animationSeconds = document.animationSeconds;

@@ -9,9 +9,14 @@
 #include <vector>
 
 #include "gltf/check/schema.h"
+#include "gltf/read/diagnostics.h"
 #include "scene/selection.h"
 
 namespace fragtrace {
+
+/// Said of a material's emissiveFactor above 1.
+inline constexpr const char* kBrightEmission =
+    "is above 1, and drawn so, but glTF has KHR_materials_emissive_strength for that";
 
 /// The rule for the value at a JSON pointer, if the loader reads numbers there and the document has the
 /// object or the array that holds them.
@@ -24,7 +29,7 @@ void writeNumbers(nlohmann::json& root, const std::string& pointer, const Number
 /// Throws UsageError for a place without numbers, and for too few or too many.
 void checkNumbers(const nlohmann::json& root, std::span<const SetNumber> set);
 
-/// Checks and writes the user's numbers.
-void writeNumbers(nlohmann::json& root, const std::vector<SetNumber>& set);
+/// Checks and writes the user's numbers; warns of emission that glTF does not allow.
+void writeNumbers(nlohmann::json& root, const std::vector<SetNumber>& set, Diagnostics& diagnostics);
 
 }  // namespace fragtrace

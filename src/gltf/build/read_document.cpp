@@ -95,6 +95,7 @@ Buffers readBuffers(json& root, Container& container, Worker& codecs, Document& 
     if (buffer.contains("uri")) {
       const std::string place = pointerTo("buffers", i, "uri");
       const auto& uri = buffer["uri"].get_ref<const std::string&>();
+      document.refersToFiles = document.refersToFiles || !isDataUri(uri);
       const double step = (kBuffersPart - kContainerPart) / double(described.size());
       const double from = kContainerPart + double(i) * step;
       document.access.progress =
@@ -354,7 +355,7 @@ KeptDocument readDocument(const std::filesystem::path& path, const GltfOptions& 
 Document posed(KeptDocument read, const SceneSelection& selection) {
   if (!selection.animationTime && !selection.animation.empty())
     throw UsageError("--animation: needs --animation-time");
-  writeNumbers(read.root, selection.set);
+  writeNumbers(read.root, selection.set, read.document.diagnostics);
   if (selection.animationTime) pose(read.animations, selection, read.root, read.document);
   if (selection.animationTime || !selection.set.empty()) parseAgain(read.root, read.document);
   return std::move(read.document);

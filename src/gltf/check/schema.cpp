@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -271,14 +272,20 @@ const std::vector<Rule>& rules() {
   return all;
 }
 
-bool matches(std::string_view pattern, std::string_view pointer) {
+/// What follows in the pattern behind its part that matches the whole pointer; none if it does not begin so.
+std::optional<std::string_view> restOf(std::string_view pattern, std::string_view pointer) {
   if (pattern.ends_with('!')) pattern.remove_suffix(1);
   while (pattern.starts_with('/') && pointer.starts_with('/')) {
     const std::string_view wanted = cutPart(pattern);
     const std::string_view part = cutPart(pointer);
-    if (wanted != "*" && wanted != part) return false;
+    if (wanted != "*" && wanted != part) return std::nullopt;
   }
-  return pattern.empty() && pointer.empty();
+  return pointer.empty() ? std::optional(pattern) : std::nullopt;
+}
+
+bool matches(std::string_view pattern, std::string_view pointer) {
+  const std::optional<std::string_view> rest = restOf(pattern, pointer);
+  return rest && rest->empty();
 }
 
 }  // namespace
@@ -297,6 +304,17 @@ std::optional<NumberRule> numberRuleAt(std::string_view pointer) {
       return NumberRule{isArray ? rule.size : 1, isArray, false};
   }
   return std::nullopt;
+}
+
+std::vector<std::string> numberMembersAt(std::string_view pointer) {
+  std::set<std::string> members;
+  for (const Rule& rule : rules()) {
+    if (rule.kind != Kind::Number && rule.kind != Kind::Numbers) continue;
+    std::optional<std::string_view> rest = restOf(rule.pattern, pointer);
+    if (rest && !rest->empty()) members.emplace(cutPart(*rest));
+  }
+  members.erase("*");
+  return {members.begin(), members.end()};
 }
 
 }  // namespace fragtrace

@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "gltf/read/diagnostics.h"
 
@@ -27,5 +29,8 @@ struct NumberRule {
 /// The rule for the value at a JSON pointer, if the loader reads numbers there, or a flag that can be
 /// animated.
 std::optional<NumberRule> numberRuleAt(std::string_view pointer);
+
+/// The members of the object at a JSON pointer that are such numbers or hold some, by the schema.
+std::vector<std::string> numberMembersAt(std::string_view pointer);
 
 }  // namespace fragtrace

@@ -2,8 +2,12 @@
 #include "gltf/edit/factors.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <limits>
 
+#include "base/text.h"
+#include "gltf/build/numbers.h"
 #include "scene/casters.h"
 
 namespace fragtrace {
@@ -70,6 +74,16 @@ bool areOfOneKind(const Material& a, const Material& b) {
   return kind(a) == kind(b);
 }
 
+bool isEmission(const Factor& factor) { return factor.member == std::string_view("emissiveFactor"); }
+
+/// The number as the loader takes it.
+float valueTaken(const Factor& factor, double value) {
+  if (value == 0.0 && factor.member == std::string_view("ior")) return kInfiniteIor;
+  const bool isShare = factor.most == 1.0f && !isEmission(factor);
+  const float most = isShare ? factor.most : std::numeric_limits<float>::max();
+  return float(std::clamp(value, double(factor.least), double(most)));
+}
+
 }  // namespace
 
 std::span<const Factor> factors() { return kFactors; }
@@ -109,13 +123,52 @@ SetNumber colorOf(const LightSource& light, size_t index) {
   return {pointerOf(index, "color"), {light.color.x, light.color.y, light.color.z}};
 }
 
+std::optional<SetNumber> numberAt(std::span<const Material> materials, std::span<const LightSource> lights,
+                                  const std::string& pointer) {
+  for (const Material& m : materials) {
+    if (m.place.empty() || !pointer.starts_with(m.place + "/")) continue;
+    for (const Factor& factor : kFactors) {
+      if (isOffered(factor, m) && pointerOf(factor, m) == pointer) return numberOf(factor, m);
+    }
+  }
+  for (size_t i = 0; i < lights.size(); ++i) {
+    for (SetNumber& number : std::array{intensityOf(lights[i], i), colorOf(lights[i], i)}) {
+      if (number.pointer == pointer) return std::move(number);
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> warningsOf(std::span<const SetNumber> set) {
+  std::vector<std::string> warnings;
+  for (const auto& [pointer, values] : set) {
+    constexpr std::string_view kMaterials = "/materials/";
+    const size_t end = pointer.starts_with(kMaterials) ? pointer.find('/', kMaterials.size()) : pointer.npos;
+    if (end == pointer.npos) continue;
+    Material material;
+    material.place = pointer.substr(0, end);
+    const auto factor = std::ranges::find_if(
+        kFactors, [&](const Factor& one) { return pointerOf(one, material) == pointer; });
+    if (factor == std::end(kFactors)) continue;
+    const auto differs = [&](double value) { return valueTaken(*factor, value) != float(value); };
+    const auto wrong = std::ranges::find_if(values, differs);
+    const bool isInfinite = factor->member == std::string_view("ior") && values[0] == 0.0;
+    if (wrong != values.end() && !isInfinite)
+      warnings.push_back("--set: " + pointer + ": is out of range, the nearest possible value is taken: " +
+                         shortText(double(valueTaken(*factor, *wrong))));
+    else if (isEmission(*factor) && std::ranges::any_of(values, [](double v) { return v > 1.0; }))
+      warnings.push_back("--set: " + pointer + ": " + kBrightEmission);
+  }
+  return warnings;
+}
+
 void setFactors(Material& material, std::span<const SetNumber> set) {
   for (const auto& [pointer, values] : set) {
     if (material.place.empty() || !pointer.starts_with(material.place + "/")) continue;
     for (const Factor& factor : kFactors) {
       if (pointer != pointerOf(factor, material) || values.size() != factor.width) continue;
       float* first = factor.at(material);
-      for (size_t i = 0; i < factor.width; ++i) first[i] = float(values[i]);
+      for (size_t i = 0; i < factor.width; ++i) first[i] = valueTaken(factor, values[i]);
     }
   }
 }
@@ -131,18 +184,8 @@ void setLight(LightSource& light, size_t index, std::span<const SetNumber> set) 
 bool setByEye(Scene& scene, std::span<const Material> materials, std::span<const LightSource> lights,
               std::span<const SetNumber> set) {
   const auto isKnown = [&](const SetNumber& one) {
-    const auto isOf = [&](const SetNumber& other) {
-      return one.pointer == other.pointer && one.values.size() == other.values.size();
-    };
-    for (const Material& m : materials) {
-      if (m.place.empty() || !one.pointer.starts_with(m.place + "/")) continue;
-      return std::ranges::any_of(kFactors,
-                                 [&](const Factor& f) { return isOffered(f, m) && isOf(numberOf(f, m)); });
-    }
-    for (size_t i = 0; i < lights.size(); ++i) {
-      if (isOf(intensityOf(lights[i], i)) || isOf(colorOf(lights[i], i))) return true;
-    }
-    return false;
+    const std::optional<SetNumber> inFile = numberAt(materials, lights, one.pointer);
+    return inFile && inFile->values.size() == one.values.size();
   };
   if (!std::ranges::all_of(set, isKnown)) return false;
   std::vector<Material> changed = scene.materials;

@@ -2,6 +2,7 @@
 // The numbers of materials and lights that can be set by eye, and what a scene becomes by them.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,10 +35,18 @@ SetNumber numberOf(const Factor& factor, const Material& material);
 SetNumber intensityOf(const LightSource& light, size_t index);
 SetNumber colorOf(const LightSource& light, size_t index);
 
+/// The numbers at a place of the file that can be set by eye: a factor or a light's; none: there is none.
+std::optional<SetNumber> numberAt(std::span<const Material> materials, std::span<const LightSource> lights,
+                                  const std::string& pointer);
+
+/// Sentences about those of these numbers that the loader would not take as they are, or that glTF does not
+/// allow.
+std::vector<std::string> warningsOf(std::span<const SetNumber> set);
+
 /// The shortest number in decimal digits that is this one as a float, so that the same is read from a file.
 double shortest(float value);
 
-/// Sets what of this is a factor of the material.
+/// Sets what of this is a factor of the material, within the range that the loader takes.
 void setFactors(Material& material, std::span<const SetNumber> set);
 
 /// Sets what of this is of the light, at its index among the file's.

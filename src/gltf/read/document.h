@@ -44,6 +44,7 @@ struct Document {
   Diagnostics diagnostics;
   int textureSide;             ///< larger pictures are scaled down
   bool drawMissingTextures;    ///< pictures that cannot be read are warned of
+  bool refersToFiles = false;  ///< buffers or pictures are other files
   bool keepsPictures = false;  ///< their bytes are read once for all poses
   MemoryBudget memory;         ///< memory that loading may still take
 };

@@ -44,9 +44,10 @@ FileQuestion saveQuestion(const std::filesystem::path& picture) {
           .filters = {fileFilter("Pictures", {kPictureExtensions.begin(), kPictureExtensions.end()})}};
 }
 
-FileQuestion saveModelQuestion(const std::filesystem::path& model) {
+FileQuestion saveModelQuestion(const std::filesystem::path& model, bool refersToFiles) {
   return {.save = true,
-          .title = "Save the model as",
+          .title = refersToFiles ? "Save the model in this folder, as it refers to other files, as"
+                                 : "Save the model as",
           .folder = model.parent_path(),
           .name = model.filename().string(),
           .filters = {fileFilter("Models", {extensionOf(model)})}};

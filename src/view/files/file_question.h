@@ -35,8 +35,8 @@ FileQuestion openQuestion(const std::filesystem::path& folder, bool environment)
 /// For the name of a picture.
 FileQuestion saveQuestion(const std::filesystem::path& picture);
 
-/// For the name of a model, which keeps its extension.
-FileQuestion saveModelQuestion(const std::filesystem::path& model);
+/// For the name of a model, which keeps its extension, and its folder if it refers to other files.
+FileQuestion saveModelQuestion(const std::filesystem::path& model, bool refersToFiles);
 
 /// Returns true if the filter lets the file pass.
 bool passes(const FileFilter& filter, const std::filesystem::path& file);

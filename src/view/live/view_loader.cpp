@@ -6,7 +6,9 @@
 
 #include "base/thread_name.h"
 #include "gltf/edit/changed_file.h"
+#include "gltf/edit/factors.h"
 #include "pack/own_light.h"
+#include "session/say.h"
 #include "view/camera_controller.h"
 #include "view/environments.h"
 
@@ -45,6 +47,8 @@ void SceneLoader::start(const RenderOptions& options) {
       RenderOptions plain = options;
       plain.selection.set.clear();
       if (!options.selection.set.empty()) checkChange(options.scene, options.selection.set);
+      for (const std::string& warning : warningsOf(options.selection.set))
+        say(options, "warning: " + warning);
       result.scene =
           std::make_unique<LoadedScene>(loadScene(plain, result.stats, progress, FilmOf::Picture, before));
       const bool known = !hasMap(options) && options.light.defaultLight != DefaultLight::None;

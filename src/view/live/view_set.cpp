@@ -32,6 +32,7 @@ void ViewTracer::saveModel(const std::filesystem::path& path) {
   const std::vector<SetNumber>& set = request_.sides.front().selection.set;
   try {
     writeChanged(loadedOptions_.scene, path, set);
+    exchange_.tellSaved(set);
     exchange_.tell("wrote " + path.string());
   } catch (const std::exception& error) {
     exchange_.tell(std::string("not written: ") + error.what());

@@ -197,6 +197,7 @@ void ViewTracer::adoptScene() {
                loaded_->environment.sun.has_value());
   viewed.description = result->stats.scene;
   viewed.defaultLight = !result->ownLight;
+  viewed.refersToFiles = loaded_->scene.refersToFiles;
   viewed.map = loaded_->environment.kind == Surroundings::Map;
   viewed.environments = std::move(result->environments);
   viewed.nodes = loaded_->scene.nodes;
@@ -301,9 +302,10 @@ bool ViewTracer::relight(const TraceRequest& request) {
   SkyOptions& shown = loadedOptions_.light.sky;
   const SkyOptions& wanted = request.sides[0].light.sky;
   if (!shown.on || !wanted.on || airOf(shown) == airOf(wanted)) return false;
+  if (whyDark(shown).empty() && !whyDark(wanted).empty()) exchange_.tell(withoutOptions(whyDark(wanted)));
   shown = wanted;
   std::vector<std::string> repeated;
-  const SaidHere silence(repeated);  // a night is seen
+  const SaidHere silence(repeated);  // said above, and not at each step of a drag
   loaded_->environment = skyOf(loadedOptions_, repeated);
   programs_->showSurroundings();
   return true;

@@ -41,6 +41,7 @@ class Window {
   void wait();
   void take();
   void adoptScene(ViewedScene scene);
+  std::vector<ChangedNumber> numbersSavedIn(const ViewedScene& scene) const;
   void takeState(const Delivery& news);
   void forgetBrokenEnvironment();
   void ask();
@@ -65,6 +66,7 @@ class Window {
   void load(RenderOptions options);
   void loadStep();
   void cancelLoad();
+  bool closes();
   void copyCommand();
   void pasteCommand();
   void toggleFullscreen();
@@ -93,6 +95,7 @@ class Window {
   FileQuestion question_;              ///< its latest
   Errand asked_ = Errand::None;        ///< why: Open, SaveAs, SaveModel
   std::filesystem::path savedFolder_;  ///< folder of the latest picture written; empty: none was
+  std::vector<SetNumber> saved_;       ///< numbers that the latest model was written with
   std::map<std::filesystem::path, GlTexture> thumbnails_;
   std::set<std::filesystem::path> askedThumbnails_;
   ViewState state_;

@@ -64,7 +64,8 @@ void Window::askForFile(const Task& task) {
     if (o.selection.set.empty()) return say("no number of a material or a light has been set");
     const std::filesystem::path scene = here / o.scene;
     question_ =
-        saveModelQuestion(freePictureName(scene.parent_path(), scene, scene.extension().string().c_str()));
+        saveModelQuestion(freePictureName(scene.parent_path(), scene, scene.extension().string().c_str()),
+                          state_.scene->refersToFiles);
   } else if (task.errand == Errand::SaveAs) {
     const std::filesystem::path folder = savedFolder_.empty() ? here : savedFolder_;
     question_ = saveQuestion(freePictureName(folder, o.scene, ".png"));

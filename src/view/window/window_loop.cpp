@@ -11,6 +11,8 @@
 
 #include "base/errors.h"
 #include "gl/gl.h"
+#include "gltf/edit/factors.h"
+#include "view/set_by_eye.h"
 #include "view/shown_names.h"
 #include "view/window/overlay.h"
 #include "view/window/panel_parts.h"
@@ -121,7 +123,7 @@ void Window::open() {
 }
 
 void Window::run() {
-  while (!glfwWindowShouldClose(window_.get()) && !start_.interrupted()) {
+  while (!closes() && !start_.interrupted()) {
     wait();
     const double begin = glfwGetTime();
     take();
@@ -170,6 +172,7 @@ void Window::say(const std::string& message) {
 void Window::take() {
   Delivery news = exchange_.take();
   if (news.failure) std::rethrow_exception(news.failure);
+  if (news.saved) saved_ = std::move(*news.saved);
   if (news.scene) adoptScene(std::move(*news.scene));
   takePictures(std::move(news.pictures));
   if (news.bounds && state_.scene) state_.scene->bounds = *news.bounds;
@@ -181,15 +184,33 @@ void Window::take() {
   takeFile();
 }
 
+/// The numbers that a model was written with, and that the scene that is shown has by now, since it was read
+/// again.
+std::vector<ChangedNumber> Window::numbersSavedIn(const ViewedScene& scene) const {
+  std::vector<ChangedNumber> changed;
+  if (!state_.scene || !sameNodes(state_.scene->options, scene.options)) return changed;
+  for (const SetNumber& saved : saved_) {
+    const auto before = numberAt(state_.scene->materials, state_.scene->lights, saved.pointer);
+    const auto now = numberAt(scene.materials, scene.lights, saved.pointer);
+    if (before && now && isSame(*now, saved) && !isSame(*before, *now)) changed.push_back({*before, *now});
+  }
+  return changed;
+}
+
 void Window::adoptScene(ViewedScene scene) {
   const bool another = !state_.scene || !sameScene(state_.scene->options, scene.options);
   const bool otherNodes = !state_.scene || !sameNodes(state_.scene->options, scene.options);
+  const std::vector<ChangedNumber> changed = numbersSavedIn(scene);
   showScene(state_, std::move(scene));
+  takeOver(history_, state_, changed);
   glfwSetWindowTitle(window_.get(), windowTitle(state_.scene->options.scene).c_str());
   wanted_ = state_.scene->options;
   if (pasted_ && sameScene(*pasted_, wanted_)) takeOptions(state_, *std::exchange(pasted_, {}));
   history_.waits = false;
-  if (otherNodes) restart(history_, state_);
+  if (otherNodes) {
+    restart(history_, state_);
+    saved_.clear();
+  }
   if (another) {
     remember([&](Remembered& r) { addRecent(r, wanted_.scene); });
   }

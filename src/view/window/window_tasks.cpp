@@ -21,6 +21,8 @@ namespace {
 
 /// Stands before the user as long as Escape answers it.
 constexpr const char* kQuitQuestion = "press Escape again to quit";
+constexpr const char* kUnsaved =
+    "the numbers that were set are not saved (Ctrl+Shift+S); quit again to leave them";
 
 }  // namespace
 
@@ -195,6 +197,17 @@ RenderOptions Window::shownOptions() const {
   o.camera.sceneOrigin = state_.scene->description.origin;
   o.sampling.spp = std::max(facts_.statistics[state_.shownSide()].samples, 1);
   return o;
+}
+
+/// Returns true if the window is to be closed. Numbers that nobody has saved are asked for once.
+bool Window::closes() {
+  if (glfwWindowShouldClose(window_.get()) == 0) return false;
+  const std::vector<SetNumber>& set = state_.sides[0].selection.set;
+  const bool isSaved = set.empty() || set == saved_ || set == start_.options.selection.set;
+  if (isSaved || isSeen(facts_.messages, kUnsaved, glfwGetTime())) return true;
+  glfwSetWindowShouldClose(window_.get(), GLFW_FALSE);
+  say(kUnsaved);
+  return false;
 }
 
 void Window::toggleFullscreen() {
