@@ -141,7 +141,9 @@ std::optional<SetNumber> numberAt(std::span<const Material> materials, std::span
 
 std::vector<std::string> warningsOf(std::span<const SetNumber> set) {
   std::vector<std::string> warnings;
-  for (const auto& [pointer, values] : set) {
+  for (const SetNumber& number : set) {
+    const std::string& pointer = number.pointer;
+    const std::vector<double>& values = number.values;
     constexpr std::string_view kMaterials = "/materials/";
     const size_t end = pointer.starts_with(kMaterials) ? pointer.find('/', kMaterials.size()) : pointer.npos;
     if (end == pointer.npos) continue;
