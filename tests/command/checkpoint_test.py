@@ -88,7 +88,8 @@ class Checkpoints(Broken):
     def test_an_interrupted_render_writes_what_it_has_and_goes_on(self):
         options = [*SIZE, "--spp", 80, "--aov", "denoising"]
         whole, seconds = self.unbroken(*options)
-        self.assertEqual(self.broken(0.6 * seconds, *options, by=signal.SIGINT), 130)
+        # The machine may be less busy than it was: a render that ends before is broken sooner.
+        self.assertIn(130, (self.broken(part * seconds, *options, by=signal.SIGINT) for part in (0.6, 0.4, 0.3)))
         partly = Exr(self.output)
         self.assertEqual(partly.texts["fragtrace:interrupted"], "1")
         self.assertTrue(self.checkpoint.exists())
