@@ -82,7 +82,7 @@ class Materials(Case):
         self.ends_well(viewer, viewer.close())
 
     def test_lights_too_and_what_needs_another_program(self):
-        viewer = self.start("lights", "--watch")
+        viewer = self.start("lights")
         whole = self.picture(viewer)
         viewer.click("section Scene")
         viewer.click("lights")

@@ -96,6 +96,7 @@ class Window {
   Errand asked_ = Errand::None;        ///< why: Open, SaveAs, SaveModel
   std::filesystem::path savedFolder_;  ///< folder of the latest picture written; empty: none was
   std::vector<SetNumber> saved_;       ///< numbers that the latest model was written with
+  bool savesShown_ = false;            ///< over the file that is shown
   std::map<std::filesystem::path, GlTexture> thumbnails_;
   std::set<std::filesystem::path> askedThumbnails_;
   ViewState state_;

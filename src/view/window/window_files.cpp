@@ -96,7 +96,11 @@ void Window::takeFile() {
   if (!passes(filter, file))
     return say("not written: " + file.extension().string() + " is not among " + filter.name);
   ask();
-  if (asked_ == Errand::SaveModel) return exchange_.saveModel(file);
+  if (asked_ == Errand::SaveModel) {
+    std::error_code none;
+    savesShown_ = std::filesystem::equivalent(file, state_.scene->options.scene, none);
+    return exchange_.saveModel(file);
+  }
   savedFolder_ = file.parent_path();
   save(file);
 }

@@ -172,7 +172,11 @@ void Window::say(const std::string& message) {
 void Window::take() {
   Delivery news = exchange_.take();
   if (news.failure) std::rethrow_exception(news.failure);
-  if (news.saved) saved_ = std::move(*news.saved);
+  if (news.saved) {
+    saved_ = std::move(*news.saved);
+    // What is shown is then what the file has.
+    if (std::exchange(savesShown_, false) && state_.scene) load(state_.scene->options);
+  }
   if (news.scene) adoptScene(std::move(*news.scene));
   takePictures(std::move(news.pictures));
   if (news.bounds && state_.scene) state_.scene->bounds = *news.bounds;
