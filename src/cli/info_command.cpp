@@ -14,7 +14,7 @@
 #include "options/parse_render.h"
 #include "pack/gpu_scene.h"
 #include "pack/pack_grid.h"
-#include "scene/odd_content.h"
+#include "scene/describe.h"
 #include "scene/parts.h"
 #include "scene/volume/read_grid.h"
 #include "session/scene_json.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Counts the content of a scene, for `fragtrace info` and the statistics.
+// Counts the content of a scene, for `fragtrace info` and the statistics, and says where little of it is
+// seen.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +10,7 @@
 
 #include "base/bounds.h"
 #include "scene/scene.h"
+#include "scene/selection.h"
 
 namespace fragtrace {
 
@@ -46,5 +48,13 @@ struct SceneDescription {
 
 /// Counts the content. Unlit materials do not count as emissive, since they only show their base colour.
 SceneDescription describe(const Scene& scene);
+
+/// Says that what is selected of the scene has nothing to draw; empty: it has.
+std::string whyEmpty(const Scene& scene, const SceneSelection& selection);
+
+/// Says which node reaches so far beyond nearly all triangles that they are a dot where the whole scene is
+/// framed; empty: none does. Looks at a sample of the triangles, and at all of them only where there is such
+/// a node.
+std::string strayNode(const Scene& scene);
 
 }  // namespace fragtrace

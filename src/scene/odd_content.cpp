@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/odd_content.h"
-
+// Sentences about scenes of which little or nothing is seen.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "base/text.h"
+#include "scene/describe.h"
 #include "scene/parts.h"
 
 namespace fragtrace {
