@@ -26,7 +26,7 @@ struct MeshPose {
   size_t jointCount = 0;        ///< joints in the skin that bends it; 0: none does
   std::vector<double> weights;  ///< a weight per morph target; those left out are 0
 
-  auto operator<=>(const MeshPose&) const = default;
+  auto operator<=>(const MeshPose&) const = default;  // NOLINT(modernize-use-nullptr): it is none
 };
 
 /// Decodes /meshes/MESH/primitives/PRIMITIVE with its morph targets applied; primitives

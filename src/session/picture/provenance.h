@@ -16,7 +16,7 @@ struct SampleRange {
   int64_t first = 0;
   int64_t count = 0;
 
-  auto operator<=>(const SampleRange&) const = default;
+  auto operator<=>(const SampleRange&) const = default;  // NOLINT(modernize-use-nullptr): it is none
 };
 
 /// The string attributes fragtrace:settings, :seed, :sampleOffset, :samples, :uniform and, if these do not
