@@ -169,6 +169,7 @@ void moveSun(SkyOptions& sky, const glm::dvec2& degrees) {
   placeSun(sky, sun);
 }
 
+// NOLINTNEXTLINE(readability-function-size): a table
 bool changePicture(ViewState& state, const Control& control, const Movement& m) {
   RenderOptions& o = state.options();
   switch (control.action) {

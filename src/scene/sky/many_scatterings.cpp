@@ -137,9 +137,10 @@ Spectrum scatteredOften(const Atmosphere& air, const AirTable& table, double alb
   const RayWalk walk{air, table, albedo, radius, sunCosine, steps.steps};
   const Quadrature along = quadratureOf(steps.steps);
   const Quadrature heights = quadratureOf(steps.directions);
+  const int count = steps.directions / 2;
   std::vector<double> turns;
-  for (int i = 0; i < steps.directions / 2; ++i)
-    turns.push_back(kHalfTurn * (i + 0.5) / (steps.directions / 2));
+  turns.reserve(size_t(count));
+  for (int i = 0; i < count; ++i) turns.push_back(kHalfTurn * (i + 0.5) / count);
   // The means over all directions, above the horizon and below.
   const double horizon = -std::sqrt(std::max(0.0, 1.0 - kGroundRadius * kGroundRadius / (radius * radius)));
   ScatteredSums sums;
