@@ -20,7 +20,7 @@ void* makeFence();
 void awaitFence(void* fence);
 bool isSignalled(void* fence);
 /// Waits for the fence and releases it. Without a fence it waits for all commands of this context. The thread
-/// sleeps for most of the expected time (0: not known), and between looks at the fence, because NVIDIA's
+/// sleeps for half of the expected time (0: not known), and between looks at the fence, because NVIDIA's
 /// driver keeps a processor busy while it waits.
 void finishFence(void* fence, double expectedMs = 0.0);
 void releaseFence(void* fence);

@@ -40,7 +40,7 @@ TEST(UpAxis, TheTurnIsTheShortestRotation) {
 }
 
 TEST(UpAxis, ThreeLevelPointsGiveTheNearerDirection) {
-  // Of a plane that rises by a third of a metre a metre along x; the file is turned already.
+  // The points are of a plane that rises by a third of a metre per metre along x; the file is turned already.
   const glm::dvec3 up{0.0, 0.0, 1.0};
   const glm::dvec3 wanted = glm::normalize(glm::dvec3(-1, 0, 3));  // in the file's space
   std::array<glm::dvec3, 3> points;

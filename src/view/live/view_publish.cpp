@@ -90,7 +90,8 @@ bool ViewTracer::show(Side& side, bool past, const std::function<bool()>& goOn) 
   const bool filtered = denoises(side);
   const double pixels = double(side.film->size().x) * side.film->size().y;
   const bool byOidn = denoisesByOidn(side);
-  const Showing showing{filtered, byOidn, side.samples, past, filtered ? filterMsPerPixel_ * pixels : 0.0};
+  const double expectedMs = filtered && !byOidn ? filterMsPerPixel_ * pixels : 0.0;
+  const Showing showing{filtered, byOidn, side.samples, past, expectedMs};
   bool complete = false;
   try {
     complete = maker_->show(*side.film, showing, side.options, tracer, side.view, side.memory, into, goOn);
@@ -104,7 +105,7 @@ bool ViewTracer::show(Side& side, bool past, const std::function<bool()>& goOn) 
   }
   if (complete) side.shownIn = slot;
   if (!filtered) return complete;
-  waitForDevice(context_->software ? 0.0 : showing.expectedMs);
+  waitForDevice(context_->software ? 0.0 : expectedMs);
   side.filterMs = steadyMilliseconds() - start;
   if (!byOidn) filterMsPerPixel_ = side.filterMs / pixels;
   return complete;

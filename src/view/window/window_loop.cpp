@@ -174,7 +174,7 @@ void Window::take() {
   if (news.failure) std::rethrow_exception(news.failure);
   if (news.saved) {
     saved_ = std::move(*news.saved);
-    // What is shown is then what the file has.
+    // The window then shows the numbers of the file.
     if (std::exchange(savesShown_, false) && state_.scene) load(state_.scene->options);
   }
   if (news.scene) adoptScene(std::move(*news.scene));
