@@ -96,7 +96,6 @@ class Window {
   Errand asked_ = Errand::None;        ///< why: Open, SaveAs, SaveModel
   std::filesystem::path savedFolder_;  ///< folder of the latest picture written; empty: none was
   std::vector<SetNumber> saved_;       ///< numbers that the latest model was written with
-  bool savesShown_ = false;            ///< over the file that is shown
   std::map<std::filesystem::path, GlTexture> thumbnails_;
   std::set<std::filesystem::path> askedThumbnails_;
   ViewState state_;
@@ -119,6 +118,7 @@ class Window {
   double fades_ = 1e30;        ///< when a message is to be drawn paler
   std::vector<RenderOptions> askedSides_;
   glm::ivec2 askedSize_{0};
+  bool savesShown_ = false;  ///< a model is written over the file that is shown
   bool askedMoving_ = false;
   uint64_t picksAsked_ = 0;
   uint64_t picksAnswered_ = 0;   ///< picks that are answered or taken back
