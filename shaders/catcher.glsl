@@ -107,7 +107,7 @@ Path endShadow(Path p) {
 /// The guides of the catcher are white and level, so that a filter does not take it for empty surroundings.
 Path guideAtCatcher(Path p) {
   float t = catcherDistance(p.origin, p.direction);
-  p = takeGuide(p, t * dot(p.direction, frame.cameraForward) * frame.metresPerUnit, vec3(0.0, 1.0, 0.0));
+  p = takeGuide(p, depthAlong(p.direction, t), vec3(0.0, 1.0, 0.0));
   return guideStop(p, vec3(1.0));
 }
 

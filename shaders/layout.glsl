@@ -233,7 +233,7 @@ const float kLightDirectional = 2.0f;
 struct Frame {
   vec3 cameraPosition;  // local space
   float orthographic;   // 1, or 0 for a perspective camera
-  vec3 cameraRight;     // half of the view's width, at distance 1, or in local space when orthographic
+  vec3 cameraRight;     // half of the view's width: at distance 1, local space (orthographic), radians (round)
   float firstInMiddle;  // 1 when the first sample is in the middle of its pixel
   vec3 cameraUp;        // half of the view's height
   float cameraMedium;   // 1 + the material of the scattering solid that the camera stands in, or 0
@@ -268,6 +268,7 @@ struct Frame {
   vec3 catcherIrradiance;   // of the shadow catcher by the environment when nothing is in the way
   float environmentScale;   // factor of the environment's radiance
   vec4 lens;                // of the camera, local space: radius, distance in focus along the view; blades
+  vec4 lensShift;           // x, y: the middle of the picture, in halves of its width and height
 };
 
 // Fog in a ball round the scene (media/fog.glsl); std140.

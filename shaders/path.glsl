@@ -7,6 +7,7 @@ const bool kScatters = kGi || kReflections || kRefraction;
 /// The AOV is a number of a part of the scene. Such numbers have no mean: they are those of the pixel's middle.
 const bool kIdAov = kAov == kAovObject || kAov == kAovMaterial;
 
+const float kAboveAll = 1.0e6;  // local space
 const uint kCameraDimensions = 0u;
 const uint kChannelDimension = 2u;  // one number a path
 const uint kLensDimensions = 4u;
@@ -112,6 +113,23 @@ Path pathAlong(vec3 origin, vec3 direction, Sampler sampler, int steps) {
   return extend(p);
 }
 
+/// The ray of a panorama or a fisheye.
+CameraRay roundCameraRay(vec2 point) {
+  vec2 angles = point * vec2(length(frame.cameraRight), length(frame.cameraUp));
+  vec3 d = kPanorama ? panoramaDirection(point.x, point.y) : fisheyeDirection(angles.x, angles.y);
+  CameraRay r;
+  r.origin = frame.cameraPosition;
+  r.direction = normalize(d.x * normalize(frame.cameraRight) + d.y * normalize(frame.cameraUp) +
+                          d.z * frame.cameraForward);
+  return r;
+}
+
+/// Returns true if the point of the picture lies in the circle of the fisheye, which touches the nearer edges.
+bool withinFisheye(vec2 point) {
+  vec2 whole = vec2(length(frame.cameraRight), length(frame.cameraUp));
+  return length(point * whole) <= min(whole.x, whole.y);
+}
+
 Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   Sampler sampler = makeSampler(key, sampleIndex);
   vec2 place = vec2(inPicture(pixel)) + 0.5;
@@ -122,16 +140,29 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
     if (!middle) place += samplePixelFilter(kPixelFilter, jitter.x, jitter.y);
   }
   vec2 point = place / vec2(frame.pictureSize) * 2.0 - 1.0;
-  CameraRay ray = makeCameraRay(frame.cameraPosition, frame.cameraRight, frame.cameraUp,
-                                frame.cameraForward, frame.orthographic != 0.0, point.x, point.y);
+  if (kLensShift) point += frame.lensShift.xy;
+  CameraRay ray;
+  if (kPanorama || kFisheye) {
+    ray = roundCameraRay(point);
+  } else {
+    ray = makeCameraRay(frame.cameraPosition, frame.cameraRight, frame.cameraUp,
+                        frame.cameraForward, frame.orthographic != 0.0, point.x, point.y);
+  }
   if (kLens && !kIdAov && frame.lens.x > 0.0) {
     vec2 uv = drawPair(sampler, kLensDimensions);
     vec2 lens = frame.lens.x * sampleAperture(uv.x, uv.y, int(frame.lens.z));
     ray = throughLens(ray, frame.cameraRight, frame.cameraUp, frame.cameraForward, lens, frame.lens.y);
   }
+  // Outside of the fisheye's circle the ray goes up from above all, and meetSurroundings() gives it no light.
+  if (kFisheye && !withinFisheye(point)) ray = CameraRay(vec3(0.0, kAboveAll, 0.0), vec3(0.0, 1.0, 0.0));
   Path p = pathAlong(ray.origin, ray.direction, sampler, steps);
   p.pixel = pixel;
   return p;
+}
+
+/// The depth of a point at a distance along the camera's ray, in metres.
+float depthAlong(vec3 direction, float t) {
+  return (kPanorama || kFisheye ? t : t * dot(direction, frame.cameraForward)) * frame.metresPerUnit;
 }
 
 /// Adds light, or the share of it that belongs to the AOV.
@@ -187,6 +218,7 @@ vec3 seenBehind(vec3 direction) {
 Path meetSurroundings(Path p) {
   p.phase = kPhaseEnd;
   if (!kDrawsLight || kLightPaths) return p;
+  if (kFisheye && p.cameraRay && p.origin.y == kAboveAll) return p;
   if (p.cameraRay) return addLight(p, p.throughput * seenBehind(p.direction));
   if (!kEnvironment) return p;
   // Surroundings are outside of everything: who has left less than was entered has missed a face that touches another.

@@ -183,8 +183,9 @@ vec3 lightThrough(Surface s, vec3 baseColor, vec3 direction) {
   return straightThrough(b, toFrame(around, -direction));
 }
 
-/// Metres along the view axis.
+/// Metres along the view axis, or from a panorama or a fisheye.
 float depthOf(Surface s) {
+  if (kPanorama || kFisheye) return length(s.position - frame.cameraPosition) * frame.metresPerUnit;
   return dot(s.position - frame.cameraPosition, frame.cameraForward) * frame.metresPerUnit;
 }
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "scene/ray.h"
+#include "scene/local_space.h"
 #include "scene/scene.h"
 
 namespace fragtrace {

@@ -10,7 +10,7 @@
 #include "gl/context.h"
 #include "gl/program.h"
 #include "gl/scene_buffers.h"
-#include "scene/ray.h"
+#include "scene/local_space.h"
 
 namespace fragtrace {
 

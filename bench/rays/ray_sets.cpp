@@ -93,7 +93,7 @@ std::vector<Ray> primaryRays(const Camera& camera, const LocalSpace& space, glm:
   for (int y = 0; y < size.y; ++y) {
     for (int x = 0; x < size.x; ++x) {
       const glm::dvec2 place = 2.0 * (glm::dvec2(x, y) + 0.5) / glm::dvec2(size) - 1.0;
-      rays.push_back(rayThrough(projection, space, place));
+      if (const std::optional<Ray> ray = rayThrough(projection, space, place)) rays.push_back(*ray);
     }
   }
   return rays;

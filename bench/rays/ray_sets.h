@@ -9,7 +9,7 @@
 
 #include "bvh/exact_tracer.h"
 #include "scene/camera.h"
-#include "scene/ray.h"
+#include "scene/local_space.h"
 
 namespace fragtrace {
 

@@ -12,9 +12,29 @@ struct SeenFrom {
   float importance;  // of the light it sends there, a unit of its area seen from there; 0: it is not seen
 };
 
+/// The panorama or the fisheye as seen from a point.
+SeenFrom roundCameraFrom(vec3 point) {
+  vec2 whole = vec2(length(frame.cameraRight), length(frame.cameraUp));
+  vec3 from = point - frame.cameraPosition;
+  SeenFrom c;
+  c.distance = length(from);
+  vec3 away = from / max(c.distance, 1e-30);
+  c.direction = -away;
+  vec3 d = vec3(dot(away, frame.cameraRight) / whole.x, dot(away, frame.cameraUp) / whole.y,
+                dot(away, frame.cameraForward));
+  vec2 place = kPanorama ? panoramaPlace(d) : fisheyePlace(d) / whole;
+  float spread = kPanorama ? panoramaSpread(d) : fisheyeSpread(d) * whole.x * whole.y;
+  float pixelAngle = 4.0 * spread / (float(frame.pictureSize.x) * float(frame.pictureSize.y));
+  bool seen = c.distance > 0.0 && pixelAngle > 0.0 && (kPanorama || withinFisheye(place));
+  c.importance = seen ? 1.0 / (pixelAngle * c.distance * c.distance) : 0.0;
+  c.place = (0.5 * place + 0.5) * vec2(frame.pictureSize);
+  return c;
+}
+
 /// lens: a point of the aperture, in local space along right and up. The film is the plane in focus as seen from there
 /// (throughLens of camera.glsl).
 SeenFrom cameraFrom(vec3 point, vec2 lens) {
+  if (kPanorama || kFisheye) return roundCameraFrom(point);
   vec3 right = frame.cameraRight;
   vec3 up = frame.cameraUp;
   vec3 forward = frame.cameraForward;
@@ -39,6 +59,7 @@ SeenFrom cameraFrom(vec3 point, vec2 lens) {
     c.importance = cosine > 1e-9 ? 1.0 / (pixelArea * cosine * cosine * cosine * c.distance * c.distance) : 0.0;
   }
   vec2 place = vec2(dot(onFilm, right) / dot(right, right), dot(onFilm, up) / dot(up, up));
+  if (kLensShift) place -= frame.lensShift.xy;
   c.place = (0.5 * place + 0.5) * vec2(frame.pictureSize);
   bool inside = all(greaterThan(c.place, vec2(-kFilterReach))) &&
                 all(lessThan(c.place, vec2(frame.pictureSize) + kFilterReach));

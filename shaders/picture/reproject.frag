@@ -2,6 +2,8 @@
 // Takes from a past picture its values at the points that the present one shows (src/render/seen_picture.h). Places and
 // points are relative to the present camera's position.
 #include "picture/picture.glsl"
+#include "sampling.glsl"
+#include "round_camera.glsl"
 
 layout(binding = 0) uniform sampler2D radiances;  // of the present, as film.frag leaves these
 layout(binding = 1) uniform sampler2D counts;
@@ -13,7 +15,8 @@ layout(binding = 6) uniform sampler2D pastAlbedos;
 layout(binding = 7) uniform sampler2D pastNormals;
 layout(location = 1) uniform ivec2 pastSize;
 // Two cameras, present and past: position, half of the width (at distance 1 for a perspective), half of the height,
-// forward. w of the last is not 0 for a perspective.
+// forward. w of these: none, the shift of the lens along x, along y, and the type of camera (CameraType in
+// src/scene/scene.h).
 layout(location = 2) uniform vec4 cameras[8];
 
 layout(location = 0) out vec4 past;   // light at the present albedo, and the variance of its luminance
@@ -26,6 +29,9 @@ const float kNormalAlike = 0.9;    // cosine
 const float kAlbedoApart = 0.15;   // a channel
 const float kCovered = 0.5;        // of the samples of a pixel: it shows a surface
 const float kEnoughOfFour = 0.25;  // weight of the taps that fit, for the past to count
+
+const float kPerspectiveType = 0.0;
+const float kPanoramaType = 2.0;  // and above: a fisheye
 
 /// The surface that a part of a pixel shows.
 struct Surface {
@@ -45,8 +51,16 @@ vec3 divisorOf(Surface s) { return mix(max(s.albedo, vec3(0.0)), vec3(1.0), kAlb
 /// The point in the middle of a pixel.
 vec3 pointAt(vec2 pixel, float depth) {
   vec2 place = 2.0 * pixel / vec2(size) - 1.0;
+  if (cameras[3].w >= kPanoramaType) {
+    vec2 whole = vec2(length(cameras[1].xyz), length(cameras[2].xyz));
+    vec2 angles = place * whole;
+    vec3 d = cameras[3].w == kPanoramaType ? panoramaDirection(place.x, place.y) : fisheyeDirection(angles.x, angles.y);
+    vec3 aside = d.x * (cameras[1].xyz / whole.x) + d.y * (cameras[2].xyz / whole.y);
+    return cameras[0].xyz + depth * (aside + d.z * cameras[3].xyz);
+  }
+  place += vec2(cameras[1].w, cameras[2].w);
   vec3 aside = place.x * cameras[1].xyz + place.y * cameras[2].xyz;
-  return cameras[0].xyz + depth * cameras[3].xyz + (cameras[3].w > 0.0 ? depth : 1.0) * aside;
+  return cameras[0].xyz + depth * cameras[3].xyz + (cameras[3].w == kPerspectiveType ? depth : 1.0) * aside;
 }
 
 bool showsTheSame(Surface now, float depth, Surface before) {
@@ -70,9 +84,18 @@ Known knownOf(Surface now, vec3 point) {
   float depth = dot(view, cameras[7].xyz);
   vec3 right = cameras[5].xyz;
   vec3 up = cameras[6].xyz;
-  float w = cameras[7].w > 0.0 ? depth : 1.0;
-  if (!(w > 0.0)) return known;
-  vec2 place = vec2(dot(view, right) / dot(right, right), dot(view, up) / dot(up, up)) / w;
+  vec2 place;
+  if (cameras[7].w >= kPanoramaType) {
+    vec2 whole = vec2(length(right), length(up));
+    vec3 d = vec3(dot(view, right) / whole.x, dot(view, up) / whole.y, depth);
+    place = cameras[7].w == kPanoramaType ? panoramaPlace(d) : fisheyePlace(d) / whole;
+    depth = length(view);
+  } else {
+    float w = cameras[7].w == kPerspectiveType ? depth : 1.0;
+    if (!(w > 0.0)) return known;
+    place = vec2(dot(view, right) / dot(right, right), dot(view, up) / dot(up, up)) / w;
+    place -= vec2(cameras[5].w, cameras[6].w);
+  }
   vec2 at = (0.5 + 0.5 * place) * vec2(pastSize) - 0.5;
   if (!(all(greaterThan(at, vec2(-1.0))) && all(lessThan(at, vec2(pastSize))))) return known;
   ivec2 corner = ivec2(floor(at));

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bvh/bvh.h"
-#include "scene/ray.h"
+#include "scene/local_space.h"
 #include "scene/scene.h"
 
 namespace fragtrace {

@@ -19,8 +19,10 @@ const PrimitiveOrigin* originOf(const Scene& scene, uint32_t triangle) {
 
 std::optional<Pick> pickAt(const Scene& scene, const Bvh& bvh, const Projection& projection,
                            const glm::dvec2& place) {
+  const std::optional<Ray> through = rayThrough(projection, scene.space, place);
+  if (!through) return std::nullopt;
+  const Ray& ray = *through;
   const ExactTracer tracer(scene, bvh);
-  const Ray ray = rayThrough(projection, scene.space, place);
   const ExactHit hit = tracer.nearest(ray);
   if (hit.primitive == kMissIndex) return std::nullopt;
   Pick pick;

@@ -60,7 +60,7 @@ void printParts(const char* what, const std::vector<std::string>& names,
   std::printf("  %-11s %zu: %s\n", what, names.size(), list.c_str());
 }
 
-const char* kindOf(const Camera& camera) { return camera.perspective ? "perspective" : "orthographic"; }
+const char* kindOf(const Camera& camera) { return kCameraTypeNames[size_t(camera.type)].data(); }
 
 void printAllParts(const Scene& scene) {
   std::vector<std::string> cameras;

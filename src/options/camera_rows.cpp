@@ -77,10 +77,19 @@ OptionRow regionRow() {
       {.effect = Effect::Picture, .copied = false, .group = OptionGroup::Output}, NumberRange<int>{0, 65536});
 }
 
+glm::dvec2 lensShiftOf(const std::vector<double>& values) {
+  constexpr double kFarthestShift = 10.0;
+  const glm::dvec2 shift(values[0], values[1]);
+  if (!(std::max(std::abs(shift.x), std::abs(shift.y)) <= kFarthestShift))
+    throw UsageError("--lens-shift: is not between -10 and 10");
+  return shift;
+}
+
 }  // namespace
 
 std::vector<OptionRow> cameraRows() {
   constexpr OptionTraits kView{.effect = Effect::View};
+  constexpr OptionTraits kProjection{.effect = Effect::View, .renewal = Renewal::Program};
   constexpr OptionTraits kLens{.effect = Effect::Picture, .renewal = Renewal::Program};
   return {
       numbers<int>(
@@ -111,12 +120,24 @@ std::vector<OptionRow> cameraRows() {
                 FRAGTRACE_MEMBER(camera.overrides.focalPoint), true, kView),
       vectorRow("--camera-view-up", "X,Y,Z of the direction that points up in the picture",
                 FRAGTRACE_MEMBER(camera.overrides.viewUp), false, kView),
-      numberRow<double>("--camera-view-angle", "vertical field of view in degrees, of a perspective camera",
+      choice("--camera-type",
+             "projection of the camera, {}; by default that of the scene's camera, or the one that "
+             "--camera-view-angle or --camera-parallel-scale goes with",
+             FRAGTRACE_MEMBER(camera.overrides.type), kCameraTypeNames, kProjection),
+      numberRow<double>("--camera-view-angle",
+                        "vertical field of view in degrees, of a perspective camera; of a fisheye, the angle "
+                        "of the whole circle",
                         FRAGTRACE_MEMBER(camera.overrides.viewAngleDegrees), std::nullopt, false, kView),
       numberRow<double>("--camera-parallel-scale",
                         "half of the picture's height in metres, of an orthographic camera",
                         FRAGTRACE_MEMBER(camera.overrides.parallelScale), std::nullopt, false,
                         {.effect = Effect::View, .excludes = "--camera-view-angle"}),
+      numbers<double>(
+          "--lens-shift",
+          "X,Y in parts of the picture's width and height: show what lies so much more to the right and up "
+          "without turning the camera, so that verticals stay upright",
+          FRAGTRACE_MEMBER(camera.overrides.lensShift), 2, lensShiftOf,
+          [](const glm::dvec2& n) { return numbersText(n.x, n.y); }, {"0.25,-0.5", "0,1e-07"}, kProjection),
       limit<double>("--f-stop",
                     "blur what is out of focus, as a lens of this f-number does on a sensor 24 mm high, for "
                     "example 2.8; needs a perspective camera",

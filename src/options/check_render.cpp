@@ -80,6 +80,29 @@ void checkLens(const LensOptions& lens) {
   if (!lens.fStop && lens.blades > 0) throw UsageError("--aperture-blades: goes with --f-stop");
 }
 
+/// Panoramas and fisheyes lack some of what other cameras have.
+void checkCamera(const RenderOptions& o) {
+  const CameraOverrides& asked = o.camera.overrides;
+  if (!asked.type) return;
+  const CameraType type = *asked.type;
+  const std::string a = std::string(kCameraTypeNames[size_t(type)]);
+  const auto refuse = [&](bool given, const char* option, const char* whose) {
+    if (given) throw UsageError(std::string(option) + ": is of " + whose + ", not of --camera-type " + a);
+  };
+  const bool hasAngle = type == CameraType::Perspective || type == CameraType::Fisheye;
+  refuse(asked.viewAngleDegrees && !hasAngle, "--camera-view-angle", "perspective and fisheye cameras");
+  refuse(asked.parallelScale && type != CameraType::Orthographic, "--camera-parallel-scale",
+         "orthographic cameras");
+  refuse(o.camera.lens.fStop && type != CameraType::Perspective, "--f-stop", "perspective cameras");
+  if (isRectilinear(type)) return;
+  const char* const others = "perspective and orthographic cameras";
+  refuse(asked.lensShift.has_value(), "--lens-shift", others);
+  refuse(asked.fit, "--fit", others);
+  refuse(o.output.treeLevel.has_value(), "--tree-level", others);
+  refuse(asked.orbit && asked.orbit->zoom != 1.0 && type == CameraType::Panorama,
+         "--camera-orbit with a zoom", "other cameras");
+}
+
 void checkFog(const RenderOptions& o) {
   for (const char* name : {"--fog-color", "--fog-anisotropy", "--fog-height", "--fog-distance"}) {
     if (o.fog.density <= 0.0 && !rowOf(name).isDefault(o))
@@ -121,6 +144,8 @@ void checkLightPaths(const RenderOptions& o) {
     throw UsageError("--caustics on: light paths cannot be clamped (--clamp-indirect)");
   if (o.light.shadowCatcher)
     throw UsageError("--caustics on: a shadow catcher shows no caustics (--shadow-catcher)");
+  if (o.camera.overrides.type == CameraType::Panorama && o.camera.pixelFilter != PixelFilter::Box)
+    throw UsageError("--caustics on: light paths of a panorama need --pixel-filter box");
   if (std::ranges::any_of(o.output.aovs, isPathAov))
     throw UsageError("--caustics on: emission, diffuse and specular (--aov) would not add up to the picture");
 }
@@ -159,6 +184,7 @@ RenderOptions finishRender(const RawRender& raw) {
   if (raw.noDefaultLight) o.light.defaultLight = DefaultLight::None;
   o.sampling.spp = samplesOf(raw);
   checkLens(o.camera.lens);
+  checkCamera(o);
   checkStudio(o.light);
   checkSky(o);
   checkFog(o);

@@ -32,10 +32,21 @@ RenderOptions parseCommand(const std::string& name, std::vector<std::string> wor
   return finishConfigured(raw.render, raw.config, app);
 }
 
-constexpr const char* kView[] = {
-    "--camera-index",       "--camera",          "--camera-position",   "--camera-orbit",          "--fit",
-    "--camera-focal-point", "--camera-view-up",  "--camera-view-angle", "--camera-parallel-scale", "--f-stop",
-    "--focus-distance",     "--aperture-blades", "--scene-origin"};
+constexpr const char* kView[] = {"--camera-index",
+                                 "--camera",
+                                 "--camera-position",
+                                 "--camera-orbit",
+                                 "--fit",
+                                 "--camera-focal-point",
+                                 "--camera-view-up",
+                                 "--camera-view-angle",
+                                 "--camera-parallel-scale",
+                                 "--camera-type",
+                                 "--lens-shift",
+                                 "--f-stop",
+                                 "--focus-distance",
+                                 "--aperture-blades",
+                                 "--scene-origin"};
 constexpr const char* kSize = "--resolution";
 
 }  // namespace

@@ -66,6 +66,9 @@ RenderOptions programOptions(RenderOptions options) {
   reset(options, [](const OptionRow& row) { return row.traits.renewal == Renewal::None; });
   // A program has fog or has none; how dense it is depends on the draw.
   if (options.fog.density > 0.0) options.fog.density = 1.0;
+  // The same is true of the shift of a lens.
+  std::optional<glm::dvec2>& shift = options.camera.overrides.lensShift;
+  if (shift) shift = *shift == glm::dvec2(0.0) ? std::nullopt : std::optional(glm::dvec2(1.0));
   return options;
 }
 

@@ -137,8 +137,17 @@ void addWord(CLI::App& app, const OptionRow& row, RawRender& raw, const Take& ta
   if (row.traits.excludes != nullptr) option->excludes(row.traits.excludes);
 }
 
-/// One of some names, in the order of the values. {} in the help stands for the names; without it they
-/// follow.
+template <typename Value>
+struct NamedValue {
+  using Type = Value;
+};
+template <typename Value>
+struct NamedValue<std::optional<Value>> {
+  using Type = Value;
+};
+
+/// One of some names, in the order of the values, or of none. {} in the help stands for the names; without it
+/// they follow.
 template <typename Names, typename Member>
 OptionRow choice(const char* name, std::string help, Member member, const Names& names, OptionTraits traits) {
   const size_t place = help.find("{}");
@@ -149,14 +158,15 @@ OptionRow choice(const char* name, std::string help, Member member, const Names&
   OptionRow row = memberRow(name, std::move(help), member, traits);
   row.examples.assign(names.begin(), names.end());
   row.words = [member, known = row.examples](const RenderOptions& o) {
-    return std::vector{known[size_t(member(o))]};
+    return std::vector{known[size_t(*std::optional(member(o)))]};
   };
   row.add = [member, known = row.examples](CLI::App& app, const OptionRow& r, RawRender& raw) {
-    using Value = std::remove_cvref_t<decltype(member(raw.options))>;
+    using Value = typename NamedValue<std::remove_cvref_t<decltype(member(raw.options))>>::Type;
     addWord(app, r, raw, [member, known, name = r.name](RenderOptions& o, const std::string& word) {
       member(o) = choose<Value>(name, word, known);
     });
-    app.get_option(r.name)->default_str(known[size_t(member(raw.options))]);
+    const std::optional<Value> standard = member(raw.options);
+    if (standard) app.get_option(r.name)->default_str(known[size_t(*standard)]);
   };
   return row;
 }

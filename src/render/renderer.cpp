@@ -8,6 +8,7 @@
 #include <deque>
 
 #include "base/errors.h"
+#include "scene/projection.h"
 
 namespace fragtrace {
 
@@ -30,12 +31,6 @@ constexpr double kHardwareDrawMs = 20.0;
 
 constexpr int kTinyTile = 8;        // pixels
 constexpr uint32_t kGroupSide = 8;  // lanes a side of a work group, as in trace.comp
-
-/// Half extents of the view at distance 1 (perspective) or in local space (orthographic).
-glm::dvec2 halfExtents(const Camera& camera, double unit, glm::ivec2 size) {
-  const double height = camera.perspective ? std::tan(0.5 * camera.fovY) : camera.halfHeight / unit;
-  return {height * size.x / size.y, height};
-}
 
 layout::Fog packFog(const Fog& fog, const LocalSpace& space) {
   const double falls = std::isfinite(fog.height) ? space.unit / fog.height : 0.0;
@@ -125,11 +120,11 @@ void Renderer::describeScene(const GpuScene& scene) {
 void Renderer::setFrame(const Film& film, const View& view) {
   const Camera& camera = view.camera;
   const Placement placed = view.placement.value_or(Placement{{0, 0}, film.size()});
-  const glm::dvec2 half = halfExtents(camera, view.space.unit, placed.whole);
+  const glm::dvec2 half = halfExtents(camera, placed.whole.x, placed.whole.y, view.space.unit);
   const glm::dvec3 right = glm::normalize(glm::cross(camera.forward, camera.up));
   const glm::dvec3 up = glm::cross(right, camera.forward);
   frame_.cameraPosition = view.space.localOf(camera.position);
-  frame_.orthographic = camera.perspective ? 0.0f : 1.0f;
+  frame_.orthographic = camera.type == CameraType::Orthographic ? 1.0f : 0.0f;
   frame_.cameraRight = right * half.x;
   frame_.firstInMiddle = view.firstInMiddle ? 1.0f : 0.0f;
   frame_.cameraUp = up * half.y;
@@ -141,6 +136,7 @@ void Renderer::setFrame(const Film& film, const View& view) {
   frame_.environmentRotation = glm::dvec2(std::cos(view.hdriRotation), std::sin(view.hdriRotation));
   frame_.lens = glm::vec4(float(view.lens.radius / view.space.unit),
                           float(view.lens.focusDistance / view.space.unit), float(view.lens.blades), 0.0f);
+  frame_.lensShift = glm::vec4(2.0 * camera.shift, 0.0, 0.0);
   frame_.environmentScale = float(view.hdriIntensity);
   frame_.environmentChance = environmentChance(lightShare_, view.hdriIntensity);
   frame_.pictureSize = placed.whole;

@@ -14,9 +14,9 @@ namespace {
 void putCamera(glm::vec4* rows, const SeenPicture& picture, const glm::dvec3& origin) {
   const Projection p = projectionOf(picture.camera, double(picture.size.x) / picture.size.y);
   rows[0] = glm::vec4(glm::vec3(p.position - origin), 0.0f);
-  rows[1] = glm::vec4(glm::vec3(p.right), 0.0f);
-  rows[2] = glm::vec4(glm::vec3(p.up), 0.0f);
-  rows[3] = glm::vec4(glm::vec3(p.forward), p.perspective ? 1.0f : 0.0f);
+  rows[1] = glm::vec4(glm::vec3(p.right), p.shift.x);
+  rows[2] = glm::vec4(glm::vec3(p.up), p.shift.y);
+  rows[3] = glm::vec4(glm::vec3(p.forward), float(p.type));
 }
 
 }  // namespace

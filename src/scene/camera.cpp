@@ -14,16 +14,12 @@
 namespace fragtrace {
 namespace {
 
-double radiusOf(const BoundsDouble& bounds) {
-  const double radius = 0.5 * glm::length(bounds.extent());
-  return radius > 0.0 && std::isfinite(radius) ? radius : 1.0;
-}
+/// Below this sine of their angle, two directions count as parallel: what would be left is mostly rounding.
+constexpr double kParallelSine = 1e-9;
 
 /// The part of `up` that is orthogonal to a unit `forward`. If `up` is parallel to it, the first of the axes
 /// y, z, x that is not takes its place.
 glm::dvec3 orthogonalUp(const glm::dvec3& up, const glm::dvec3& forward) {
-  // Below this sine of their angle, two directions count as parallel: what would be left is mostly rounding.
-  constexpr double kParallelSine = 1e-9;
   const std::array<glm::dvec3, 4> candidates = {up, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
   for (const glm::dvec3& candidate : candidates) {
     const glm::dvec3 rejected = candidate - glm::dot(candidate, forward) * forward;
@@ -52,26 +48,70 @@ glm::dvec3 levelOutwards(const Orbit& orbit) {
   return {std::sin(azimuth), 0.0, std::cos(azimuth)};
 }
 
+/// The camera with the lens that is asked for, whose view keeps its size at `distance`, in metres.
+Camera withLens(Camera camera, const CameraOverrides& overrides, double distance) {
+  const double halfHeight = distance * std::tan(0.5 * camera.fovY);
+  const CameraType before = camera.type;
+  if (overrides.viewAngleDegrees) camera.type = CameraType::Perspective;
+  if (overrides.parallelScale) camera.type = CameraType::Orthographic;
+  if (overrides.viewAngleDegrees && overrides.parallelScale)
+    throw UsageError(
+        "--camera-parallel-scale: is of an orthographic view, --camera-view-angle of a perspective");
+  camera.type = overrides.type.value_or(camera.type);
+  const bool fisheye = camera.type == CameraType::Fisheye;
+  if (fisheye) camera.fovY = glm::pi<double>();
+  if (fisheye) camera.aspectRatio = 1.0;
+  if (camera.type == CameraType::Panorama) {
+    camera.aspectRatio = 2.0;
+    const glm::dvec3 up = glm::normalize(overrides.viewUp.value_or(kVertical));
+    const bool level = glm::length(glm::cross(camera.forward, up)) > kParallelSine;
+    camera.forward = orthogonalUp(level ? camera.forward : camera.up, up);
+    camera.up = up;
+  }
+  if (overrides.viewAngleDegrees) {
+    const double degrees = *overrides.viewAngleDegrees;
+    if (!(degrees > 0.0 && (fisheye ? degrees <= 360.0 : degrees < 180.0)))
+      throw UsageError("--camera-view-angle: is not between 0 and " + std::string(fisheye ? "360" : "180") +
+                       " degrees");
+    camera.fovY = glm::radians(degrees);
+  }
+  if (camera.type == CameraType::Orthographic && before != camera.type) camera.halfHeight = halfHeight;
+  if (overrides.parallelScale) {
+    camera.halfHeight = *overrides.parallelScale;
+    if (!(camera.halfHeight > 0.0 && std::isfinite(camera.halfHeight)))
+      throw UsageError("--camera-parallel-scale: is not above 0");
+  }
+  camera.shift = overrides.lensShift.value_or(camera.shift);
+  return camera;
+}
+
 /// Puts the camera's lens on the sphere about the point at which it looks.
 Camera orbiting(const Camera& lens, const Orbit& orbit, const CameraOverrides& overrides,
                 const BoundsDouble& bounds, double aspectRatio) {
-  const CameraOverrides ofLens{.viewAngleDegrees = overrides.viewAngleDegrees,
-                               .parallelScale = overrides.parallelScale};
-  Camera camera = withOverrides(lens, ofLens, bounds);
+  // A round view is as far away as the perspective that it takes the place of.
+  const bool round = overrides.type && !isRectilinear(*overrides.type);
+  const double distanceOfLens = glm::distance(focalPointOf(lens, bounds), lens.position);
+  Camera camera = round ? lens : withLens(lens, overrides, distanceOfLens);
   const double elevation = glm::radians(orbit.elevationDegrees);
   camera.forward = -outwardsOf(orbit);
   camera.up = std::cos(elevation) * kVertical - std::sin(elevation) * levelOutwards(orbit);
   if (overrides.viewUp) camera.up = orthogonalUp(*overrides.viewUp, camera.forward);
   double distance = 2.0 * radiusOf(bounds);
-  if (camera.perspective)
+  if (camera.type == CameraType::Perspective)
     distance = framingDistance(camera.fovY, aspectRatio, bounds);
   else if (!overrides.parallelScale)
     camera.halfHeight = radiusOf(bounds) / std::min(1.0, aspectRatio);
   camera.position = overrides.focalPoint.value_or(centerOf(bounds)) - camera.forward * distance;
+  if (round) camera = withLens(camera, overrides, distance);
   return overrides.fit ? camera : zoomed(camera, orbit.zoom);
 }
 
 }  // namespace
+
+double radiusOf(const BoundsDouble& bounds) {
+  const double radius = 0.5 * glm::length(bounds.extent());
+  return radius > 0.0 && std::isfinite(radius) ? radius : 1.0;
+}
 
 glm::dvec3 outwardsOf(const Orbit& orbit) {
   const double elevation = glm::radians(orbit.elevationDegrees);
@@ -116,7 +156,10 @@ Camera withOverrides(Camera camera, const CameraOverrides& overrides, const Boun
   if (!isFinite(focalPoint) || !isFinite(position) || !isFinite(up)) {
     throw UsageError("--camera-position, --camera-focal-point and --camera-view-up: are not all finite");
   }
-  if (overrides.position || overrides.focalPoint) {
+  const bool round = overrides.type && !isRectilinear(*overrides.type);
+  if (round && overrides.position && !overrides.focalPoint) {
+    camera.position = position;
+  } else if (overrides.position || overrides.focalPoint) {
     const glm::dvec3 view = focalPoint - position;
     const double distance = glm::length(view);
     if (!(distance > 0.0)) throw UsageError("--camera-position: is the focal point, too");
@@ -125,23 +168,7 @@ Camera withOverrides(Camera camera, const CameraOverrides& overrides, const Boun
   }
   if (overrides.position || overrides.focalPoint || overrides.viewUp)
     camera.up = orthogonalUp(up, camera.forward);
-  if (overrides.viewAngleDegrees) {
-    const double degrees = *overrides.viewAngleDegrees;
-    if (!(degrees > 0.0 && degrees < 180.0))
-      throw UsageError("--camera-view-angle: is not between 0 and 180 degrees");
-    camera.fovY = glm::radians(degrees);
-    camera.perspective = true;
-  }
-  if (overrides.parallelScale) {
-    const double scale = *overrides.parallelScale;
-    if (overrides.viewAngleDegrees)
-      throw UsageError(
-          "--camera-parallel-scale: is of an orthographic view, --camera-view-angle of a perspective");
-    if (!(scale > 0.0 && std::isfinite(scale))) throw UsageError("--camera-parallel-scale: is not above 0");
-    camera.halfHeight = scale;
-    camera.perspective = false;
-  }
-  return camera;
+  return withLens(camera, overrides, glm::distance(focalPoint, camera.position));
 }
 
 double focalLengthOf(double viewAngle) {
@@ -151,7 +178,8 @@ double focalLengthOf(double viewAngle) {
 
 Camera zoomed(Camera camera, double zoom) {
   if (zoom == 1.0) return camera;  // keeps every bit
-  camera.fovY = 2.0 * std::atan(std::tan(0.5 * camera.fovY) / zoom);
+  const bool fisheye = camera.type == CameraType::Fisheye;
+  camera.fovY = fisheye ? camera.fovY / zoom : 2.0 * std::atan(std::tan(0.5 * camera.fovY) / zoom);
   camera.halfHeight /= zoom;
   return camera;
 }

@@ -28,13 +28,15 @@ inline constexpr Orbit kFirstView{.azimuthDegrees = 35.0, .elevationDegrees = 20
 /// The unit vector from the point looked at to the camera, world space.
 glm::dvec3 outwardsOf(const Orbit& orbit);
 
-/// World space, metres; the view angle is vertical.
+/// World space, metres; the view angle is vertical, or of a fisheye's circle.
 struct CameraOverrides {
+  std::optional<CameraType> type{};
   std::optional<glm::dvec3> position{};
   std::optional<glm::dvec3> focalPoint{};
   std::optional<glm::dvec3> viewUp{};
   std::optional<double> viewAngleDegrees{};
   std::optional<double> parallelScale{};  ///< half of the picture's height: an orthographic view
+  std::optional<glm::dvec2> lensShift{};  ///< to the right and up, in parts of the picture's width and height
   std::optional<Orbit> orbit{};
   bool fit = false;  ///< the camera is moved until the scene fills the picture; left to fitted() of fit.h
   /// A fit holds all of the space that the scene fills while it turns about the vertical axis through the
@@ -43,6 +45,9 @@ struct CameraOverrides {
 
   bool operator==(const CameraOverrides&) const = default;
 };
+
+/// The radius of the sphere about the bounds, or 1 where there is none.
+double radiusOf(const BoundsDouble& bounds);
 
 /// A camera that looks at the centre of the bounds with an angle of 45 degrees, from far enough that the
 /// bounding sphere fits a picture of that width / height. It looks along -z, or along the axis in which the
@@ -58,11 +63,13 @@ glm::dvec3 focalPointOf(const Camera& camera, const BoundsDouble& bounds);
 /// small near the camera; else, and without a camera, the centre, which keeps rounding small everywhere.
 glm::dvec3 recentringPoint(const std::optional<glm::dvec3>& camera, const BoundsDouble& bounds);
 
-/// Replaces the properties that are given. A position alone keeps the focal point, as in VTK. A view-up is
-/// made orthogonal to the view; one parallel to it is replaced by another axis. A view angle makes an
-/// orthographic camera perspective, and a parallel scale makes a perspective one orthographic. Throws
-/// UsageError if the position is the focal point, the angle is not between 0 and 180 degrees, the scale is
-/// not above 0, or both are given.
+/// Replaces the properties that are given. A position alone keeps the focal point, as in VTK, but of a
+/// panorama and a fisheye the direction. A view-up is made orthogonal to the view; one parallel to it is
+/// replaced by another axis. Without a type, a view angle makes an orthographic camera perspective, and a
+/// parallel scale makes a perspective one orthographic. A type alone keeps the size of what lies in the focal
+/// point's plane. A panorama is level: the view-up, or +Y, is its up, and its middle is what lies level below
+/// or above the view. It is twice as wide as high, and a fisheye square, unless the picture's size is given.
+/// Throws UsageError if the position is the focal point, or the angle or the scale is out of range.
 Camera withOverrides(Camera camera, const CameraOverrides& overrides, const BoundsDouble& bounds = {});
 
 /// The focal length of a lens that sees a vertical angle (radians) on a sensor of 35 mm film, 24 mm high;
@@ -93,7 +100,8 @@ Camera chooseCamera(std::span<const Camera> cameras, std::optional<int> index,
 Orbit firstView(const Scene& scene);
 
 /// The overrides that are asked for. firstView() is added if the scene has no camera, and neither a position
-/// nor an orbit is asked for. The scene then fills the picture, unless a focal point or a scale is asked for.
+/// nor an orbit is asked for. The scene then fills the picture, unless a focal point, a scale or a fisheye is
+/// asked for. A panorama is seen from the middle of the scene.
 CameraOverrides settledOverrides(CameraOverrides asked, const Scene& scene);
 
 }  // namespace fragtrace

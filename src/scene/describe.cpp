@@ -49,7 +49,7 @@ SceneDescription describe(const Scene& scene) {
   result.spotLights = lights(LightType::Spot);
   result.directionalLights = lights(LightType::Directional);
   for (const Camera& camera : scene.cameras) {
-    ++(camera.perspective ? result.perspectiveCameras : result.orthographicCameras);
+    ++(camera.type == CameraType::Perspective ? result.perspectiveCameras : result.orthographicCameras);
   }
   const auto shines = [&scene](const auto& primitive) {
     const Material& material = scene.materials.at(primitive.material);

@@ -76,7 +76,13 @@ Orbit firstView(const Scene& scene) {
 
 CameraOverrides settledOverrides(CameraOverrides asked, const Scene& scene) {
   if (!scene.cameras.empty() || asked.position || asked.orbit) return asked;
+  if (asked.type == CameraType::Panorama) {
+    asked.position = scene.bounds.empty() ? glm::dvec3(0.0) : scene.bounds.center();
+    if (!asked.focalPoint) asked.focalPoint = *asked.position - glm::dvec3(0.0, 0.0, radiusOf(scene.bounds));
+    return asked;
+  }
   asked.orbit = firstView(scene);
+  if (asked.type == CameraType::Fisheye) return asked;
   asked.fit = asked.fit || (!asked.focalPoint && !asked.parallelScale);
   return asked;
 }

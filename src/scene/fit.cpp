@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "base/bounds.h"
+#include "scene/projection.h"
 
 namespace fragtrace {
 namespace {
@@ -215,23 +216,30 @@ Camera fitted(Camera camera, std::span<const glm::dvec3> points, double aspectRa
   const ViewAxes axes(camera);
   std::vector<glm::dvec3> seen;
   seen.reserve(points.size());
+  const bool perspective = camera.type == CameraType::Perspective;
+  // A shifted lens sees a pyramid that is sheared: so are the points, and the place is sheared back.
+  const glm::dvec2 shift = 2.0 * camera.shift;
+  const glm::dvec2 shear = perspective ? shift * halfExtents(camera, aspectRatio, 1.0) : glm::dvec2(0.0);
   for (const glm::dvec3& point : points) {
-    seen.push_back(axes.of(point - camera.position));
+    const glm::dvec3 view = axes.of(point - camera.position);
+    seen.emplace_back(glm::dvec2(view) - shear * view.z, view.z);
     bounds.include(seen.back());
   }
   const double size = glm::length(bounds.extent());
   if (!(size > 0.0)) return camera;
   glm::dvec3 place = bounds.center();
-  if (camera.perspective) {
+  if (perspective) {
     // A flat scene that is seen from its edge has neither width nor height, and a tip may reach up to the
     // lens.
     constexpr double kNearest = 0.01;  // share of the size
     const double slope = std::tan(0.5 * camera.fovY) * kFitted;
     place = perspectivePlace(seen, {slope * aspectRatio, slope}, bounds.minimum.z - kNearest * size);
+    place += glm::dvec3(shear * place.z, 0.0);
   } else {
     const glm::dvec3 half = 0.5 * bounds.extent();
     camera.halfHeight = std::max({half.y, half.x / aspectRatio, 1e-6 * size}) / kFitted;
     place.z = bounds.minimum.z - size;
+    place -= glm::dvec3(shift * halfExtents(camera, aspectRatio, 1.0), 0.0);
   }
   camera.position += axes.worldOf(place);
   return camera;

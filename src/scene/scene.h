@@ -14,23 +14,13 @@
 #include <vector>
 
 #include "base/bounds.h"
+#include "scene/local_space.h"
 #include "scene/volume/grid.h"
 
 namespace fragtrace {
 
 /// The one value that means "no such index".
 inline constexpr uint32_t kMissIndex = 0xffffffffu;
-
-/// World space recentred, in double precision. Scenes that are very small or very large are also measured in
-/// a power of two of metres. That rounds nothing, and no number overflows, or underflows where drivers flush
-/// the smallest floats to zero.
-struct LocalSpace {
-  glm::dvec3 origin{0.0};  ///< world position of the local origin
-  double unit = 1.0;       ///< metres a unit of local space
-
-  glm::dvec3 localOf(const glm::dvec3& world) const { return (world - origin) / unit; }
-  glm::dvec3 worldOf(const glm::dvec3& local) const { return origin + unit * local; }
-};
 
 /// An encoded picture (PNG, JPEG, ...) as it was in the file, a buffer view or a data URI. It is decoded when
 /// it is packed.
@@ -279,16 +269,25 @@ inline glm::vec3 intensityOf(const LightSource& source, const LocalSpace& space)
   return glm::vec3(source.color * source.intensity * scale);
 }
 
+/// The two kinds that glTF has, then an equirectangular panorama and an equidistant fisheye.
+enum class CameraType : uint8_t { Perspective, Orthographic, Panorama, Fisheye };
+inline constexpr std::array<std::string_view, 4> kCameraTypeNames{"perspective", "orthographic", "panorama",
+                                                                  "fisheye"};
+
+/// Returns true if straight lines are straight in the picture.
+constexpr bool isRectilinear(CameraType type) { return type <= CameraType::Orthographic; }
+
 /// A camera in world space, in double precision, so that it loses no digits before recentring.
 struct Camera {
   std::string name;
-  bool perspective = true;
+  CameraType type = CameraType::Perspective;
   glm::dvec3 position{0.0};
   glm::dvec3 forward{0.0, 0.0, -1.0};  ///< unit
   glm::dvec3 up{0.0, 1.0, 0.0};        ///< unit, orthogonal to forward
-  double fovY = 0.7853981633974483;    ///< vertical view angle, radians (perspective)
-  double halfHeight = 1.0;             ///< half of the vertical extent, metres (orthographic)
-  double aspectRatio = 0.0;            ///< width / height; 0: not given
+  double fovY = 0.7853981633974483;  ///< view angle, radians: vertical (perspective), of the circle (fisheye)
+  double halfHeight = 1.0;           ///< half of the vertical extent, metres (orthographic)
+  glm::dvec2 shift{0.0};             ///< of the lens: to the right and up, in parts of width and height
+  double aspectRatio = 0.0;          ///< width / height; 0: not given
 };
 
 /// The way in which meshes that appear several times in the scene are kept: Auto shares them where that saves

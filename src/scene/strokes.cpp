@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "scene/creases.h"
+#include "scene/projection.h"
 #include "scene/tangents.h"
 
 namespace fragtrace {
@@ -21,29 +22,32 @@ using Ring = std::array<uint32_t, kSides>;  // vertices
 /// Sizes of strokes, in local space.
 class StrokeSize {
  public:
-  StrokeSize(const LocalSpace& space, const Camera& camera, int pictureHeight, double pixels)
-      : perspective_(camera.perspective),
+  StrokeSize(const LocalSpace& space, const Camera& camera, glm::ivec2 pictureSize, double pixels)
+      : parallel_(camera.type == CameraType::Orthographic),
+        round_(!isRectilinear(camera.type)),
         position_(space.localOf(camera.position)),
         forward_(camera.forward) {
     // The circumradius of a hexagon with the area of the circle.
     const double rounder = std::sqrt(glm::two_pi<double>() / (3.0 * std::sqrt(3.0)));
-    const double halfHeight = perspective_ ? std::tan(0.5 * camera.fovY) : camera.halfHeight / space.unit;
-    radius_ = rounder * 0.5 * pixels * 2.0 * halfHeight / pictureHeight;
+    const double halfHeight = halfExtents(camera, pictureSize.x, pictureSize.y, space.unit).y;
+    radius_ = rounder * 0.5 * pixels * 2.0 * halfHeight / pictureSize.y;
   }
 
   /// The radius at a point: its solid covers as many pixels as the circle. Seen at an angle c to the axis it
   /// is longer by 1 / cos c.
   double atPoint(const glm::dvec3& point) const {
-    if (!perspective_) return radius_;
-    const double depth = std::abs(depthOf(point));
+    if (parallel_) return radius_;
     const double distance = glm::length(point - position_);
+    if (round_) return radius_ * distance;
+    const double depth = std::abs(depthOf(point));
     return distance > 0.0 ? radius_ * depth * std::sqrt(depth / distance) : 0.0;
   }
 
   /// The radius of a line along `axis`, unit: as wide as asked across the line, in the picture's plane.
   double acrossLine(const glm::dvec3& point, const glm::dvec3& axis) const {
-    if (!perspective_) return radius_;
+    if (parallel_) return radius_;
     const glm::dvec3 way = point - position_;
+    if (round_) return radius_ * glm::length(way);
     const double depth = depthOf(point);
     const glm::dvec3 across = glm::cross(axis, way);
     const double length = glm::length(across);
@@ -55,23 +59,25 @@ class StrokeSize {
     return radius_ * std::abs(depth) / std::max(glm::length(sideways), 1e-3);
   }
 
-  /// The depth along the view's axis; negative behind a perspective camera.
+  /// The depth along the view's axis, or from a round camera; negative behind a perspective camera.
   double depthOf(const glm::dvec3& point) const {
-    return perspective_ ? glm::dot(point - position_, forward_) : 1.0;
+    if (round_) return glm::length(point - position_);
+    return parallel_ ? 1.0 : glm::dot(point - position_, forward_);
   }
 
   /// The unit vector to the camera.
   glm::dvec3 towardsCamera(const glm::dvec3& point) const {
     const glm::dvec3 way = position_ - point;
     const double length = glm::length(way);
-    return perspective_ && length > 0.0 ? way / length : -forward_;
+    return !parallel_ && length > 0.0 ? way / length : -forward_;
   }
 
  private:
-  bool perspective_;
+  bool parallel_;
+  bool round_;  ///< a panorama or a fisheye, whose pixels are even in angle
   glm::dvec3 position_;
   glm::dvec3 forward_;
-  double radius_ = 0.0;  ///< for a perspective camera, the radius at depth 1
+  double radius_ = 0.0;  ///< at depth 1, or anywhere if parallel
 };
 
 /// The material of the solid of a point or line. Without normals it shows the sum of base colour and emission
@@ -238,9 +244,9 @@ size_t trianglesOf(const Strokes& strokes) {
   return count;
 }
 
-void addStrokes(Scene& scene, const Camera& camera, int pictureHeight, double pixels) {
+void addStrokes(Scene& scene, const Camera& camera, glm::ivec2 pictureSize, double pixels) {
   if (scene.strokes.empty()) return;
-  const StrokeSize size(scene.space, camera, pictureHeight, pixels);
+  const StrokeSize size(scene.space, camera, pictureSize, pixels);
   StrokeBuilder builder(scene, size);
   for (const Strokes& strokes : scene.strokes) builder.add(strokes);
   builder.finish();

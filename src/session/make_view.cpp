@@ -51,7 +51,7 @@ std::optional<uint32_t> solidAround(const Scene& scene, const Bvh& bvh, const gl
 Lens lensOf(const RenderOptions& options, const Camera& camera, const BoundsDouble& bounds,
             const LocalSpace& space) {
   Lens lens;
-  if (!options.camera.lens.fStop || !camera.perspective) return lens;
+  if (!options.camera.lens.fStop || camera.type != CameraType::Perspective) return lens;
   lens.radius = 0.5 * focalLengthOf(camera.fovY) / *options.camera.lens.fStop;
   const glm::dvec3 focalPoint = options.camera.overrides.focalPoint.value_or(focalPointOf(camera, bounds));
   lens.focusDistance =

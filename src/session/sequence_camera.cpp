@@ -99,10 +99,12 @@ CameraOverrides asPlaced(const Camera& camera, const BoundsDouble& bounds) {
   all.position = camera.position;
   all.focalPoint = focalPointOf(camera, bounds);
   all.viewUp = camera.up;
-  if (camera.perspective)
-    all.viewAngleDegrees = glm::degrees(camera.fovY);
-  else
+  if (camera.type == CameraType::Orthographic)
     all.parallelScale = camera.halfHeight;
+  else if (camera.type != CameraType::Panorama)
+    all.viewAngleDegrees = glm::degrees(camera.fovY);
+  if (!isRectilinear(camera.type)) all.type = camera.type;
+  if (camera.shift != glm::dvec2(0.0)) all.lensShift = camera.shift;
   return all;
 }
 

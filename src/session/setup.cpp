@@ -39,7 +39,8 @@ namespace {
 /// if the camera's place is theirs, or in the file.
 void checkDistance(const Camera& camera, const LocalSpace& space, const RenderOptions& options) {
   constexpr double kFarthest = 1e12;  // local space
-  const double size = camera.perspective ? 0.0 : camera.halfHeight * std::max(1.0, camera.aspectRatio);
+  const bool parallel = camera.type == CameraType::Orthographic;
+  const double size = !parallel ? 0.0 : camera.halfHeight * std::max(1.0, camera.aspectRatio);
   if (!(std::max(glm::length(camera.position - space.origin), size) <= kFarthest * space.unit)) {
     const std::string reason =
         "the camera is too far away for a scene of this size, or sees too much of its surroundings";
@@ -80,7 +81,8 @@ double catcherHeightOf(const RenderOptions& options, const BoundsDouble& bounds)
 Camera fitCamera(const Camera& camera, const FittedPoints& points, const CameraOverrides& overrides,
                  glm::ivec2 size) {
   const auto seesCatcher = [&](const Camera& from) {
-    return from.perspective ? from.position.y > points.catcherHeight : from.forward.y < 0.0;
+    const bool parallel = from.type == CameraType::Orthographic;
+    return parallel ? from.forward.y < 0.0 : from.position.y > points.catcherHeight;
   };
   const double aspect = double(size.x) / size.y;
   Camera result = fitted(camera, points.scene, aspect);
@@ -294,7 +296,7 @@ void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film) {
     }
     loaded.camera = fitCamera(loaded.camera, points, overrides, loaded.size);
   }
-  if (options.camera.lens.fStop && !loaded.camera.perspective)
+  if (options.camera.lens.fStop && loaded.camera.type == CameraType::Orthographic)
     throw UsageError("--f-stop: the camera is orthographic, and has no lens");
   checkDistance(loaded.camera, scene.space, options);
   loaded.region = chooseRegion(loaded.size, options);
@@ -337,7 +339,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   const bool early = fitsShadow(options, settledOverrides(options.camera.overrides, scene));
   if (early) settleEnvironment();
   aim(loaded, options, film);
-  addStrokes(loaded.scene, loaded.camera, loaded.size.y, options.camera.lineWidth);
+  addStrokes(loaded.scene, loaded.camera, loaded.size, options.camera.lineWidth);
   checkCatcher(options, light, loaded.scene);
   checkCatcherPlace(options, loaded.scene);
   checkFogDepth(options, loaded.scene);

@@ -156,6 +156,9 @@ void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
   constant("kClampIndirect", variant.clampIndirect);
   constant("kShadowCatcher", variant.shadowCatcher);
   constant("kLens", variant.lens);
+  constant("kLensShift", variant.lensShift);
+  constant("kPanorama", variant.camera == CameraType::Panorama);
+  constant("kFisheye", variant.camera == CameraType::Fisheye);
   constant("kLightPaths", variant.lightPaths);
   constant("kGpu", variant.gpu);
   text << "const int kPixelFilter = " << int(variant.pixelFilter) << ";\n";

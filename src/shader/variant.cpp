@@ -175,6 +175,9 @@ std::string whyNoLightPaths(const RenderOptions& options) {
   // Limits, catchers and parts know paths from the camera alone.
   if (options.sampling.clampIndirect > 0.0) return "--clamp-indirect";
   if (options.light.shadowCatcher) return "--shadow-catcher";
+  // A filter does not reach across the seam of a panorama.
+  if (options.camera.overrides.type == CameraType::Panorama && options.camera.pixelFilter != PixelFilter::Box)
+    return "--pixel-filter of a panorama";
   if (std::ranges::any_of(options.output.aovs, isPathAov)) return "--aov has parts of the light";
   return {};
 }
@@ -214,6 +217,9 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   v.neighbours = drawsLight && options.light.reuse == LightReuse::Spatial;
   v.pixelFilter = options.camera.pixelFilter;
   v.lens = options.camera.lens.fStop.has_value();
+  v.lensShift = options.camera.overrides.lensShift.value_or(glm::dvec2(0.0)) != glm::dvec2(0.0);
+  const CameraType type = options.camera.overrides.type.value_or(CameraType::Perspective);
+  if (!isRectilinear(type)) v.camera = type;
   v.clampIndirect = has(v.stages, Stage::Gi) && options.sampling.clampIndirect > 0.0;
   v.shadowCatcher = has(v.stages, Stage::Gi) && options.light.shadowCatcher;
   return v;
@@ -349,6 +355,8 @@ std::string variantName(const ShaderVariant& variant) {
   if (variant.clampIndirect) append("clamp-indirect");
   if (variant.shadowCatcher) append("shadow-catcher");
   if (variant.lens) append("lens");
+  if (variant.lensShift) append("lens-shift");
+  if (variant.camera != CameraType::Perspective) append(kCameraTypeNames[size_t(variant.camera)].data());
   if (variant.lightPaths) append("light-paths");
   append(std::string(kBufferReadsNames[size_t(variant.reads)]) + "-reads");
   append(std::string(kDispatchNames[size_t(variant.dispatch)]));

@@ -29,7 +29,9 @@ struct ShaderVariant {
   bool neighbours = false;       ///< pixels take such light samples of others near them
   bool clampIndirect = false;
   bool shadowCatcher = false;
-  bool lens = false;        ///< else a pinhole
+  bool lens = false;  ///< else a pinhole
+  bool lensShift = false;
+  CameraType camera = CameraType::Perspective;  ///< which stands for orthographic cameras, too
   bool lightPaths = false;  ///< light paths are traced in place of camera paths (shaders/caustics/)
   bool gpu = false;         ///< the text suits the compilers of GPUs, else that of llvmpipe
   bool wavefront = false;   ///< else the megakernel
@@ -42,8 +44,8 @@ struct ShaderVariant {
   auto key() const {
     return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads, dispatch,
                       pixelFilter, aov, countsVisits, uniformLights, lightCandidates, lightRecords,
-                      neighbours, clampIndirect, shadowCatcher, lens, lightPaths, gpu, wavefront, waveUnit,
-                      resumable, literals);
+                      neighbours, clampIndirect, shadowCatcher, lens, lensShift, camera, lightPaths, gpu,
+                      wavefront, waveUnit, resumable, literals);
   }
   bool operator<(const ShaderVariant& other) const { return key() < other.key(); }
   bool operator==(const ShaderVariant& other) const { return key() == other.key(); }

@@ -24,11 +24,14 @@ glm::dvec3 rightOf(const CameraPose& pose) {
   return glm::normalize(glm::cross(forwardOf(pose), pose.viewUp));
 }
 
-double tangentOf(const CameraPose& pose) { return std::tan(0.5 * glm::radians(pose.viewAngleDegrees)); }
+/// Half of the view's height at distance 1; of a panorama and a fisheye, a step by which it moves.
+double tangentOf(const CameraPose& pose) {
+  return isRectilinear(pose.type) ? std::tan(0.5 * glm::radians(pose.viewAngleDegrees)) : 1.0;
+}
 
 /// Half of the picture's height at the focal point, metres.
 double halfHeightOf(const CameraPose& pose) {
-  return pose.perspective ? distanceOf(pose) * tangentOf(pose) : pose.halfHeight;
+  return pose.type == CameraType::Orthographic ? pose.halfHeight : distanceOf(pose) * tangentOf(pose);
 }
 
 /// The part of `up` that is orthogonal to a unit `forward`, to which it is not parallel.
@@ -68,9 +71,10 @@ CameraPose poseOf(const Camera& camera, const BoundsDouble& bounds) {
   pose.position = camera.position;
   pose.focalPoint = focalPointOf(camera, bounds);
   pose.viewUp = camera.up;
-  pose.perspective = camera.perspective;
+  pose.type = camera.type;
+  pose.lensShift = camera.shift;
   pose.viewAngleDegrees = glm::degrees(camera.fovY);
-  pose.halfHeight = camera.perspective ? halfHeightOf(pose) : camera.halfHeight;
+  pose.halfHeight = camera.type == CameraType::Orthographic ? camera.halfHeight : halfHeightOf(pose);
   return pose;
 }
 
@@ -78,12 +82,13 @@ CameraOverrides overridesOf(const CameraPose& pose) {
   CameraOverrides overrides;
   overrides.position = pose.position;
   overrides.focalPoint = pose.focalPoint;
-  overrides.viewUp = pose.viewUp;
-  if (pose.perspective) {
-    overrides.viewAngleDegrees = pose.viewAngleDegrees;
-  } else {
+  if (pose.type != CameraType::Panorama) overrides.viewUp = pose.viewUp;
+  if (pose.type == CameraType::Orthographic)
     overrides.parallelScale = pose.halfHeight;
-  }
+  else if (pose.type != CameraType::Panorama)
+    overrides.viewAngleDegrees = pose.viewAngleDegrees;
+  if (!isRectilinear(pose.type)) overrides.type = pose.type;
+  if (pose.lensShift != glm::dvec2(0.0)) overrides.lensShift = pose.lensShift;
   return overrides;
 }
 
@@ -122,7 +127,7 @@ CameraPose pan(CameraPose pose, const glm::dvec2& shift) {
 }
 
 CameraPose zoom(CameraPose pose, double amount) {
-  if (!pose.perspective) {
+  if (pose.type == CameraType::Orthographic) {
     pose.halfHeight = std::clamp(pose.halfHeight * std::exp(-amount), kNearest, kFarthest);
     return pose;
   }
@@ -188,20 +193,30 @@ CameraPose lookAlong(CameraPose pose, const glm::dvec3& direction, const glm::dv
 }
 
 CameraPose widen(CameraPose pose, double amount) {
-  pose.viewAngleDegrees = std::clamp(pose.viewAngleDegrees * std::exp(amount), kNarrowest, kWidest);
+  const double widest = pose.type == CameraType::Fisheye ? 360.0 : kWidest;
+  pose.viewAngleDegrees = std::clamp(pose.viewAngleDegrees * std::exp(amount), kNarrowest, widest);
   return pose;
 }
 
-CameraPose withOtherProjection(CameraPose pose) {
+CameraPose withProjection(CameraPose pose, CameraType type) {
+  if (pose.type == type) return pose;
   const CameraPose before = pose;
   const double halfHeight = halfHeightOf(pose);
-  if (!pose.perspective) {
+  pose.type = type;
+  if (type == CameraType::Fisheye) pose.viewAngleDegrees = 180.0;
+  if (before.type == CameraType::Fisheye) pose.viewAngleDegrees = CameraPose().viewAngleDegrees;
+  if (!isRectilinear(type)) pose.lensShift = {};
+  if (before.type == CameraType::Orthographic && type == CameraType::Perspective) {
     const double distance = std::clamp(halfHeight / tangentOf(pose), kNearest, kFarthest);
     pose.position = pose.focalPoint - distance * forwardOf(pose);
   }
   pose.halfHeight = halfHeight;
-  pose.perspective = !pose.perspective;
   return settled(pose, before);
+}
+
+CameraPose withOtherProjection(const CameraPose& pose) {
+  const bool perspective = pose.type == CameraType::Perspective;
+  return withProjection(pose, perspective ? CameraType::Orthographic : CameraType::Perspective);
 }
 
 }  // namespace fragtrace

@@ -13,9 +13,10 @@ struct CameraPose {
   glm::dvec3 position{0.0, 0.0, 1.0};
   glm::dvec3 focalPoint{0.0};
   glm::dvec3 viewUp{0.0, 1.0, 0.0};  ///< unit, orthogonal to the view
-  bool perspective = true;
-  double viewAngleDegrees = 45.0;  ///< vertical; kept while orthographic
+  CameraType type = CameraType::Perspective;
+  double viewAngleDegrees = 45.0;  ///< vertical, or of a fisheye's circle; kept while there is none
   double halfHeight = 1.0;         ///< metres, of an orthographic view
+  glm::dvec2 lensShift{0.0};       ///< Camera::shift
 
   bool operator==(const CameraPose&) const = default;
 };
@@ -69,7 +70,11 @@ CameraPose lookAlong(CameraPose pose, const glm::dvec3& direction, const glm::dv
 /// The vertical view angle times e^amount, between 1 and 170 degrees, from the same place.
 CameraPose widen(CameraPose pose, double amount);
 
-/// The other projection; what lies in the focal point's plane keeps its size.
-CameraPose withOtherProjection(CameraPose pose);
+/// Another projection; what lies in the focal point's plane keeps its size in perspective and orthographic
+/// views.
+CameraPose withProjection(CameraPose pose, CameraType type);
+
+/// Orthographic instead of perspective, and perspective instead of all others.
+CameraPose withOtherProjection(const CameraPose& pose);
 
 }  // namespace fragtrace

@@ -81,8 +81,9 @@ RenderOptions renderOptionsOf(const ViewState& state, size_t side) {
     o.camera.index.reset();
     o.camera.overrides = overridesOf(state.pose);
   }
-  if (!state.pose.perspective) o.camera.lens = {};
-  o.output.treeLevel = state.treeBoxes ? std::optional<int>(state.treeLevel) : std::nullopt;
+  if (state.pose.type != CameraType::Perspective) o.camera.lens = {};
+  const bool boxes = state.treeBoxes && isRectilinear(state.pose.type);
+  o.output.treeLevel = boxes ? std::optional<int>(state.treeLevel) : std::nullopt;
   return o;
 }
 

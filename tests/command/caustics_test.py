@@ -135,10 +135,10 @@ class Caustics(Case):
         self.assertLess(abs(ratio - 1), 6 * error / wanted + beside, what)
         self.assertLess(error / wanted, 0.005, what)
 
-    def assert_alike(self, scene, what, from_camera, with_light, bounces=1, known=0.005):
+    def assert_alike(self, scene, what, from_camera, with_light, bounces=1, known=0.005, options=()):
         """Camera paths alone, of so many samples, and light paths beside them bring the same; returns what."""
-        camera = self.seen(scene, "--caustics", "off", spp=from_camera, bounces=bounces)
-        light = self.seen(scene, spp=with_light, bounces=bounces)
+        camera = self.seen(scene, *options, "--caustics", "off", spp=from_camera, bounces=bounces)
+        light = self.seen(scene, *options, spp=with_light, bounces=bounces)
         mean = statistics.fmean(camera)
         error = math.sqrt((statistics.variance(camera) + statistics.variance(light)) / len(SEEDS)) / mean
         difference = statistics.fmean(light) / mean - 1
@@ -181,6 +181,11 @@ class Caustics(Case):
         # 10 / 8 on average, of t's distribution; the standard error of the mean is about 0.4.
         print(f"columns: {statistics.fmean(squares):.2f}")
         self.assertLess(statistics.fmean(squares), 10 / 8 + 4 * 0.4)
+
+    def test_panoramas_fisheyes_and_shifts(self):
+        scene = self.scene("patch", self.above(0.8, 0.25), self.lamp_above())
+        for options in (("--camera-type", "panorama"), ("--camera-type", "fisheye", "--camera-view-angle", "120"), ("--lens-shift", "0.2,0.1")):
+            self.assert_alike(scene, " ".join(options), 256, 64, options=options)
 
     def test_a_spot_and_the_sun(self):
         aim = {"translation": POINT, "rotation": [0, -math.sin(math.pi / 8), 0, math.cos(math.pi / 8)]}

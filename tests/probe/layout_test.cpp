@@ -58,6 +58,7 @@ const std::vector<Member> kFrameMembers = {MEMBER(Frame, "frameBlock", cameraPos
                                            MEMBER(Frame, "frameBlock", worldOrigin),
                                            MEMBER(Frame, "frameBlock", catcherHeight),
                                            MEMBER(Frame, "frameBlock", catcherIrradiance),
+                                           MEMBER(Frame, "frameBlock", lensShift),
                                            MEMBER(Frame, "frameBlock", environmentScale),
                                            MEMBER(Frame, "frameBlock", lens)};
 const std::vector<Member> kProgressMembers = {

@@ -28,7 +28,7 @@ Camera cameraAt(double x, double distance) {
   camera.position = {x, 0.0, distance};
   camera.forward = {0.0, 0.0, -1.0};
   camera.up = {0.0, 1.0, 0.0};
-  camera.perspective = true;
+  camera.type = CameraType::Perspective;
   camera.fovY = 0.8;
   return camera;
 }
@@ -48,13 +48,17 @@ Seen seen(const Camera& camera, double light, double samples, double variance) {
   const Projection projection = projectionOf(camera, 1.0);
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) {
-      const double right = 2.0 * (x + 0.5) / kSide - 1.0;
-      const float albedo =
-          float(albedoAt(camera.position.x + camera.position.z * right * projection.right.x));
-      const float radiance = float(light * (0.96 * albedo + 0.04));
+      const glm::dvec2 place = 2.0 * (glm::dvec2(x, kSide - 1 - y) + 0.5) / double(kSide) - 1.0;
+      const std::optional<Ray> ray = rayThrough(projection, {}, place);
+      const double covered = ray && ray->direction.z < 0.0f ? 1.0 : 0.0;
+      const double distance = covered > 0.0 ? -ray->origin.z / ray->direction.z : 0.0;
+      const double wall = covered > 0.0 ? ray->origin.x + distance * ray->direction.x : 0.0;
+      const float albedo = float(covered * albedoAt(wall));
+      const float radiance = float(covered * light * (0.96 * albedo + 0.04));
+      const double depth = isRectilinear(camera.type) ? covered * camera.position.z : distance;
       for (const double value :
            {double(radiance), double(radiance), double(radiance), samples, variance, double(albedo),
-            double(albedo), double(albedo), 1.0, 0.0, 0.0, 1.0, camera.position.z})
+            double(albedo), double(albedo), covered, 0.0, 0.0, covered, depth})
         picture.layers.values.push_back(float(value));
     }
   }
@@ -126,6 +130,30 @@ TEST_P(Reprojection, ACameraThatMovedFindsTheSamePoints) {
   for (int x = 8; x < kSide - 8; ++x) {
     EXPECT_NEAR(valueOf(whole, "R", x, 32) / valueOf(now.layers, "R", x, 32), 1.0, 2e-3) << x;
     EXPECT_GT(valueOf(whole, "samples.Y", x, 32), 1e4) << x;
+  }
+}
+
+TEST_P(Reprojection, EachTypeOfCameraFindsTheSamePoints) {
+  for (const CameraType type : {CameraType::Orthographic, CameraType::Panorama, CameraType::Fisheye}) {
+    for (const bool shifted : {false, true}) {
+      Camera camera = cameraAt(0.3, 3.5);
+      camera.type = type;
+      camera.fovY = type == CameraType::Fisheye ? 2.0 : camera.fovY;
+      if (type == CameraType::Orthographic && shifted) camera.shift = {0.2, -0.1};
+      // The past is a perspective, or another of the same type.
+      Camera before = cameraAt(0.0, kDistance);
+      if (shifted) before = camera;
+      if (!isRectilinear(type)) before.fovY = 2.2;
+      before.position = {0.0, 0.0, kDistance};
+      const Seen now = seen(camera, kLight, 4, 0.25);
+      const Image whole = joined(now, seen(before, kLight, 1e6, 0.0), 1e6);
+      // The middle is where all see the wall in pixels that are fine beside a stripe.
+      for (int x = 29; x < 36; ++x) {
+        EXPECT_NEAR(valueOf(whole, "R", x, 32) / valueOf(now.layers, "R", x, 32), 1.0, 4e-3)
+            << int(type) << shifted << x;
+        EXPECT_GT(valueOf(whole, "samples.Y", x, 32), 1e3) << int(type) << shifted << x;
+      }
+    }
   }
 }
 

@@ -28,8 +28,9 @@ glm::dvec3 forwardOf(const CameraPose& pose) { return glm::normalize(pose.focalP
 glm::dvec2 placeOf(const CameraPose& pose, const glm::dvec3& point) {
   const Camera camera = withOverrides(Camera(), overridesOf(pose));
   const glm::dvec3 view = point - camera.position;
-  const double depth =
-      camera.perspective ? glm::dot(view, camera.forward) * std::tan(0.5 * camera.fovY) : camera.halfHeight;
+  const double depth = camera.type == CameraType::Perspective
+                           ? glm::dot(view, camera.forward) * std::tan(0.5 * camera.fovY)
+                           : camera.halfHeight;
   const glm::dvec3 right = glm::cross(camera.forward, camera.up);
   return glm::dvec2(glm::dot(view, right), glm::dot(view, camera.up)) / (2.0 * depth);
 }
@@ -167,7 +168,7 @@ TEST(FrameAll, TheBoundingSphereTouchesTheNarrowerSide) {
     const double tangent = std::tan(0.5 * glm::radians(pose.viewAngleDegrees)) * std::min(1.0, aspect);
     const double distance = glm::distance(pose.position, pose.focalPoint);
     EXPECT_NEAR(distance * std::sin(std::atan(tangent)), radius, kTolerance);
-    pose.perspective = false;
+    pose.type = CameraType::Orthographic;
     pose = frameAll(pose, box, aspect);
     EXPECT_NEAR(pose.halfHeight * std::min(1.0, aspect), radius, kTolerance);
   }
@@ -185,12 +186,12 @@ TEST(LookAlong, KeepsFocalPointAndDistance) {
 TEST(Projection, ChangesThereAndBack) {
   const CameraPose pose = orbit(inFront(), 0.7, 0.4);
   const CameraPose flat = withOtherProjection(pose);
-  EXPECT_FALSE(flat.perspective);
+  EXPECT_EQ(flat.type, CameraType::Orthographic);
   const glm::dvec3 point = pose.focalPoint + 0.3 * pose.viewUp;
   EXPECT_NEAR(placeOf(flat, point).y, placeOf(pose, point).y, kTolerance);
   const CameraPose back = withOtherProjection(flat);
   expectNear(back.position, pose.position);
-  EXPECT_TRUE(back.perspective);
+  EXPECT_EQ(back.type, CameraType::Perspective);
   // Zoomed while orthographic: the perspective comes as near.
   const CameraPose nearer = withOtherProjection(zoom(flat, std::log(2.0)));
   EXPECT_NEAR(glm::distance(nearer.position, nearer.focalPoint), 2.0, kTolerance);
@@ -212,10 +213,10 @@ TEST(Poses, AreTheCamerasTheyCameFrom) {
   expectNear(same.forward, camera.forward);
   expectNear(same.up, camera.up);
   EXPECT_NEAR(same.fovY, camera.fovY, 1e-15);
-  camera.perspective = false;
+  camera.type = CameraType::Orthographic;
   camera.halfHeight = 3.5;
   const Camera flat = withOverrides(Camera(), overridesOf(poseOf(camera, bounds)), bounds);
-  EXPECT_FALSE(flat.perspective);
+  EXPECT_EQ(flat.type, CameraType::Orthographic);
   EXPECT_EQ(flat.halfHeight, 3.5);
 }
 

@@ -52,6 +52,7 @@ TEST(Fit, FillsThePictureFromAnySideWithAnyLensAndAspectRatio) {
     if (i % 3 == 1) overrides.viewAngleDegrees = 5.0 + i % 120;
     BoundsDouble bounds;
     for (const glm::dvec3& point : points) bounds.include(point);
+    if (i % 4 == 0) overrides.lensShift = {0.2 * (i % 5) - 0.4, 0.3};
     const Camera before = chooseCamera({}, {}, overrides, bounds, aspect);
     const Camera camera = fitted(before, points, aspect);
     EXPECT_EQ(camera.forward, before.forward);
@@ -63,7 +64,7 @@ TEST(Fit, FillsThePictureFromAnySideWithAnyLensAndAspectRatio) {
     // A tip that would touch the lens stays a little away, and with it all else.
     const bool isTip = nearestDepth(camera, points) < 0.0101 * glm::length(bounds.extent()) * 2.0;
     EXPECT_TRUE(isTip || reach > kFitted - 1e-6) << i << ": " << reach;
-    tips += int(isTip && camera.perspective);
+    tips += int(isTip && camera.type == CameraType::Perspective);
     EXPECT_NEAR(places.maximum.x, -places.minimum.x, 1e-6) << i;
     EXPECT_NEAR(places.maximum.y, -places.minimum.y, 1e-6) << i;
   }

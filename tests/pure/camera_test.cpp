@@ -70,12 +70,12 @@ TEST(FocalPoint, IsAsDeepAsTheCentreOfTheBounds) {
 
 TEST(CameraOverrides, NoneChangeNothing) {
   Camera camera = frameScene(kBox);
-  camera.perspective = false;
+  camera.type = CameraType::Orthographic;
   const Camera same = withOverrides(camera, {}, kBox);
   EXPECT_EQ(same.position, camera.position);
   EXPECT_EQ(same.forward, camera.forward);
   EXPECT_EQ(same.up, camera.up);
-  EXPECT_FALSE(same.perspective);
+  EXPECT_EQ(same.type, CameraType::Orthographic);
 }
 
 TEST(CameraOverrides, PositionAloneKeepsTheFocalPoint) {
@@ -112,9 +112,9 @@ TEST(CameraOverrides, ParallelViewUpGivesWayToAnotherAxis) {
 
 TEST(CameraOverrides, ViewAngleMakesThePictureAPerspective) {
   Camera camera;
-  camera.perspective = false;
+  camera.type = CameraType::Orthographic;
   const Camera perspective = withOverrides(camera, {.viewAngleDegrees = 90.0});
-  EXPECT_TRUE(perspective.perspective);
+  EXPECT_EQ(perspective.type, CameraType::Perspective);
   EXPECT_NEAR(perspective.fovY, std::acos(-1.0) / 2, kRounding);
 }
 
@@ -160,7 +160,7 @@ TEST(CameraOrbit, ZoomEnlargesByItsFactorAndKeepsThePlace) {
   expectSame(zoomed.position, plain.position);
   EXPECT_NEAR(std::tan(0.5 * zoomed.fovY), 0.5 * std::tan(0.5 * plain.fovY), kRounding);
   const Camera flat = chooseCamera({}, {}, {.parallelScale = 3.0, .orbit = Orbit{20, 10, 2.0}}, kBox);
-  EXPECT_FALSE(flat.perspective);
+  EXPECT_EQ(flat.type, CameraType::Orthographic);
   EXPECT_NEAR(flat.halfHeight, 1.5, kRounding);
 }
 

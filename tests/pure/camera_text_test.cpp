@@ -48,7 +48,8 @@ TEST(CameraText, ReadsBackAsItselfBitForBit) {
   const auto vector = [&] { return glm::dvec3(number(), number(), number()); };
   for (int i = 0; i < 2000; ++i) {
     RenderOptions options = optionsOf(
-        {.position = vector(), .focalPoint = vector(), .viewUp = vector(), .perspective = i % 2 == 0});
+        {.position = vector(), .focalPoint = vector(), .viewUp = vector(), .type = CameraType(i % 2)});
+    if (i % 4 > 1) options.camera.overrides.lensShift = {0.1 * i / 2000.0, -5.0 + i / 300.0};
     if (i % 2 == 0)
       options.camera.overrides.viewAngleDegrees = std::abs(number());
     else

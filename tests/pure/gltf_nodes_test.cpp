@@ -209,7 +209,7 @@ TEST(GltfNodes, PerspectiveCameraIsFreeOfItsNodesScale) {
   const Scene scene = load(builder);
   ASSERT_EQ(scene.cameras.size(), 1u);
   const Camera& camera = scene.cameras[0];
-  EXPECT_TRUE(camera.perspective);
+  EXPECT_EQ(camera.type, CameraType::Perspective);
   EXPECT_EQ(camera.fovY, 0.5);
   EXPECT_EQ(camera.aspectRatio, 1.5);
   EXPECT_EQ(camera.position, glm::dvec3(1e7, 0.125, 0));
@@ -223,7 +223,7 @@ TEST(GltfNodes, OrthographicCameraHasHalfHeightAndAspectRatio) {
       {{"type", "orthographic"}, {"orthographic", {{"xmag", 4}, {"ymag", 2}, {"znear", 0}, {"zfar", 10}}}}};
   builder.root["nodes"] = {{{"camera", 0}}};
   const Camera camera = load(builder).cameras.at(0);
-  EXPECT_FALSE(camera.perspective);
+  EXPECT_EQ(camera.type, CameraType::Orthographic);
   EXPECT_EQ(camera.halfHeight, 2.0);
   EXPECT_EQ(camera.aspectRatio, 2.0);
 }

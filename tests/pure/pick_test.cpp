@@ -102,7 +102,7 @@ TEST(Pick, ASphereHasANodeAndNoTriangle) {
 
 TEST(Pick, AnOrthographicViewLooksStraightAhead) {
   PickedScene stage;
-  stage.camera.perspective = false;
+  stage.camera.type = CameraType::Orthographic;
   stage.camera.halfHeight = 2.0;
   const auto pick = stage.at({0.2, 0.25}, 2.0);
   ASSERT_TRUE(pick);
@@ -116,19 +116,42 @@ TEST(Projection, PlacesAndRaysAreInverse) {
   camera.position = {1, 2, 3};
   camera.forward = glm::normalize(glm::dvec3(1, -0.5, -2));
   camera.up = glm::normalize(glm::cross(glm::cross(camera.forward, glm::dvec3(0, 1, 0)), camera.forward));
-  for (const bool perspective : {true, false}) {
-    camera.perspective = perspective;
+  for (int i = 0; i < 4; ++i) {
+    camera.type = CameraType(i % 2);
+    camera.shift = i < 2 ? glm::dvec2(0.0) : glm::dvec2(0.3, -1.2);
     const Projection projection = projectionOf(camera, 1.5);
     for (const glm::dvec2 place : {glm::dvec2(0, 0), glm::dvec2(0.7, -0.4), glm::dvec2(-1, 1)}) {
-      const Ray ray = rayThrough(projection, {glm::dvec3(0.5)}, place);
+      const Ray ray = *rayThrough(projection, {glm::dvec3(0.5)}, place);
       const glm::dvec3 point = glm::dvec3(0.5) + glm::dvec3(ray.origin) + 4.0 * glm::dvec3(ray.direction);
       const glm::dvec3 seen = projected(projection, point);
       EXPECT_NEAR(seen.x / seen.z, place.x, 1e-6);
       EXPECT_NEAR(seen.y / seen.z, place.y, 1e-6);
     }
   }
-  camera.perspective = true;
+  camera.type = CameraType::Perspective;
+  camera.shift = {};
   EXPECT_LT(projected(projectionOf(camera, 1.0), camera.position - camera.forward).z, 0.0);
+}
+
+TEST(Projection, PanoramasAndFisheyesLookThroughAnglesOfTheirPlaces) {
+  Camera camera;  // looks along -z
+  const auto along = [&](double aspect, const glm::dvec2& place) {
+    return rayThrough(projectionOf(camera, aspect), {}, place)->direction;
+  };
+  const auto apart = [](const glm::vec3& a, const glm::dvec3& b) { return glm::length(glm::dvec3(a) - b); };
+  camera.type = CameraType::Panorama;
+  EXPECT_LE(apart(along(2.0, {0.0, 0.0}), {0, 0, -1}), kTolerance);
+  EXPECT_LE(apart(along(2.0, {0.5, 0.0}), {1, 0, 0}), kTolerance);
+  EXPECT_LE(apart(along(2.0, {-1.0, 0.0}), {0, 0, 1}), kTolerance);
+  EXPECT_LE(apart(along(2.0, {0.3, 1.0}), {0, 1, 0}), kTolerance);
+  camera.type = CameraType::Fisheye;
+  camera.fovY = glm::pi<double>();
+  EXPECT_LE(apart(along(1.0, {0.0, 1.0}), {0, 1, 0}), kTolerance);
+  EXPECT_LE(apart(along(1.0, {-0.5, 0.0}), {-std::sqrt(0.5), 0, -std::sqrt(0.5)}), kTolerance);
+  EXPECT_FALSE(rayThrough(projectionOf(camera, 1.0), {}, {0.8, 0.8}));
+  // The circle touches the nearer edges.
+  EXPECT_LE(apart(along(2.0, {0.5, 0.0}), {1, 0, 0}), kTolerance);
+  EXPECT_FALSE(rayThrough(projectionOf(camera, 2.0), {}, {0.51, 0.0}));
 }
 
 }  // namespace

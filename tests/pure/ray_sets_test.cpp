@@ -49,7 +49,7 @@ TEST(RaySets, PrimaryRaysGoThroughTheMiddlesOfPixels) {
   EXPECT_NEAR(rays[0].direction.z / -rays[0].direction.y, 0.5, 1e-6);
   EXPECT_NEAR(rays[7].direction.x / -rays[7].direction.y, 1.5, 1e-6);
   EXPECT_NEAR(glm::length(rays[3].direction), 1.0, 1e-6);
-  room.camera.perspective = false;
+  room.camera.type = CameraType::Orthographic;
   room.camera.halfHeight = 3.0;
   const std::vector<Ray> parallel = primaryRays(room.camera, {}, {1, 1});
   EXPECT_EQ(parallel[0].direction, glm::vec3(0, -1, 0));

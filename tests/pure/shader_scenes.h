@@ -13,7 +13,7 @@
 #include "bvh_triangles.h"
 #include "glsl.h"
 #include "pack/pack_tree.h"
-#include "scene/ray.h"
+#include "scene/local_space.h"
 #include "shader_meshes.h"
 #include "shader_statistics.h"
 

@@ -16,7 +16,7 @@ namespace {
 Camera cameraAt10(bool perspective) {
   Camera camera;
   camera.position = {0.0, 0.0, 10.0};
-  camera.perspective = perspective;
+  camera.type = perspective ? CameraType::Perspective : CameraType::Orthographic;
   camera.fovY = 2.0 * std::atan(0.1);
   return camera;
 }
@@ -61,7 +61,7 @@ constexpr double kArea = glm::pi<double>() * kRadius * kRadius;
 TEST(Strokes, APointIsAClosedSolidWithTheAreaOfItsCircle) {
   for (const bool perspective : {false, true}) {
     Scene scene = sceneOf({{0, 0, 0}}, {{0, 0}});
-    addStrokes(scene, cameraAt10(perspective), kHeight, kPixels);
+    addStrokes(scene, cameraAt10(perspective), glm::ivec2(kHeight), kPixels);
     EXPECT_EQ(scene.triangles.size(), kTrianglesOfAPoint);
     expectClosed(scene);
     const double apex = kRadius * std::sqrt(glm::two_pi<double>() / (3.0 * std::sqrt(3.0)));
@@ -72,7 +72,7 @@ TEST(Strokes, APointIsAClosedSolidWithTheAreaOfItsCircle) {
 
 TEST(Strokes, ALineIsAClosedSolidAsWideAsAsked) {
   Scene scene = sceneOf({{-1, 0, 0}, {1, 0, 0}}, {{0, 1}});
-  addStrokes(scene, cameraAt10(false), kHeight, kPixels);
+  addStrokes(scene, cameraAt10(false), glm::ivec2(kHeight), kPixels);
   EXPECT_EQ(scene.triangles.size(), kTrianglesOfALine);
   EXPECT_LE(scene.vertices.position.size(), 2 + kMostStrokeVertices);
   expectClosed(scene);
@@ -83,7 +83,7 @@ TEST(Strokes, ALineIsAClosedSolidAsWideAsAsked) {
 TEST(Strokes, TheWidthFollowsTheDepthAlsoBehindTheCamera) {
   const auto volume = [](float z) {
     Scene scene = sceneOf({{0, 0, z}}, {{0, 0}});
-    addStrokes(scene, cameraAt10(true), kHeight, kPixels);
+    addStrokes(scene, cameraAt10(true), glm::ivec2(kHeight), kPixels);
     return volumeOf(scene);
   };
   EXPECT_NEAR(volume(-10.0f) / volume(0.0f), 8.0, 1e-4);
@@ -107,7 +107,7 @@ double shownWidth(const Scene& scene, size_t first, size_t count) {
 TEST(Strokes, ALineIsAsWideAtTheEdgeOfAWideViewAsInItsMiddle) {
   for (const float x : {0.0f, 5.0f, 20.0f}) {
     Scene scene = sceneOf({{x, -1, 0}, {x, 1, 0}}, {{0, 1}});
-    addStrokes(scene, cameraAt10(true), kHeight, kPixels);
+    addStrokes(scene, cameraAt10(true), glm::ivec2(kHeight), kPixels);
     const double width = shownWidth(scene, 2, 6);
     EXPECT_GT(width, 0.95 * kPixels) << x;
     EXPECT_LT(width, 1.11 * kPixels) << x;
@@ -117,7 +117,7 @@ TEST(Strokes, ALineIsAsWideAtTheEdgeOfAWideViewAsInItsMiddle) {
 TEST(Strokes, ALineThatPassesTheCameraIsThinThere) {
   Scene scene = sceneOf({{1, 0, 0}, {1, 0, 20}}, {{0, 1}});
   scene.vertices.color = {{1, 0, 0, 1}, {0, 1, 0, 1}};
-  addStrokes(scene, cameraAt10(true), kHeight, kPixels);
+  addStrokes(scene, cameraAt10(true), glm::ivec2(kHeight), kPixels);
   EXPECT_EQ(scene.triangles.size(), 2 * kTrianglesOfALine);
   for (size_t i = 2; i < scene.vertices.position.size(); ++i) {
     const glm::vec3& p = scene.vertices.position[i];
@@ -128,7 +128,7 @@ TEST(Strokes, ALineThatPassesTheCameraIsThinThere) {
 
 TEST(Strokes, ALineWithoutLengthIsNothing) {
   Scene scene = sceneOf({{1, 0, 0}, {1, 0, 0}}, {{0, 1}});
-  addStrokes(scene, cameraAt10(true), kHeight, kPixels);
+  addStrokes(scene, cameraAt10(true), glm::ivec2(kHeight), kPixels);
   EXPECT_TRUE(scene.triangles.empty());
 }
 
@@ -138,7 +138,7 @@ TEST(Strokes, WithoutNormalsTheyShowBaseColourAndEmission) {
   scene.materials[0].emissiveFactor = {0.0f, 0.5f, 0.0f};
   scene.materials[0].emissiveStrength = 4.0f;
   scene.materials[0].number = 7;
-  addStrokes(scene, cameraAt10(true), kHeight, kPixels);
+  addStrokes(scene, cameraAt10(true), glm::ivec2(kHeight), kPixels);
   EXPECT_EQ(scene.materials[1].baseColorFactor, glm::vec4(0.5f, 2.0f, 0.0f, 1.0f));
   EXPECT_EQ(scene.materials[1].number, 7u);
 }
@@ -147,7 +147,7 @@ TEST(Strokes, AreUnlitWithoutNormalsAndNeverHaveNormalTextures) {
   for (const bool lit : {false, true}) {
     Scene scene = sceneOf({{0, 0, 0}}, {{0, 0}});
     scene.strokes[0].lit = lit;
-    addStrokes(scene, cameraAt10(true), kHeight, kPixels);
+    addStrokes(scene, cameraAt10(true), glm::ivec2(kHeight), kPixels);
     ASSERT_EQ(scene.materials.size(), 2u);
     const Material& used = scene.materials[scene.triangles[0].material];
     EXPECT_EQ(used.unlit, !lit);
@@ -160,7 +160,7 @@ TEST(Strokes, AreUnlitWithoutNormalsAndNeverHaveNormalTextures) {
 TEST(Strokes, HaveTheAttributesOfTheirEnds) {
   Scene scene = sceneOf({{-1, 0, 0}, {1, 0, 0}}, {{0, 1}});
   scene.vertices.color = {{1, 0, 0, 1}, {0, 1, 0, 1}};
-  addStrokes(scene, cameraAt10(true), kHeight, kPixels);
+  addStrokes(scene, cameraAt10(true), glm::ivec2(kHeight), kPixels);
   ASSERT_EQ(scene.vertices.color.size(), scene.vertices.position.size());
   for (size_t i = 0; i < scene.vertices.color.size(); ++i)
     EXPECT_EQ(scene.vertices.color[i].r, scene.vertices.position[i].x < 0.0f ? 1.0f : 0.0f) << i;
@@ -171,7 +171,7 @@ TEST(Strokes, StandBehindOtherTrianglesAndBeforeSharedMeshes) {
   scene.triangles = {{{0, 1, 2}, 0, true}, {{0, 2, 1}, 0, true}};
   scene.sharedMeshes = {{1, 1}};
   scene.origins = {{"first", "", 0, 1, 0}, {"", "shared", 1, 1, 0}};
-  addStrokes(scene, cameraAt10(true), kHeight, kPixels);
+  addStrokes(scene, cameraAt10(true), glm::ivec2(kHeight), kPixels);
   const auto count = uint32_t(kTrianglesOfAPoint + kTrianglesOfALine);
   EXPECT_EQ(scene.strokeTriangles, count);
   ASSERT_EQ(scene.triangles.size(), 2 + count);

@@ -43,7 +43,7 @@ std::optional<Camera> cameraAt(const Document& document, const PlacedNode& node)
     return camera;
   }
   // Negative magnifications are discouraged mirrors in the specification; only their size is taken.
-  camera.perspective = false;
+  camera.type = CameraType::Orthographic;
   camera.halfHeight = std::abs(described.orthographic.ymag);
   camera.aspectRatio = std::abs(described.orthographic.xmag) / camera.halfHeight;
   if (!(camera.halfHeight > 0.0 && camera.aspectRatio > 0.0) || !std::isfinite(camera.aspectRatio)) {

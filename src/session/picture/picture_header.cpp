@@ -29,14 +29,17 @@ void setCamera(Image& image, const Camera& camera, glm::ivec2 size) {
   const glm::dvec4 up = along(glm::normalize(view.up), view.position);
   const glm::dvec4 depth = along(view.forward, view.position);
   const glm::dvec4 one(0.0, 0.0, 0.0, 1.0);
-  const glm::dvec4 w = view.perspective ? depth : one;
+  const bool perspective = view.type == CameraType::Perspective;
+  const glm::dvec4 w = perspective ? depth : one;
   const double halfWidth = glm::length(view.right);
   const double halfHeight = glm::length(view.up);
   image.numbers["worldToCamera"] = matrixOf({right, up, depth, one});
+  if (!isRectilinear(view.type)) return;
   // The third coordinate only makes the matrix invertible: 1 - 1 / depth of a perspective, else the depth.
-  image.numbers["worldToNDC"] = matrixOf({0.5 * (w + right / halfWidth), 0.5 * (w - up / halfHeight),
-                                          view.perspective ? depth - one : depth, w});
-  if (view.perspective) image.numbers["screenWindowWidth"] = {float(2.0 * halfWidth)};
+  image.numbers["worldToNDC"] =
+      matrixOf({0.5 * (w + right / halfWidth - view.shift.x * w),
+                0.5 * (w - up / halfHeight + view.shift.y * w), perspective ? depth - one : depth, w});
+  if (perspective) image.numbers["screenWindowWidth"] = {float(2.0 * halfWidth)};
 }
 
 void setChromaticities(Image& image) {

@@ -9,10 +9,11 @@
 
 namespace fragtrace {
 
-/// Sets worldToCamera and worldToNDC, and screenWindowWidth of a perspective. `size` is that of the whole
-/// picture, even if the image is a part of it. Matrices are for row vectors, (x, y, z, 1) M, of metres in
-/// world space. A camera's x is right, y up, and z the direction of view. NDC is (0, 0) at the upper left
-/// corner of the picture and (1, 1) at the lower right, after division by w.
+/// Sets worldToCamera and worldToNDC, and screenWindowWidth of a perspective; of cameras that are not
+/// rectilinear worldToCamera alone. `size` is that of the whole picture, even if the image is a part of it.
+/// Matrices are for row vectors, (x, y, z, 1) M, of metres in world space. A camera's x is right, y up, and z
+/// the direction of view. NDC is (0, 0) at the upper left corner of the picture and (1, 1) at the lower
+/// right, after division by w.
 void setCamera(Image& image, const Camera& camera, glm::ivec2 size);
 
 /// Sets chromaticities: the primaries of Rec. 709 and sRGB, and their white, D65.

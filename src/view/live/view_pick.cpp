@@ -57,7 +57,8 @@ void ViewTracer::select(Selected selected) {
 
 std::vector<PictureLine> ViewTracer::linesOver(const Side& side) {
   std::vector<PictureLine> lines = treeLines(side.options, *loaded_, side.view.camera, request_.size);
-  if (selected_.bounds.empty()) return lines;
+  // Straight edges are curves in a panorama and a fisheye, which have no outline.
+  if (selected_.bounds.empty() || !isRectilinear(side.view.camera.type)) return lines;
   const LocalSpace& space = loaded_->scene.space;
   const Projection projection = projectionOf(side.view.camera, double(request_.size.x) / request_.size.y);
   if (selected_.outlined != std::pair(projection, request_.size)) {

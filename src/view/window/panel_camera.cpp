@@ -74,13 +74,19 @@ Task drawCamera(ViewState& state, ViewFacts& facts) {
   Places& places = facts.places;
   Task task;
   label(places, "Projection");
-  if (ImGui::Button(state.pose.perspective ? "perspective" : "orthographic", ImVec2(-1, 0)))
-    apply(state, *controlOf(Action::OtherProjection), {});
-  if (state.pose.perspective) {
-    if (slider(places, "View angle", state.pose.viewAngleDegrees, 1.0f, 170.0f, "%.1f degrees"))
-      state.posed = true;
-    drawLens(state, places);
+  CameraType type = state.pose.type;
+  choose("##projection", kCameraTypeNames, type);
+  if (type != state.pose.type) {
+    state.pose = withProjection(state.pose, type);
+    state.posed = true;
   }
+  const bool fisheye = type == CameraType::Fisheye;
+  if (fisheye || type == CameraType::Perspective) {
+    if (slider(places, "View angle", state.pose.viewAngleDegrees, 1.0f, fisheye ? 360.0f : 170.0f,
+               "%.1f degrees"))
+      state.posed = true;
+  }
+  if (type == CameraType::Perspective) drawLens(state, places);
   if (state.scene && !state.scene->cameras.empty()) {
     label(places, "Scene camera");
     const auto& cameras = state.scene->cameras;
