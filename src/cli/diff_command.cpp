@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cli/commands.h"
+#include "image/compare/bias.h"
 #include "image/compare/difference.h"
 #include "image/compare/flip.h"
 #include "image/image.h"
@@ -22,23 +23,43 @@ struct DiffOptions {
   Metric metric = Metric::Rmse;
   std::optional<double> threshold;
   std::filesystem::path outfile;
+  int tile = kBiasTile;
 };
 
-/// The text to print, and the picture for --outfile.
+/// The number, the lines that explain it, and the picture for --outfile.
 struct Comparison {
   double value = 0;
+  std::string more;
   Image map;
 };
+
+/// The lines below the chance.
+std::string describe(const BiasTest& test, int side) {
+  std::string text = std::to_string(test.noisy) + " of " + std::to_string(test.tiles) + " tiles of " +
+                     std::to_string(side) + " x " + std::to_string(side) + " pixels have noise\n";
+  if (test.noisy == 0) return text;
+  std::array<char, 32> smallest{};
+  std::snprintf(smallest.data(), smallest.size(), "%.3g", test.smallest);
+  text += "smallest p: " + std::string(smallest.data()) + ", in the tile at " +
+          std::to_string(test.place[0]) + "," + std::to_string(test.place[1]) +
+          "\ntiles by p, in tenths from 0 to 1:";
+  for (const int count : test.histogram) text += " " + std::to_string(count);
+  return text + "\n";
+}
 
 Comparison compareFiles(const DiffOptions& options) {
   if (options.metric == Metric::Flip) {
     FlipError error = flipError(readDisplayImage(options.picture), readDisplayImage(options.reference));
-    return {error.mean, std::move(error.map)};
+    return {error.mean, {}, std::move(error.map)};
   }
   const Image picture = readImage(options.picture);
   const Image reference = readImage(options.reference);
+  if (options.metric == Metric::Bias) {
+    BiasTest test = testBias(picture, reference, options.tile);
+    return {test.chance, describe(test, options.tile), std::move(test.map)};
+  }
   const double value = metricValue(compare(picture, reference), options.metric);
-  return {value, options.outfile.empty() ? Image() : differenceImage(picture, reference)};
+  return {value, {}, options.outfile.empty() ? Image() : differenceImage(picture, reference)};
 }
 
 /// Warns of stored values that mean different things.
@@ -55,9 +76,9 @@ void warnOfKinds(const DiffOptions& options) {
 int runDiff(const DiffOptions& options) {
   checkOutputs(std::array{NamedOutput{"--outfile", options.outfile}},
                std::array{options.picture, options.reference});
-  const auto [value, map] = compareFiles(options);
+  const auto [value, more, map] = compareFiles(options);
   warnOfKinds(options);
-  std::printf("%.9g\n", value);
+  std::printf("%.9g\n%s", value, more.c_str());
   if (!options.outfile.empty()) writeImage(options.outfile, map);
   return options.threshold && !isWithin(options.metric, value, *options.threshold) ? 1 : 0;
 }
@@ -74,16 +95,25 @@ RunCommand addDiff(CLI::App& app) {
   app.add_option("reference", raw->options.reference, "reference picture, of the same size")
       ->type_name("FILE")
       ->required();
-  app.add_option("--metric", raw->metric, "error metric: rmse, mse, relmse, psnr, max, flip")
+  app.add_option(
+         "--metric", raw->metric,
+         "error metric: rmse, mse, relmse, psnr, max, flip, or bias, the chance that two .exr with --aov "
+         "variance have the same limit")
       ->capture_default_str();
   app.add_option("--threshold", raw->options.threshold, "exit with status 1 if the error is worse than this")
       ->check(realNumber());
   app.add_option("--outfile", raw->options.outfile,
-                 "write a picture of the absolute differences, or of the FLIP error")
+                 "write a picture of the absolute differences, of the FLIP error, or of the tiles' bias")
       ->type_name("FILE");
-  return [raw] {
+  const CLI::Option* tile =
+      app.add_option("--tile", raw->options.tile, "pixels of a side of the tiles that --metric bias compares")
+          ->capture_default_str()
+          ->check(wholeNumber(1, 65536));
+  return [raw, tile] {
     DiffOptions options = raw->options;
     options.metric = choose<Metric>("--metric", raw->metric, metricNames());
+    if (tile->count() > 0 && options.metric != Metric::Bias)
+      throw UsageError("--tile: only --metric bias compares tiles");
     if (!options.outfile.empty() && !isWritableImageName(options.outfile)) {
       throw UsageError("--outfile: '" + options.outfile.string() +
                        "' ends in none of .png, .jpg, .exr, .hdr, .pfm");

@@ -133,6 +133,7 @@ double differenceOfArrays(const GivenValues& picture, const GivenValues& referen
   const Image a = imageOfArray(picture, channels);
   const Image b = imageOfArray(reference, channels);
   const Metric chosen = metricNamed(metric);
+  if (chosen == Metric::Bias) throw UsageError("metric: bias compares files: fragtrace diff A.exr B.exr");
   const nb::gil_scoped_release free;
   if (chosen == Metric::Flip) return flipError(toDefaultDisplay(a), toDefaultDisplay(b)).mean;
   return metricValue(compare(a, b), chosen);

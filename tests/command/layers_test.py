@@ -5,7 +5,7 @@ import json
 import math
 
 from materials_test import quad
-from support import SCENES, Case, main
+from support import SCENES, Case, main, read_pfm, run
 
 BOX = SCENES / "cornell-box.gltf"
 FEATURES = {"albedo": "RGB", "normal": "XYZ", "depth": "Z"}
@@ -290,6 +290,34 @@ class LayerFiles(Case):
         # 64 pixels x 11 degrees of freedom, though a few bright pixels weigh most.
         self.assertAlmostEqual(seen / stated, 1, delta=0.35)
         self.assertEqual(set(pictures[0].values("samples.Y")), {64})
+
+    def test_variances_tell_bias_from_noise(self):
+        """diff --metric bias: another seed is no bias, a bounce less is one, and is dark."""
+        def drawn(name, *options):
+            self.renders(BOX, "-o", self.folder / name, "--quiet", "--resolution", "64,64", "--spp", 16, "--disable", "sobol", *options)
+            return self.folder / name
+
+        def told(*files):
+            """The chance; tiles with noise; tiles by their p."""
+            chance, noisy, _, tiles = run("diff", *files, "--metric", "bias").stdout.splitlines()
+            return float(chance), int(noisy.split()[0]), [int(word) for word in tiles.split(":")[1].split()]
+        aov = ("--aov", "variance")
+        one, other = (drawn(f"{seed}.exr", "--seed", seed, "--bounces", 3, *aov) for seed in (1, 2))
+        fewer = drawn("fewer.exr", "--seed", 3, "--bounces", 2, *aov)
+        chance, noisy, tiles = told(one, other)
+        self.assertGreater(chance, 0.01)
+        self.assertEqual((noisy, sum(tiles)), (16, 16))
+        self.assertLess(told(fewer, one)[0], 1e-6)
+        for pair, status in (((one, other), 0), ((fewer, one), 1)):
+            self.assertEqual(run("diff", *pair, "--metric", "bias", "--threshold", 1e-3).returncode, status)
+        marks = self.folder / "marks.pfm"
+        self.assertIn("4 of 4 tiles of 32 x 32", run("diff", fewer, one, "--metric", "bias", "--tile", 32, "--outfile", marks).stdout)
+        red, green, blue = read_pfm(marks)[40][40]
+        self.assertEqual((red, blue), (green, 1))  # darker: blue
+        self.assertLess(red, 0.5)
+        # What lacks is named with the option that writes it.
+        self.fails(1, "diff", drawn("plain.exr", "--seed", 1), one, "--metric", "bias", says=["the picture has no layer variance.Y", "--aov variance"])
+        self.fails(2, "diff", one, other, "--tile", 8, says=["--tile"])
 
     def test_only_exr_holds_layers(self):
         for name in ("x.png", "x.jpg", "x.pfm", "x.hdr"):

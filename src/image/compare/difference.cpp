@@ -10,7 +10,8 @@
 namespace fragtrace {
 namespace {
 
-constexpr std::array<std::string_view, 6> kMetricNames{"rmse", "mse", "relmse", "psnr", "max", "flip"};
+constexpr std::array<std::string_view, 7> kMetricNames{"rmse", "mse",  "relmse", "psnr",
+                                                       "max",  "flip", "bias"};
 
 }  // namespace
 
@@ -64,13 +65,14 @@ Image differenceImage(const Image& picture, const Image& reference) {
 std::span<const std::string_view> metricNames() { return kMetricNames; }
 
 double metricValue(const Difference& difference, Metric metric) {
-  const std::array values{difference.rmse, difference.mse,     difference.relmse,
-                          difference.psnr, difference.maximum, std::numeric_limits<double>::quiet_NaN()};
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const std::array values{
+      difference.rmse, difference.mse, difference.relmse, difference.psnr, difference.maximum, kNone, kNone};
   return values[size_t(metric)];
 }
 
 bool isWithin(Metric metric, double value, double threshold) {
-  return metric == Metric::Psnr ? value >= threshold : value <= threshold;
+  return metric == Metric::Psnr || metric == Metric::Bias ? value >= threshold : value <= threshold;
 }
 
 }  // namespace fragtrace

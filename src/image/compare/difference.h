@@ -19,7 +19,7 @@ struct Difference {
   double maximum = 0;  ///< largest |a - b|
 };
 
-enum class Metric { Rmse, Mse, Relmse, Psnr, Max, Flip };
+enum class Metric { Rmse, Mse, Relmse, Psnr, Max, Flip, Bias };
 
 /// Compares in double precision. A NaN in either picture makes every metric NaN; an infinity makes each of
 /// them NaN or infinite (psnr NaN or minus infinity). Throws RenderError when the sizes differ or a picture
@@ -32,11 +32,11 @@ Image differenceImage(const Image& picture, const Image& reference);
 /// The metrics' names on the command line, in the order of Metric.
 std::span<const std::string_view> metricNames();
 
-/// NaN for Flip, which looks at more than single pixels and is flipError's (image/flip.h).
+/// NaN for Flip and Bias, which look at more than single pixels: flipError and testBias give these.
 double metricValue(const Difference& difference, Metric metric);
 
-/// True if the value is at most the threshold, or for psnr, where more is better, at least the threshold. NaN
-/// is never within.
+/// True if the value is at most the threshold, or for psnr and bias, where more is better, at least the
+/// threshold. NaN is never within.
 bool isWithin(Metric metric, double value, double threshold);
 
 }  // namespace fragtrace
