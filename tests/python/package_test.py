@@ -106,6 +106,8 @@ class Pictures(Package):
         self.assertEqual(fragtrace.diff(picture, self.folder / "a.pfm"), 0)
         self.assertLess(fragtrace.diff(self.folder / "a.hdr", picture, "relmse"), 1e-4)
         self.assertGreater(fragtrace.diff(picture, picture * 1.1, "flip"), 0)
+        with self.assertRaisesRegex(fragtrace.UsageError, "fragtrace diff"):
+            fragtrace.diff(picture, picture, "bias")
         self.assertLess(fragtrace.diff(self.folder / "a.jpg", self.folder / "a.png"), 0.1)
 
     def test_the_header_and_the_depth(self):

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "image/compare/student_t.h"
 
+#include <array>
 #include <cmath>
 
 namespace fragtrace {
@@ -21,7 +22,7 @@ double betaFraction(double x, double a, double b) {
     const double even = m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m));
     const double odd = -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1));
     double step = 1;
-    for (const double term : {even, odd}) {
+    for (const double term : std::array{even, odd}) {
       below = 1 / orTiny(1 + term * below);
       above = orTiny(1 + term / above);
       step = above * below;
