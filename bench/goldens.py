@@ -65,8 +65,8 @@ def main():
         size = Image.open(options.assets / shot["images"]["blender-cycles"]).size
         pictures = {e: reduced(options.assets / p, size) for e, p in shot["images"].items()}
         ours, other = reduced(path, size), reduced(path, size, srgb)
-        # The scripts of Cycles and V-Ray use gamma 2.2; three.js uses the sRGB curve.
-        mine = {e: ours if e in ("blender-cycles", "vray") else other for e in pictures}
+        # three.js has the sRGB curve; the other engines' scripts use gamma 2.2.
+        mine = {e: other if e.startswith("three") else ours for e in pictures}
         cycles = pictures["blender-cycles"]
         row = [psnr(mine["blender-cycles"], cycles)]
         row += [psnr(pictures[e], cycles) if e in pictures else math.nan for e in engines[1:]]
