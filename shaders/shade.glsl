@@ -185,8 +185,8 @@ vec3 lightThrough(Surface s, vec3 baseColor, vec3 direction) {
 
 /// Metres along the view axis, or from a panorama or a fisheye.
 float depthOf(Surface s) {
-  if (kPanorama || kFisheye) return length(s.position - frame.cameraPosition) * frame.metresPerUnit;
-  return dot(s.position - frame.cameraPosition, frame.cameraForward) * frame.metresPerUnit;
+  vec3 way = s.position - frame.cameraPosition;
+  return (kPanorama || kFisheye ? length(way) : dot(way, frame.cameraForward)) * frame.metresPerUnit;
 }
 
 /// The number of the glTF node that was hit, from 1 on.

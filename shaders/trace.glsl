@@ -51,7 +51,6 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "luminance.glsl"
 #include "pixel_filter.glsl"
 #include "camera.glsl"
-#include "round_camera.glsl"
 #include "intersect.glsl"
 #include "slab.glsl"
 #include "stack.glsl"

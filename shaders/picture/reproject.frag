@@ -3,7 +3,7 @@
 // points are relative to the present camera's position.
 #include "picture/picture.glsl"
 #include "sampling.glsl"
-#include "round_camera.glsl"
+#include "camera.glsl"
 
 layout(binding = 0) uniform sampler2D radiances;  // of the present, as film.frag leaves these
 layout(binding = 1) uniform sampler2D counts;

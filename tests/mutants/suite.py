@@ -11,7 +11,6 @@ from fault import callers_of
 COMMANDS = ("Sky", "Media", "Volumes", "Means", "Sheets", "KnownLight", "ThinGlass", "LightTree", "Caustics", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "LightParts", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging", "Denoising", "ShadowCatcher", "CutOutShadow", "CameraTypes")
 # Where to look first, before there is any experience: scenes of picture tests, test files and groups by the beginning of a fault's name.
 LIKELY = {
-    "round_camera.": ("pure.shader_round_camera_test",),
     "path.roundCameraRay": ("command.CameraTypes",),
     "path.withinFisheye": ("command.CameraTypes",),
     "caustics/light_path.roundCameraFrom": ("command.Caustics",),

@@ -6,7 +6,6 @@
 #include "luminance.glsl"
 #include "pixel_filter.glsl"
 #include "camera.glsl"
-#include "round_camera.glsl"
 #include "intersect.glsl"
 #include "stack.glsl"
 #include "tree.glsl"

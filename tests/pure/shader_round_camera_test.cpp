@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// shaders/round_camera.glsl
+// shaders/camera.glsl: panoramas and fisheyes
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -79,6 +79,19 @@ class Camera(Case):
             self.assertAlmostEqual(found, expected, delta=2e-3)
         self.assertGreater(numbers[0], 0.1)
 
+    def test_a_panorama_moves_and_is_rendered_by_its_options(self):
+        viewer = self.view("plastics", *FEW, "--camera-type", "panorama", "--camera-position", "0,1,2")
+        asked = viewer.status()["asked"]
+        viewer.drag((60, 60), (110, 80), 1)
+        status = viewer.rest(lambda s: s["asked"] > asked, "rest after a drag")
+        self.assertIn("--camera-type panorama", status["camera"])
+        self.same(pixels_of(viewer.press_for_file("F12", ".png")), pixels_of(self.render("plastics", "--spp", 4, *shlex.split(status["camera"]))))
+        asked = status["asked"]
+        viewer.key("5")
+        status = viewer.rest(lambda s: s["asked"] > asked, "rest as a perspective")
+        self.assertNotIn("--camera-type", status["camera"])
+        self.same(pixels_of(viewer.press_for_file("F12", ".png")), pixels_of(self.render("plastics", "--spp", 4, *shlex.split(status["camera"]))))
+
     def test_an_orbited_view_is_rendered_exactly_by_its_options(self):
         viewer = self.view("plastics", *FEW)
         before = viewer.status()["camera"]
