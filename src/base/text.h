@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace fragtrace {
 
@@ -35,7 +36,8 @@ inline std::string countText(size_t number, const std::string& what) {
 template <typename Texts>
 std::string joined(const Texts& texts, const char* separator = ", ") {
   std::string all;
-  for (const auto& text : texts) all += (all.empty() ? "" : separator) + std::string(text);
+  const char* before = "";
+  for (const auto& text : texts) all.append(std::exchange(before, separator)).append(text);
   return all;
 }
 

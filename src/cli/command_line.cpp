@@ -60,7 +60,8 @@ RunCommand addCommands(CLI::App& app, std::span<const CommandRow> rows) {
 
 std::vector<const char*> withCommand(std::span<const CommandRow> rows, int argc, const char* const* argv) {
   std::vector<const char*> words(argv, argv + argc);
-  if (argc < 2 || argv[1][0] == '-') return words;
+  const bool isFiles = argc > 1 && argv[1] == std::string_view("--");
+  if (argc < 2 || (argv[1][0] == '-' && !isFiles)) return words;
   if (argv[1] == std::string_view("help")) {
     words.erase(words.begin() + 1);
     words.push_back("--help");
@@ -68,7 +69,7 @@ std::vector<const char*> withCommand(std::span<const CommandRow> rows, int argc,
   const auto named = [&](const CommandRow& row) { return row.name == std::string_view(argv[1]); };
   std::error_code error;
   const bool isFile = std::filesystem::is_regular_file(argv[1], error);
-  if (isFile && std::ranges::none_of(rows, named)) words.insert(words.begin() + 1, "view");
+  if (isFiles || (isFile && std::ranges::none_of(rows, named))) words.insert(words.begin() + 1, "view");
   return words;
 }
 

@@ -109,6 +109,10 @@ std::set<std::string> applyFile(const std::filesystem::path& path, CLI::App& com
     if (isFlag && !value.is_boolean()) throw InputError(place + ": is neither true nor false");
     if (!isFlag && value.is_array() && value.empty()) throw InputError(place + ": is empty");
     std::vector<std::string> values = isFlag ? std::vector<std::string>{"true"} : spelledValues(value, place);
+    // Numbers of an option that takes one word, such as "up".
+    if (option->get_type_name() == "TEXT" && option->get_items_expected_max() == 1 && value.is_array() &&
+        std::ranges::all_of(value, &Json::is_number))
+      values = {joined(values, ",")};
     if (name == "resolution") {
       for (std::string& size : values) size = withNumberSettled(size, "--resolution");
     }

@@ -67,18 +67,24 @@ OptionRow hiddenRow() {
   return row;
 }
 
-/// "POINTER=1,2"
+/// "POINTER=1,2" or "POINTER=1, 2"
 SetNumber setNumberIn(const std::string& text) {
   const size_t equals = text.rfind('=');
   SetNumber set{text.substr(0, equals), {}};
-  if (!set.pointer.starts_with('/') || equals >= text.size() - 1)
-    throw UsageError("--set: '" + text + "' is not of the form PLACE=NUMBERS");
+  if (!set.pointer.starts_with('/') || equals >= text.size() - 1) {
+    const size_t slash = set.pointer.find('/');
+    const bool isMeant = slash != std::string::npos && slash > 0 && equals < text.size() - 1;
+    const size_t start = text.starts_with("#/") ? 2 : 0;
+    throw UsageError("--set: '" + text + "' is not of the form PLACE=NUMBERS" +
+                     (isMeant ? "; did you mean /" + text.substr(start) + "?" : ""));
+  }
   for (size_t start = equals + 1; start <= text.size();) {
     const size_t end = std::min(text.find(',', start), text.size());
-    const std::string word = text.substr(start, end - start);
+    const std::string word = CLI::detail::trim_copy(text.substr(start, end - start));
     const std::optional<double> number = numberOfAll<double>(word);
     if (!number || !std::isfinite(*number))
-      throw UsageError("--set: " + set.pointer + ": '" + word + "' is no number");
+      throw UsageError("--set: " + set.pointer + ": '" + word + "' is no number" +
+                       (end == text.size() && word.empty() ? "; a list with spaces stands in quotes" : ""));
     set.values.push_back(*number);
     start = end + 1;
   }

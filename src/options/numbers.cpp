@@ -41,7 +41,7 @@ CLI::Validator wholeNumber(int64_t least, int64_t most, const std::string& form)
                              (form.empty() ? "" : ", as in " + form);
   return CLI::Validator(
       [=](const std::string& text) -> std::string {
-        const auto value = numberOfAll<int64_t>(text);
+        const auto value = numberOfAll<int64_t>(CLI::detail::trim_copy(text));
         const bool good = value && *value >= least && *value <= most;
         return good ? "" : "'" + text + "' is no " + wanted;
       },

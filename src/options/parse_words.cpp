@@ -15,6 +15,8 @@ namespace fragtrace {
 
 namespace {
 
+constexpr const char* kEndOfOptions = "--";  // as POSIX has it: files follow, whatever they are called
+
 /// The command that was given.
 const CLI::App& chosenCommand(const CLI::App& app) {
   const CLI::App* command = &app;
@@ -60,6 +62,10 @@ std::string commandWith(const std::string& option, const CLI::App& command) {
 /// Names the arguments that the library did not expect.
 std::string whatIsUnknown(const CLI::App& app, const std::vector<std::string>& left) {
   const CLI::App& command = chosenCommand(app);
+  const auto end = std::ranges::find(left, kEndOfOptions);
+  if (end != left.end() && left.size() > 1)
+    return "'" + (end == left.begin() ? left[1] : left[0]) + "' is an argument too many: words after " +
+           kEndOfOptions + " are files, and options stand before it";
   const auto option =
       std::ranges::find_if(left, [](const std::string& word) { return word.starts_with('-'); });
   if (option == left.end()) return "'" + left.front() + "' is an argument too many";
@@ -130,10 +136,14 @@ std::string plainText(const CLI::ParseError& error, const CLI::App& app) {
 }
 
 void parseWords(CLI::App& app, std::vector<std::string> words, const char* more) {
+  const std::vector<std::string> files(std::ranges::find(words, kEndOfOptions), words.end());
+  if (std::ranges::find(files, "") != files.end()) throw UsageError("an argument is empty");
+  words.resize(words.size() - files.size());
   // The last one comes first, so that the word before is still as it was given.
   for (size_t i = words.size(); i-- > 0;)
     words[i] = withNumberSettled(words[i], i > 0 ? std::string_view(words[i - 1]) : std::string_view());
   checkValues(words);
+  words.insert(words.end(), files.begin(), files.end());
   refuseValuesOfSwitches(app);
   std::ranges::reverse(words);  // last first, as the library wants them
   try {
@@ -142,7 +152,8 @@ void parseWords(CLI::App& app, std::vector<std::string> words, const char* more)
     throw;
   } catch (const CLI::ParseError& error) {
     // A word that is not known counts more than what is missing: it may be that, misspelled.
-    const std::vector<std::string> left = app.remaining(true);
+    std::vector<std::string> left = app.remaining(true);
+    if (left == std::vector<std::string>{kEndOfOptions}) left.clear();
     const bool isAboutWords = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
                               dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
     if (isAboutWords && !left.empty() && *more == '\0')

@@ -24,6 +24,9 @@ OptionRow timeRow() {
   row.examples = {"2026-06-21T14:30:00+02:00"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
     const auto take = [](RenderOptions& o, const std::string& text) {
+      if (daysOf(text + "Z"))
+        throw UsageError("--sun-time: '" + text + "' has no offset from universal time, as " + text +
+                         "+02:00 or " + text + "Z has");
       if (!daysOf(text))
         throw UsageError(
             "--sun-time: '" + text +

@@ -52,6 +52,9 @@ SceneDescription describe(const Scene& scene);
 /// Says that what is selected of the scene has nothing to draw; empty: it has.
 std::string whyEmpty(const Scene& scene, const SceneSelection& selection);
 
+/// Says which of the user's numbers change nothing, since no surface has the material, or no node the light.
+std::vector<std::string> setInVain(const Scene& scene, const SceneSelection& selection);
+
 /// Says which node reaches so far beyond nearly all triangles that they are a dot where the whole scene is
 /// framed; empty: none does. Looks at a sample of the triangles, and at all of them only where there is such
 /// a node.

@@ -90,6 +90,29 @@ std::string whyEmpty(const Scene& scene, const SceneSelection& selection) {
          (selection.hiddenNodes.empty() ? "nothing to draw" : "--hide leaves nothing to draw");
 }
 
+std::vector<std::string> setInVain(const Scene& scene, const SceneSelection& selection) {
+  std::vector<std::string> places;
+  if (selection.set.empty()) return places;
+  std::vector<bool> isDrawn(scene.materials.size());
+  const auto note = [&](const auto& drawn) { isDrawn[drawn.material] = true; };
+  std::ranges::for_each(scene.triangles, note);
+  std::ranges::for_each(scene.spheres, note);
+  std::ranges::for_each(scene.strokes, note);
+  for (const SetNumber& set : selection.set) {
+    for (size_t i = 0; i < isDrawn.size(); ++i) {
+      const std::string& place = scene.materials[i].place;
+      if (!isDrawn[i] && !place.empty() && set.pointer.starts_with(place + "/"))
+        places.push_back(set.pointer + ": nothing that is drawn has this material");
+    }
+    for (size_t i = 0; i < scene.lightSources.size(); ++i) {
+      const bool isPlaced = std::ranges::find(scene.lights, i, &Light::source) != scene.lights.end();
+      if (!isPlaced && set.pointer.starts_with(formatted("/extensions/KHR_lights_punctual/lights/%zu/", i)))
+        places.push_back(set.pointer + ": no node that is shown has this light");
+    }
+  }
+  return places;
+}
+
 std::string strayNode(const Scene& scene) {
   const std::vector<Piece> pieces = piecesOf(scene);
   size_t triangles = 0;

@@ -232,6 +232,8 @@ void sayLight(const RenderOptions& options, OwnLight light, const Scene& scene, 
 /// framed.
 void sayWarnings(const RenderOptions& options, bool isFramed, Scene& scene) {
   std::ranges::move(vainOptions(options), std::back_inserter(scene.warnings));
+  for (const std::string& vain : setInVain(scene, options.selection))
+    scene.warnings.push_back("--set: " + vain);
   if (const std::string stray = isFramed ? strayNode(scene) : ""; !stray.empty())
     scene.warnings.push_back(options.scene.string() + ": " + stray);
   for (const std::string& warning : scene.warnings) say(options, "warning: " + warning);
@@ -333,7 +335,9 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
     PhaseTimer timer("sky");
     loaded.environment = before.environment ? std::move(*before.environment)
                                             : makeEnvironment(options, map, light, ofEnvironment);
-    if (options.light.sky.on) stats.phases.push_back(timer.end());
+    if (!options.light.sky.on) return;
+    stats.phases.push_back(timer.end());
+    stats.sun = sunOf(options.light.sky);
   };
   // The tree is built while the map is decoded, unless the camera depends on the map.
   const bool early = fitsShadow(options, settledOverrides(options.camera.overrides, scene));

@@ -117,6 +117,10 @@ std::string statisticsText(const Statistics& s) {
     json["gpu_bytes_per_triangle"] = double(s.geometryBytes) / double(s.scene.triangles);
   json["default_light"] = s.defaultLight;
   if (s.defaultLight) json["default_light_reason"] = s.defaultLightReason;
+  if (s.sun) {
+    json["sun_elevation"] = s.sun->elevation;
+    json["sun_azimuth"] = s.sun->azimuth;
+  }
   json["variant"] = s.variant;
   json["quick_compilation"] = s.quickCompilation;
   json["schedule"] = s.scheduleReason.empty() ? "wavefront" : "megakernel";

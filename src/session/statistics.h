@@ -8,6 +8,7 @@
 #include "render/film/film_pixels.h"
 #include "render/renderer.h"
 #include "scene/describe.h"
+#include "scene/sky/sun_place.h"
 #include "session/phase_timer.h"
 
 namespace fragtrace {
@@ -56,6 +57,7 @@ struct Statistics {
   size_t geometryBytes = 0;  ///< bytes among these for tree, leaves, records and vertex attributes
   bool defaultLight = false;
   std::string defaultLightReason;
+  std::optional<SunPlace> sun;  ///< of a sky
   double clampIndirect = 0.0;  ///< 0: not clamped
   std::string lightSelection;  ///< name of the choice of lights; empty: there is none to choose
   std::string lightSelectionReason;

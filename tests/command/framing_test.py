@@ -85,6 +85,8 @@ class Framing(FramingCase):
             scene = write(**options)
             for stderr in (self.renders(scene, "-o", self.folder / "x.png", *tiny).stderr, run("info", scene).stderr):
                 self.assertRegex(stderr, f"{scene}: {said}")
+        said = self.renders(write(quad_at=500, camera=True), "-o", self.folder / "x.png", *tiny, "--fit").stderr
+        self.assertIn("this view shows nothing of the scene; --camera-position", said)
         self.assertNotIn("reaches", run("info", write(quad_at=500), "--hide", 0).stderr)
         # A camera of the file frames nothing.
         self.assertNotIn("reaches", self.renders(write(quad_at=500, camera=True), "-o", self.folder / "x.png", *tiny).stderr)

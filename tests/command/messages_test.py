@@ -4,6 +4,7 @@
 import json
 import os
 import re
+import shutil
 import struct
 import subprocess
 import sys
@@ -92,10 +93,31 @@ class Values(Case):
                             ("/material/0/alphaCutoff", "; did you mean /materials/0/alphaCutoff?"),
                             ("/materials/0/pbrMetallicRoughness/roughnesFactor", "; did you mean /materials/0/pbrMetallicRoughness/roughnessFactor?"),
                             ("/materials/0/extensions/KHR_materials_sheen/sheenRoughnessFactor", ": /materials/0/extensions has no KHR_materials_sheen\n"),
+                            ("/materials/red/pbrmetallicroughness/ROUGHNESSFACTOR", "; did you mean /materials/1/pbrMetallicRoughness/roughnessFactor?"),
+                            ("/materials/0/roughnessFactor", "; did you mean /materials/0/pbrMetallicRoughness/roughnessFactor?"),
+                            ("/materials/0/ior", ": the file has no /materials/0/extensions/KHR_materials_ior/ior\n"),
+                            ("/materials/0/extensions/KHR_materials_shen/sheenRoughnessFactor", "of the file that is read\n"),
                             ("/materials/0/name", "of the file that is read\n")):
             self.fails(2, "render", BOX, "-o", self.folder / "x.png", "--set", f"{place}=1", says=[f"--set: {place} is no number of the file that is read", said])
-        said = self.renders(BOX, "-o", self.folder / "x.png", *TINY, "--set", "/materials/0/emissiveFactor=0,5,0").stderr
-        self.assertIn("/materials/0/emissiveFactor: is above 1, and drawn so", said)
+        for text, said in (("#/materials/0/emissiveFactor=1,1,1", "did you mean /materials/0/emissiveFactor=1,1,1?"),
+                           ("materials/0/alphaCutoff=1", "did you mean /materials/0/alphaCutoff=1?"), ("/materials/0/emissiveFactor=0,", "a list with spaces stands in quotes"),
+                           ("/cameras/0/perspective/yfov=9", "fragtrace: --set: /cameras/0/perspective/yfov: is not between 0 and pi")):
+            self.fails(2, "render", BOX, "-o", self.folder / "x.png", "--set", text, says=[said])
+        lamps = self.folder / "lamps.gltf"
+        root = json.loads((SCENES / "lights.gltf").read_text())
+        root["materials"].append({"name": "spare"})
+        root["extensions"]["KHR_lights_punctual"]["lights"].append({"type": "point"})
+        spare = f"/materials/{len(root['materials']) - 1}/alphaCutoff"
+        light, lamp = "/extensions/KHR_lights_punctual/lights/0", f"/extensions/KHR_lights_punctual/lights/{len(root['extensions']['KHR_lights_punctual']['lights']) - 1}"
+        lamps.write_text(json.dumps(root))
+        self.fails(2, "render", lamps, "-o", self.folder / "x.png", "--set", f"{light}/intensity=-1", says=[f"fragtrace: --set: {light}: colour times intensity is negative"])
+        self.fails(2, "render", lamps, "-o", self.folder / "x.png", "--set", "/lights/0/intensity=1", says=[f"did you mean {light}/intensity?"])
+        said = self.renders(lamps, "-o", self.folder / "x.png", *TINY, "--set", "/materials/0/emissiveFactor=0, 5, 0", "--set", f"{light}/color=2, 1,1",
+                            "--set", f"{spare}=1", "--set", f"{lamp}/intensity=2").stderr
+        for warning in ("/materials/0/emissiveFactor: is above 1, and drawn so", f"{light}/color: is above 1, and drawn so, but glTF has the light's intensity",
+                        f"--set: {spare}: nothing that is drawn has this material", f"--set: {lamp}/intensity: no node that is shown has this light"):
+            self.assertIn(warning, said)
+        self.assertEqual(said.count("warning"), 4, said)
 
     def test_fog_s_options_are_named_that_miss_its_density(self):
         for option, value in (("--fog-height", "2"), ("--fog-color", "1,1,1"), ("--fog-anisotropy", "0.1"), ("--fog-distance", "3")):
@@ -124,6 +146,12 @@ class UnknownWords(Case):
         (self.folder / "-file.glb").touch()
         for words in (["-file.glb"], ["render", "-file.glb", "-o", "x.png"]):
             self.fails(2, *words, cwd=self.folder, says=["-file.glb is no option of", "; a file of that name is ./-file.glb"])
+        shutil.copy(BOX, self.folder / "-file.glb")
+        self.renders("-o", "x.png", *TINY, "--", "-file.glb", cwd=self.folder)
+        self.fails(2, "render", "--", "-file.glb", "-o", "x.png", cwd=self.folder, says=["'-o' is an argument too many: words after -- are files"])
+        self.fails(2, "render", "-o", "x.png", "--", says=["file is required"])
+        self.fails(2, "render", "-o", "x.png", "--", "", says=["an argument is empty"])
+        self.fails(2, "--", "a.glb", "b.glb", says=["'b.glb' is an argument too many"])
         self.assertIn("`fragtrace FILE` is short for `fragtrace view", run("--help").stdout)
 
     def test_no_equals_sign_follows_a_letter(self):

@@ -27,10 +27,10 @@ class Config(Case):
     def test_every_kind_of_option_is_as_on_the_command_line(self):
         config = {"resolution": [16, 12], "spp": 2, "stage": "phong", "enable": ["schlick", "gi"], "disable": "shadows",
                   "camera-position": "-.5,0.25,3", "camera-view-angle": 0.1 + 0.2 + 30, "bounces": "unlimited", "seed": 7,
-                  "background-color": [0, 0.5, 1.0], "no-background": True, "no-default-light": False}
+                  "up": [0, -1, 0.25], "background-color": [0, 0.5, 1.0], "no-background": True, "no-default-light": False}
         options = ["--resolution", "16,12", "--spp", 2, "--stage", "phong", "--enable", "schlick,gi", "--disable", "shadows",
                    "--camera-position", "-.5,0.25,3", "--camera-view-angle", 0.1 + 0.2 + 30, "--bounces", "unlimited",
-                   "--seed", 7, "--background-color", "0,0.5,1", "--no-background"]
+                   "--seed", 7, "--up", "0,-1, 0.25", "--background-color", "0,0.5, 1", "--no-background"]
         self.assertEqual(self.bytes_of(config=config), self.bytes_of(*options))
         self.assertNotEqual(self.bytes_of(config={**config, "seed": 8}), self.bytes_of(*options))
 

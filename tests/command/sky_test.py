@@ -61,7 +61,11 @@ class Sky(Case):
     def test_time_and_place_put_the_sun_where_it_stands(self):
         """Reda and Andreas, Solar Position Algorithm (2004), table A5.1."""
         place = ["--sun-time", "2003-10-17T12:30:30-07:00", "--sun-place", "39.742476,-105.1786"]
-        rows = self.picture("sphere-plane", "x.exr", "--sky", *place, *FEW)
+        stats = self.folder / "stats.json"
+        rows = self.picture("sphere-plane", "x.exr", "--sky", *place, *FEW, "--stats", stats)
+        stands = json.loads(stats.read_text())
+        self.assertAlmostEqual(stands["sun_elevation"], 39.8884, delta=0.02)
+        self.assertAlmostEqual(stands["sun_azimuth"], 194.3402, delta=0.02)
         settings = json.loads(rows.texts["fragtrace:settings"])
         self.assertEqual(settings["sun_time"], "2003-10-17T12:30:30-07:00")
         same = self.picture("sphere-plane", "y.exr", "--sky", "--sun-elevation", "39.8884", "--sun-azimuth", "194.3402", *FEW)
@@ -98,7 +102,7 @@ class Sky(Case):
                 (["--sky", "--ground-albedo", "1.5"], "--ground-albedo"),
                 (["--sky", "--sun-time", "2026-06-21T12:00Z"], "--sun-time: goes with --sun-place"),
                 (["--sky", *place], "--sun-place: goes with --sun-time"),
-                (["--sky", "--sun-time", "2026-06-21T12:00", *place], "is no time with its offset"),
+                (["--sky", "--sun-time", "2026-06-21T12:00", *place], "has no offset from universal time, as 2026-06-21T12:00+02:00 or"),
                 (["--sky", "--sun-time", "2026-06-31T12:00Z", *place], "is no time with its offset"),
                 (["--sky", "--sun-time", "2026-06-21T12:00Z", "--sun-place", "91,0"], "the latitude"),
                 (["--sky", "--sun-time", "2026-06-21T12:00Z", *place, "--sun-elevation", "3"], "--sun-elevation: --sun-time says"),

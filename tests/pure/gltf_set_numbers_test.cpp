@@ -96,7 +96,7 @@ TEST(SetNumbers, BeyondTheirRangeCountAsTheNearest) {
   ASSERT_EQ(warnings.size(), 2u);
   EXPECT_EQ(warnings[0],
             "--set: " + kRoughness + ": is out of range, the nearest possible value is taken: 1");
-  EXPECT_EQ(warnings[1], "--set: " + emission + ": " + kBrightEmission);
+  EXPECT_EQ(warnings[1], "--set: " + emission + ": " + whatIsBright(all[1]));
   EXPECT_TRUE(warningsOf(std::vector<SetNumber>{{kRoughness, {0.3}}, {emission, {0, 1, 0}}}).empty());
 }
 

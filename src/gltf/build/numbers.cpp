@@ -56,38 +56,89 @@ bool isOfSomething(const json& root, std::string_view pointer) {
   return at.parent->is_object() && (at.rest.empty() || at.part == "pbrMetallicRoughness");
 }
 
-/// A hint at what may be meant by a pointer to no number: an element by its index, or a member that is
-/// spelled much the same.
-std::string hintFor(const json& root, const std::string& pointer) {
-  const Missing at = firstMissing(root, pointer);
-  // Without a missing part, the last one is no number.
-  const size_t last = pointer.rfind('/');
-  const std::string part(at.part.value_or(std::string_view(pointer).substr(last + 1)));
+/// A pointer cut at the first part that the document does not have, or else at its last part.
+struct CutPointer {
+  std::string place;
+  std::string part;
+  std::string rest;
+};
+
+CutPointer cutAt(const Missing& at, const std::string& pointer) {
   const std::string rest(at.part ? at.rest : "");
-  const std::string place = pointer.substr(0, pointer.size() - rest.size() - part.size() - 1);
-  const auto meant = [&](const std::string& name) {
-    return "; did you mean " + place + "/" + name + rest + "?";
-  };
-  if (!at.part || at.parent->is_object()) {
-    const std::vector<std::string> members = numberMembersAt(place);
-    if (std::ranges::find(members, part) != members.end())
-      return !at.part ? "" : ": " + (place.empty() ? "it" : place) + " has no " + part;
-    const std::string nearest = nearestName(part, members);
-    return nearest.empty() ? "" : meant(nearest);
-  }
-  if (!at.parent->is_array()) return "";
+  const std::string part(at.part.value_or(std::string_view(pointer).substr(pointer.rfind('/') + 1)));
+  return {pointer.substr(0, pointer.size() - rest.size() - part.size() - 1), part, rest};
+}
+
+/// The names of an array's elements; empty where one has none.
+std::vector<std::string> namesIn(const json& array) {
   std::vector<std::string> names;
-  for (const json& element : *at.parent) {
+  for (const json& element : array) {
     const bool isNamed = element.is_object() && element.contains("name") && element["name"].is_string();
     names.push_back(isNamed ? element["name"].get<std::string>() : "");
   }
+  return names;
+}
+
+/// What may be meant by a pointer to no number, one step nearer to one: a member that is spelled much the
+/// same, one that stands deeper, or an element by its name; empty: nothing.
+std::string nearerPlace(const json& root, const std::string& pointer) {
+  const Missing at = firstMissing(root, pointer);
+  const auto [place, part, rest] = cutAt(at, pointer);
+  if (!at.part || at.parent->is_object()) {
+    for (const std::string& below : numbersBelow(place, "/" + part + rest)) {
+      if (numberRuleIn(root, below)) return below;
+    }
+    const std::vector<std::string> members = numberMembersAt(place);
+    if (std::ranges::find(members, part) != members.end()) return "";
+    const auto isAlike = [&](const std::string& member) { return isSameButForCase(member, part); };
+    const auto alike = std::ranges::find_if(members, isAlike);
+    const std::string nearest = alike != members.end() ? *alike : nearestName(part, members);
+    return nearest.empty() ? "" : place + "/" + nearest + rest;
+  }
+  if (!at.parent->is_array()) return "";
+  const std::vector<std::string> names = namesIn(*at.parent);
   std::optional<size_t> index = findPart(part, names);
   if (!index) index = findPart(nearestName(part, names), names);
   const bool isNamed = index && !names[*index].empty();
-  if (isNamed) return meant(std::to_string(*index));
+  return isNamed ? place + "/" + std::to_string(*index) + rest : "";
+}
+
+/// A hint at what may be meant by a pointer to no number.
+std::string hintFor(const json& root, const std::string& pointer) {
+  std::string meant = pointer;
+  constexpr int kMostSteps = 8;  // as many parts may be wrong
+  for (int i = 0; i < kMostSteps && !meant.empty(); ++i) {
+    meant = nearerPlace(root, meant);
+    if (!meant.empty() && numberRuleIn(root, meant)) return "; did you mean " + meant + "?";
+  }
+  const Missing at = firstMissing(root, pointer);
+  if (!at.part) return "";
+  const auto [place, part, rest] = cutAt(at, pointer);
+  if (at.parent->is_object()) {
+    const std::vector<std::string> members = numberMembersAt(place);
+    const bool isKnown = std::ranges::find(members, part) != members.end();
+    if (isKnown) return ": " + (place.empty() ? "it" : place) + " has no " + part;
+    const std::vector<std::string> below = numbersBelow(place, "/" + part + rest);
+    return below.empty() ? "" : ": the file has no " + below.front();
+  }
+  if (!at.parent->is_array()) return "";
+  const std::vector<std::string> names = namesIn(*at.parent);
   constexpr size_t kMostListed = 20;
   return ": " + place + " has " +
          (names.size() <= kMostListed ? listOfParts(names) : std::to_string(names.size()) + ", from 0 on");
+}
+
+/// The rule of the user's number. Throws UsageError for a place without numbers, and for too few or too many.
+NumberRule checkedRule(const json& root, const SetNumber& set) {
+  const std::optional<NumberRule> rule = numberRuleIn(root, set.pointer);
+  if (!rule)
+    throw UsageError("--set: " + set.pointer + " is no number of the file that is read" +
+                     hintFor(root, set.pointer));
+  const size_t width = rule->width > 0 ? rule->width : std::max<size_t>(set.values.size(), 1);
+  if (set.values.size() != width)
+    throw UsageError("--set: " + set.pointer + " takes " + countText(width, "number") + ", not " +
+                     std::to_string(set.values.size()));
+  return *rule;
 }
 
 }  // namespace
@@ -110,25 +161,23 @@ void writeNumbers(json& root, const std::string& pointer, const NumberRule& rule
 }
 
 void checkNumbers(const json& root, std::span<const SetNumber> set) {
-  for (const auto& [pointer, values] : set) {
-    const std::optional<NumberRule> rule = numberRuleIn(root, pointer);
-    if (!rule)
-      throw UsageError("--set: " + pointer + " is no number of the file that is read" +
-                       hintFor(root, pointer));
-    const size_t width = rule->width > 0 ? rule->width : std::max<size_t>(values.size(), 1);
-    if (values.size() != width)
-      throw UsageError("--set: " + pointer + " takes " + countText(width, "number") + ", not " +
-                       std::to_string(values.size()));
-  }
+  for (const SetNumber& one : set) checkedRule(root, one);
 }
 
 void writeNumbers(json& root, const std::vector<SetNumber>& set, Diagnostics& diagnostics) {
-  checkNumbers(root, set);
-  for (const auto& [pointer, values] : set) {
-    writeNumbers(root, pointer, *numberRuleIn(root, pointer), values);
-    if (pointer.ends_with("/emissiveFactor") && std::ranges::max(values) > 1.0)
-      diagnostics.warn(pointer, kBrightEmission);
+  for (const SetNumber& one : set) {
+    writeNumbers(root, one.pointer, checkedRule(root, one), one.values);
+    if (const char* warning = whatIsBright(one)) diagnostics.warn(one.pointer, warning);
+    diagnostics.noteSet(one.pointer);
   }
+}
+
+const char* whatIsBright(const SetNumber& set) {
+  const bool isLight = set.pointer.starts_with("/extensions/KHR_lights_punctual/");
+  const bool isColor = set.pointer.ends_with(isLight ? "/color" : "/emissiveFactor");
+  if (!isColor || std::ranges::max(set.values) <= 1.0) return nullptr;
+  return isLight ? "is above 1, and drawn so, but glTF has the light's intensity for that"
+                 : "is above 1, and drawn so, but glTF has KHR_materials_emissive_strength for that";
 }
 
 }  // namespace fragtrace

@@ -317,4 +317,19 @@ std::vector<std::string> numberMembersAt(std::string_view pointer) {
   return {members.begin(), members.end()};
 }
 
+std::vector<std::string> numbersBelow(std::string_view pointer, std::string_view end) {
+  std::vector<std::string> places;
+  for (const Rule& rule : rules()) {
+    if (rule.kind != Kind::Number && rule.kind != Kind::Numbers) continue;
+    const std::optional<std::string_view> rest = restOf(rule.pattern, pointer);
+    if (!rest || rest->empty()) continue;
+    for (size_t at = rest->find('/', 1); at < rest->size(); at = rest->find('/', at + 1)) {
+      const std::string_view between = rest->substr(0, at);
+      if (between.find('*') == between.npos && matches(rest->substr(at), end))
+        places.push_back(std::string(pointer).append(between).append(end));
+    }
+  }
+  return places;
+}
+
 }  // namespace fragtrace

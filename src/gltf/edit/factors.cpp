@@ -84,6 +84,24 @@ float valueTaken(const Factor& factor, double value) {
   return float(std::clamp(value, double(factor.least), double(most)));
 }
 
+/// Says that the loader would not take a material's factor as it is; empty: it would.
+std::string whatIsOutOfRange(const SetNumber& set) {
+  constexpr std::string_view kMaterials = "/materials/";
+  const size_t end = set.pointer.find('/', kMaterials.size());
+  if (!set.pointer.starts_with(kMaterials) || end == std::string::npos) return "";
+  Material material;
+  material.place = set.pointer.substr(0, end);
+  const auto factor = std::ranges::find_if(
+      kFactors, [&](const Factor& one) { return pointerOf(one, material) == set.pointer; });
+  if (factor == std::end(kFactors)) return "";
+  const auto differs = [&](double value) { return valueTaken(*factor, value) != float(value); };
+  const auto wrong = std::ranges::find_if(set.values, differs);
+  const bool isInfinite = factor->member == std::string_view("ior") && set.values[0] == 0.0;
+  if (wrong == set.values.end() || isInfinite) return "";
+  return "is out of range, the nearest possible value is taken: " +
+         shortText(double(valueTaken(*factor, *wrong)));
+}
+
 }  // namespace
 
 std::span<const Factor> factors() { return kFactors; }
@@ -142,24 +160,9 @@ std::optional<SetNumber> numberAt(std::span<const Material> materials, std::span
 std::vector<std::string> warningsOf(std::span<const SetNumber> set) {
   std::vector<std::string> warnings;
   for (const SetNumber& number : set) {
-    const std::string& pointer = number.pointer;
-    const std::vector<double>& values = number.values;
-    constexpr std::string_view kMaterials = "/materials/";
-    const size_t end = pointer.starts_with(kMaterials) ? pointer.find('/', kMaterials.size()) : pointer.npos;
-    if (end == pointer.npos) continue;
-    Material material;
-    material.place = pointer.substr(0, end);
-    const auto factor = std::ranges::find_if(
-        kFactors, [&](const Factor& one) { return pointerOf(one, material) == pointer; });
-    if (factor == std::end(kFactors)) continue;
-    const auto differs = [&](double value) { return valueTaken(*factor, value) != float(value); };
-    const auto wrong = std::ranges::find_if(values, differs);
-    const bool isInfinite = factor->member == std::string_view("ior") && values[0] == 0.0;
-    if (wrong != values.end() && !isInfinite)
-      warnings.push_back("--set: " + pointer + ": is out of range, the nearest possible value is taken: " +
-                         shortText(double(valueTaken(*factor, *wrong))));
-    else if (isEmission(*factor) && std::ranges::any_of(values, [](double v) { return v > 1.0; }))
-      warnings.push_back("--set: " + pointer + ": " + kBrightEmission);
+    const char* bright = whatIsBright(number);
+    const std::string warning = bright != nullptr ? bright : whatIsOutOfRange(number);
+    if (!warning.empty()) warnings.push_back("--set: " + number.pointer + ": " + warning);
   }
   return warnings;
 }

@@ -33,6 +33,10 @@ std::string Diagnostics::line(std::string_view place, std::string_view reason) c
 }
 
 void Diagnostics::refuse(std::string_view place, std::string_view reason) const {
+  const std::string inside = std::string(place) + "/";
+  const auto isInside = [&](const std::string& set) { return (set + "/").starts_with(inside); };
+  if (!place.empty() && std::ranges::any_of(set_, isInside))
+    throw UsageError(withoutControls("--set: " + std::string(place) + ": " + std::string(reason)));
   throw InputError(line(place, reason));
 }
 

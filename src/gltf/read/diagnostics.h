@@ -40,7 +40,11 @@ class Diagnostics {
  public:
   explicit Diagnostics(std::string file) : file_(std::move(file)) {}
 
-  /// Throws InputError "FILE: PLACE: REASON"; an empty place is left out.
+  /// From now on, what is wrong at this place, or at what holds it, is the user's.
+  void noteSet(std::string place) { set_.push_back(std::move(place)); }
+
+  /// Throws InputError "FILE: PLACE: REASON"; an empty place is left out. Throws UsageError "--set: PLACE:
+  /// REASON" where the user has set a number there.
   [[noreturn]] void refuse(std::string_view place, std::string_view reason) const;
 
   /// Runs an action; a std::runtime_error of it is the reason to refuse that place.
@@ -74,6 +78,7 @@ class Diagnostics {
   std::string line(std::string_view place, std::string_view reason) const;
 
   std::string file_;
+  std::vector<std::string> set_;  ///< places of the user's numbers
   std::vector<Warning> warnings_;
   std::unordered_map<std::string, size_t> warningOf_;  ///< index of a warning by its reason
 };

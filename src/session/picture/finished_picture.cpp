@@ -28,8 +28,9 @@ void sayWhatIsNotSeen(const RenderOptions& options, const LoadedScene& loaded, c
   if (options.camera.region || nothing || seen || variant.countsVisits) return;
   say(options, std::string("warning: ") + (chosen ? "this" : "the default") +
                    " view shows nothing of the scene; " +
-                   (chosen ? "--fit moves the camera until it does"
-                           : "--camera-position and --camera-focal-point choose another"));
+                   (chosen && !loaded.overrides.fit
+                        ? "--fit moves the camera until it does"
+                        : "--camera-position and --camera-focal-point choose another"));
 }
 
 /// The share of pixels that are exactly black, 0..1.
@@ -102,6 +103,9 @@ void sayWhatIsChosen(const RenderOptions& options, const Context& context, const
     say(options, "OpenGL " + context.version + " on " + context.renderer + " (" + context.backend + ")");
     say(options, "variant " + stats.variant);
     for (const std::string& line : stats.skipped) say(options, "skipped " + line);
+    if (stats.sun)
+      say(options, formatted("the sun stands %.1f degrees above the horizon, at %.1f degrees from north",
+                             stats.sun->elevation, stats.sun->azimuth));
   }
   if (options.device.schedule == Schedule::Wavefront && !stats.scheduleReason.empty())
     say(options, "warning: --schedule wavefront: the megakernel draws: " + stats.scheduleReason);
