@@ -27,7 +27,8 @@ DroppedFile kindOfDropped(const std::filesystem::path& path) {
   return DroppedFile::Unknown;
 }
 
-Drop takeDrop(const RenderOptions& shown, std::span<const std::filesystem::path> files) {
+Drop takeDrop(const RenderOptions& shown, std::span<const std::filesystem::path> files,
+              const glm::dvec3& up) {
   Drop drop;
   RenderOptions options = shown;
   std::optional<std::filesystem::path> scene;
@@ -48,7 +49,7 @@ Drop takeDrop(const RenderOptions& shown, std::span<const std::filesystem::path>
     options.camera.overrides = {};
     options.camera.index.reset();
     options.camera.sceneOrigin.reset();
-    options.selection = {.up = options.selection.up};
+    options.selection = {.up = up};
   }
   if (environment) {
     options.light.hdriFile = *environment;

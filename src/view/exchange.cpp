@@ -174,7 +174,7 @@ void Exchange::deliver(std::vector<TracedPicture> pictures) {
 void Exchange::deliver(ViewedScene scene) {
   inform([&](Delivery& d) {
     d.scene = std::move(scene);
-    d.bounds.reset();
+    d.posed.reset();
     std::erase_if(d.pictures, [](const TracedPicture& picture) { return picture.file.empty(); });
   });
 }
@@ -187,8 +187,8 @@ void Exchange::deliver(EnvironmentThumbnail thumbnail) {
   inform([&](Delivery& d) { d.thumbnails.push_back(std::move(thumbnail)); });
 }
 
-void Exchange::tellBounds(const BoundsDouble& bounds) {
-  inform([&](Delivery& d) { d.bounds = bounds; });
+void Exchange::tellPosed(const PosedScene& posed) {
+  inform([&](Delivery& d) { d.posed = posed; });
 }
 
 void Exchange::tellLoad(LoadStatus status) {

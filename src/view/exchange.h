@@ -18,6 +18,7 @@
 #include "scene/describe.h"
 #include "shader/render_options.h"
 #include "shader/traits.h"
+#include "shader/variant.h"
 
 namespace fragtrace {
 
@@ -103,7 +104,7 @@ struct ViewedScene {
   TraitSet present;
   SceneDescription description;
   bool defaultLight = false;                        ///< it has no light of its own
-  bool map = false;                                 ///< an environment map lights it
+  Surroundings surroundings = Surroundings::None;   ///< what lights it beside its own light
   bool refersToFiles = false;                       ///< its file can only be written into its own folder
   std::vector<std::filesystem::path> environments;  ///< files near it that may
   std::vector<SceneNode> nodes;                     ///< nodes as they were loaded
@@ -113,6 +114,12 @@ struct ViewedScene {
   std::vector<std::string> materialVariants;
   std::vector<std::string> animationNames;
   std::vector<std::optional<double>> animationSeconds;
+};
+
+/// The scene as it is posed now.
+struct PosedScene {
+  BoundsDouble bounds;
+  Surroundings surroundings = Surroundings::None;
 };
 
 /// The progress of loading.
@@ -174,7 +181,7 @@ struct Delivery {
   std::vector<TracedPicture> pictures;  ///< one a side at most
   std::optional<ViewedScene> scene;     ///< a new one
   std::optional<PickAnswer> pick;
-  std::optional<BoundsDouble> bounds;  ///< bounds of the scene as it is posed now
+  std::optional<PosedScene> posed;
   std::vector<EnvironmentThumbnail> thumbnails;
   std::optional<std::vector<SetNumber>> saved;  ///< numbers that a model has just been written with
   LoadStatus load;
@@ -236,7 +243,7 @@ class Exchange {
   void deliver(ViewedScene scene);
   void deliver(PickAnswer answer);
   void deliver(EnvironmentThumbnail thumbnail);
-  void tellBounds(const BoundsDouble& bounds);
+  void tellPosed(const PosedScene& posed);
   void tellLoad(LoadStatus status);
   void tellState(uint64_t request, bool resting);
   void tellNote(std::string note);

@@ -115,10 +115,17 @@ void overlook(History& history, const ViewState& state) {
   if (history.now) history.now = settingsOf(state);
 }
 
-void takeOver(History& history, ViewState& state, const std::vector<ChangedNumber>& changed) {
+void takeOver(History& history, ViewState& state, const std::vector<ChangedNumber>& changed,
+              const LightOptions& lightBefore) {
+  if (changed.empty()) return;
+  const LightOptions lightNow = state.sides[0].light;
   const auto apply = [&](RenderOptions& side) {
     std::vector<SetNumber>& set = side.selection.set;
     if (side.scene.empty()) return;
+    if (side.light.studio == lightBefore.studio && side.light.defaultLight == lightBefore.defaultLight) {
+      side.light.studio = lightNow.studio;
+      side.light.defaultLight = lightNow.defaultLight;
+    }
     for (const auto& [before, now] : changed) {
       const auto found = std::ranges::find(set, now.pointer, &SetNumber::pointer);
       const SetNumber shown = found != set.end() ? *found : before;

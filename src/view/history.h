@@ -57,8 +57,10 @@ struct ChangedNumber {
   SetNumber now;
 };
 
-/// The file has by now what was set in it: all steps go on to show what they showed.
-void takeOver(History& history, ViewState& state, const std::vector<ChangedNumber>& changed);
+/// The file has by now what was set in it: all steps go on to show what they showed, and those of the light
+/// before have the state's light.
+void takeOver(History& history, ViewState& state, const std::vector<ChangedNumber>& changed,
+              const LightOptions& lightBefore);
 
 /// The options with the light, the material variant and the up axis of the latest step, which undo and redo
 /// leave to be loaded.

@@ -67,6 +67,12 @@ void setNumber(ViewState& state, SetNumber number, const SetNumber& inFile) {
   state.scene->options.selection = state.sides[0].selection;
 }
 
+void nameLight(RenderOptions& options, const ViewedScene& scene) {
+  if (hasMap(options) || !setsEmission(options.selection.set)) return;
+  if (scene.surroundings == Surroundings::Map) options.light.studio = true;
+  if (scene.surroundings == Surroundings::None) options.light.defaultLight = DefaultLight::None;
+}
+
 Material shownMaterial(const ViewState& state, size_t index) {
   Material material = state.scene->materials[index];
   setFactors(material, state.sides[0].selection.set);

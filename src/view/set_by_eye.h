@@ -19,6 +19,10 @@ void setNumberIn(std::vector<SetNumber>& set, SetNumber number, const SetNumber&
 /// end what was set there.
 void setNumber(ViewState& state, SetNumber number, const SetNumber& inFile);
 
+/// Names the light of the scene that is shown, where emission that is set could have `render` choose another
+/// one by default.
+void nameLight(RenderOptions& options, const ViewedScene& scene);
+
 /// A material's values, a line each: those that the user sees first, and of the others those that are not the
 /// defaults.
 std::vector<std::string> materialLines(const Material& material);

@@ -45,7 +45,7 @@ TEST(Environments, EachChoiceIsTheCurrentOneOnceItIsTaken) {
     for (const EnvironmentChoice& choice : choices) {
       ViewedScene chosen = scene;
       chosen.options = withEnvironment(scene.options, choice);
-      chosen.map = hasMap(chosen.options);
+      if (hasMap(chosen.options)) chosen.surroundings = Surroundings::Map;
       const std::vector<EnvironmentChoice> now = environmentChoices(chosen);
       EXPECT_EQ(now[currentChoice(chosen, now)], choice) << choice.name;
     }
@@ -55,7 +55,7 @@ TEST(Environments, EachChoiceIsTheCurrentOneOnceItIsTaken) {
 TEST(Environments, TheStudioByDefaultIsTheStudio) {
   ViewedScene scene;
   scene.defaultLight = true;
-  scene.map = true;
+  scene.surroundings = Surroundings::Map;
   scene.options.light.defaultLight = DefaultLight::Studio;
   const std::vector<EnvironmentChoice> choices = environmentChoices(scene);
   EXPECT_EQ(choices[currentChoice(scene, choices)].name, "Studio");

@@ -68,7 +68,9 @@ TEST(History, NumbersThatTheFileHasByNowAreTakenBack) {
   set(with(2.0));
   set(with(3.0));
   // The file had 1, and has 2.
-  takeOver(history, state, {{{"/a", {1.0}}, {"/a", {2.0}}}});
+  const LightOptions before = state.sides[0].light;
+  state.sides[0].light.studio = true;
+  takeOver(history, state, {{{"/a", {1.0}}, {"/a", {2.0}}}}, before);
   EXPECT_EQ(state.sides[0].selection.set, with(3.0));
   record(history, state);
   ASSERT_EQ(history.past.size(), 2u);
@@ -76,6 +78,7 @@ TEST(History, NumbersThatTheFileHasByNowAreTakenBack) {
   EXPECT_TRUE(state.sides[0].selection.set.empty());
   EXPECT_TRUE(undo(history, state));
   EXPECT_EQ(state.sides[0].selection.set, with(1.0));
+  EXPECT_TRUE(history.now->sides[0].light.studio);
 }
 
 TEST(History, WhatWasNotRecordedIsAStepToo) {

@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: MIT
 """Numbers of materials and lights that are set by eye, and the file that keeps them."""
 import shutil
+import subprocess
 import time
 
 from comfort_test import copied_command
-from support import SCENES, Case, main, pixels_of
+from support import FRAGTRACE, SCENES, Case, main, pixels_of
+from xdnd import drop
 
 PANEL = ["--resolution", "560,400", "--spp", "1", "--stage", "phong"]
 
@@ -70,6 +72,14 @@ class Materials(Case):
         viewer.key("ctrl+y")
         viewer.rest(lambda s: s["set"], "again")
         self.is_asked_for(viewer)
+        # So does opening another file, which asks itself.
+        drop(self.screen, viewer.id, SCENES / "furnace.gltf")
+        asked = viewer.until(lambda s: any("open again" in m for m in s["messages"]), "asked")
+        self.assertEqual((asked["scene"], asked["dialog"]), (str(self.scene), ""))
+        viewer.key("ctrl+o")
+        viewer.until(lambda s: s["dialog"] == "list", "a list")
+        viewer.key("Escape")
+        viewer.until(lambda s: not s["dialog"], "no list")
         viewer.key("ctrl+shift+s")
         viewer.until(lambda s: s["dialog"] == "list", "a list")
         time.sleep(0.2)
@@ -116,6 +126,30 @@ class Materials(Case):
         self.assertEqual(viewer.rest(lambda s: len(s["set"]) == 2, "undone")["set"][place], [9])
         self.same(self.picture(viewer), whole)
         self.is_asked_for(viewer)
+        self.ends_well(viewer, viewer.close())
+
+    def test_emission_that_is_set_leaves_the_studio_which_is_named(self):
+        light = ["--default-light", "studio"]
+        viewer = self.start("furnace", *light, "--set", "/materials/0/emissiveFactor=0.1,0.05,0")
+        shown = self.picture(viewer)
+        words = copied_command(self, viewer)
+        self.assertIn("--studio", words)
+        command = self.folder / "command.png"
+        words[words.index("--output") + 1] = str(command)
+        subprocess.run([FRAGTRACE, *words[1:], "--quiet"], check=True)
+        self.same(shown, pixels_of(command))
+        # Written over the file that is shown, which is read again.
+        viewer.key("ctrl+shift+s")
+        viewer.until(lambda s: s["dialog"] == "list", "a list")
+        time.sleep(0.2)
+        viewer.xdotool("type", "scene")
+        time.sleep(0.2)
+        viewer.key("Return", "Return")
+        said = viewer.rest(lambda s: not s["set"], "read again")["messages"]
+        self.assertTrue(any("render it with --studio" in m for m in said), said)
+        self.same(self.picture(viewer), shown)
+        self.same(pixels_of(self.render(self.scene, *PANEL, "--studio")), shown)
+        self.assertNotEqual(pixels_of(self.render(self.scene, *PANEL, *light)), shown)
         self.ends_well(viewer, viewer.close())
 
 

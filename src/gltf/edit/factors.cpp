@@ -167,6 +167,11 @@ std::vector<std::string> warningsOf(std::span<const SetNumber> set) {
   return warnings;
 }
 
+bool setsEmission(std::span<const SetNumber> set) {
+  return std::ranges::any_of(
+      set, [](const SetNumber& one) { return one.pointer.find("/emissive") != std::string::npos; });
+}
+
 void setFactors(Material& material, std::span<const SetNumber> set) {
   for (const auto& [pointer, values] : set) {
     if (material.place.empty() || !pointer.starts_with(material.place + "/")) continue;

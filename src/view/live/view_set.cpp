@@ -4,6 +4,7 @@
 
 #include "gltf/edit/changed_file.h"
 #include "gltf/edit/factors.h"
+#include "pack/own_light.h"
 #include "view/live/view_tracer.h"
 
 namespace fragtrace {
@@ -28,12 +29,27 @@ bool ViewTracer::setSurfaces(const TraceRequest& request) {
   return true;
 }
 
+namespace {
+
+/// The option by which `render` lights the file that holds the numbers as it is shown; empty: none is needed.
+std::string lightToName(const RenderOptions& options, const LoadedScene& loaded) {
+  if (hasMap(options) || options.light.defaultLight == DefaultLight::None) return "";
+  const bool shines = ownLight(loaded.scene) == OwnLight::Enough;
+  if (loaded.environment.kind == Surroundings::Map) return shines ? "--studio" : "";
+  return loaded.environment.kind == Surroundings::None && !shines ? "--no-default-light" : "";
+}
+
+}  // namespace
+
 void ViewTracer::saveModel(const std::filesystem::path& path) {
   const std::vector<SetNumber>& set = request_.sides.front().selection.set;
   try {
     writeChanged(loadedOptions_.scene, path, set);
     exchange_.tellSaved(set);
     exchange_.tell("wrote " + path.string());
+    if (const std::string light = lightToName(loadedOptions_, *loaded_); !light.empty())
+      exchange_.tell("the emission that was set decides how that file is lit: render it with " + light +
+                     " to see it as here");
   } catch (const std::exception& error) {
     exchange_.tell(std::string("not written: ") + error.what());
   }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "gl/driver_choice.h"
+#include "gltf/edit/factors.h"
 #include "session/environment.h"
 #include "session/outputs.h"
 #include "session/phase_timer.h"
@@ -34,6 +35,15 @@ std::string whatFailed(const std::exception_ptr& error) {
   } catch (const std::exception& e) {
     return e.what();
   }
+}
+
+/// Returns true if the scene, posed anew, has the light that it has. The default light depends on the nodes
+/// that are shown, but not on emission that the user sets: it would end in the middle of a drag.
+bool keepsEnvironment(const RenderOptions& shown, const SceneSelection& wanted, Surroundings kind) {
+  if (kind == Surroundings::DefaultLight) return false;  // no option would light a scene of its own light so
+  if (hasMap(shown) || setsEmission(wanted.set)) return true;
+  return kind == Surroundings::Map && shown.selection.hiddenNodes == wanted.hiddenNodes &&
+         !setsEmission(shown.selection.set);
 }
 
 }  // namespace
@@ -198,7 +208,7 @@ void ViewTracer::adoptScene() {
   viewed.description = result->stats.scene;
   viewed.defaultLight = !result->ownLight;
   viewed.refersToFiles = loaded_->scene.refersToFiles;
-  viewed.map = loaded_->environment.kind == Surroundings::Map;
+  viewed.surroundings = loaded_->environment.kind;
   viewed.environments = std::move(result->environments);
   viewed.nodes = loaded_->scene.nodes;
   viewed.materials = fileMaterials_;
@@ -258,6 +268,7 @@ bool ViewTracer::isPosed(const TraceRequest& request) const {
 void ViewTracer::pose(const TraceRequest& request) {
   const RenderOptions& wanted = request.sides[0];
   const bool sameNodes = loadedOptions_.selection.hiddenNodes == wanted.selection.hiddenNodes;
+  const bool keepsLight = keepsEnvironment(loadedOptions_, wanted.selection, loaded_->environment.kind);
   takePose(loadedOptions_.selection, wanted.selection);
   posedCamera_ = wanted.camera.overrides;
   posedCameraIndex_ = wanted.camera.index;
@@ -273,9 +284,7 @@ void ViewTracer::pose(const TraceRequest& request) {
   try {
     Statistics stats;
     SceneBefore before;
-    // The default light of a scene depends on the nodes that it shows.
-    if (loaded_->environment.kind == Surroundings::Map && (sameNodes || hasMap(loadedOptions_)))
-      before.environment = &loaded_->environment;
+    if (keepsLight) before.environment = &loaded_->environment;
     if (tree_ && sameNodes) before.tree = &*tree_;
     before.document = &document_;
     before.volume = &loaded_->scene.volume;
@@ -283,7 +292,7 @@ void ViewTracer::pose(const TraceRequest& request) {
     if (!stats.treeRefitted && loaded_->scene.instances.empty())
       tree_ = refittable(loaded_->bvh, loaded_->scene);
     programs_->showPose(options);
-    exchange_.tellBounds(loaded_->scene.bounds);
+    exchange_.tellPosed({loaded_->scene.bounds, loaded_->environment.kind});
     selected_.outlined.reset();
     if (!selected_.nodes.empty()) selected_.bounds = boundsOfNodes(loaded_->scene, selected_.nodes);
   } catch (const ContextLost&) {

@@ -123,7 +123,7 @@ void drawBackground(ViewState& state, Places& places) {
   bool background = o.light.background;
   if (ImGui::Checkbox("##background", &background))
     for (RenderOptions& side : state.sides) side.light.background = background;
-  if (background && !state.scene->map) {
+  if (background && state.scene->surroundings != Surroundings::Map) {
     ImGui::SameLine();
     glm::vec3 color = o.light.backgroundColor.value_or(glm::vec3(0.0f));
     if (ImGui::ColorEdit3("##color", glm::value_ptr(color),
@@ -147,7 +147,7 @@ Task drawLight(ViewState& state, ViewFacts& facts) {
   ToneMap curve = o.output.toneMap;
   choose("##curve", toneMapNames(), curve);
   for (RenderOptions& side : state.sides) side.output.toneMap = curve;
-  const bool map = state.scene->map;
+  const bool map = state.scene->surroundings == Surroundings::Map;
   label(places, "Environment");
   task = chooseEnvironment(*state.scene, facts);
   label(places, "Rotation");

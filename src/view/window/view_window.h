@@ -66,6 +66,7 @@ class Window {
   void load(RenderOptions options);
   void loadStep();
   void cancelLoad();
+  bool mayLeave(const std::string& deed);
   bool closes();
   void copyCommand();
   void pasteCommand();
@@ -75,7 +76,7 @@ class Window {
 
   // window_files.cpp
   void takeDrops();
-  void openFiles(const std::vector<std::filesystem::path>& files);
+  void openFiles(const std::vector<std::filesystem::path>& files, bool isAsked = false);
   void save(const std::filesystem::path& file);
   void askForFile(const Task& task);
   void takeFile();

@@ -17,7 +17,7 @@ void Window::takeDrops() {
   if (!files.empty()) openFiles(files);
 }
 
-void Window::openFiles(const std::vector<std::filesystem::path>& files) {
+void Window::openFiles(const std::vector<std::filesystem::path>& files, bool isAsked) {
   std::vector<std::filesystem::path> toLoad;
   for (const std::filesystem::path& file : files) {
     if (state_.split && mayBeReference(file))
@@ -26,11 +26,12 @@ void Window::openFiles(const std::vector<std::filesystem::path>& files) {
       toLoad.push_back(file);
   }
   if (toLoad.empty()) return;
-  const Drop drop = takeDrop(wanted_, toLoad);
+  const Drop drop = takeDrop(wanted_, toLoad, start_.options.selection.up);
   for (const std::string& sentence : drop.refused) say(sentence);
   if (!drop.load) return;
   const bool hasScene =
       std::ranges::any_of(toLoad, [](const auto& file) { return kindOfDropped(file) == DroppedFile::Scene; });
+  if (hasScene && !isAsked && !mayLeave("open")) return;
   if (hasScene || state_.scene || facts_.load.busy) return load(*drop.load);
   wanted_ = *drop.load;
   say(wanted_.light.hdriFile.filename().string() + " will light the model that is dropped next");
@@ -71,6 +72,7 @@ void Window::askForFile(const Task& task) {
     question_ = saveQuestion(freePictureName(folder, o.scene, ".png"));
   } else {
     const bool environment = task.index == 1;
+    if (!environment && facts_.dialog == DialogKind::None && !mayLeave("open")) return;
     const std::filesystem::path& beside =
         environment && !o.light.hdriFile.empty() ? o.light.hdriFile : wanted_.scene;
     question_ = openQuestion((here / beside).parent_path(), environment);
@@ -88,7 +90,7 @@ void Window::takeFile() {
   if (!news.message.empty()) say(news.message);
   if (news.file.empty()) return;
   frames_ = std::max(frames_, kSettleFrames);
-  if (asked_ == Errand::Open) return openFiles({news.file});
+  if (asked_ == Errand::Open) return openFiles({news.file}, true);
   if (!state_.scene) return;
   std::filesystem::path file = news.file;
   const FileFilter& filter = question_.filters.front();

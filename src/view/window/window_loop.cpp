@@ -174,12 +174,19 @@ void Window::take() {
   if (news.failure) std::rethrow_exception(news.failure);
   if (news.saved) {
     saved_ = std::move(*news.saved);
-    // The window then shows the numbers of the file.
-    if (std::exchange(savesShown_, false) && state_.scene) load(state_.scene->options);
+    // The window then shows the numbers of the file, in the light that it has.
+    if (std::exchange(savesShown_, false) && state_.scene) {
+      RenderOptions again = state_.scene->options;
+      nameLight(again, *state_.scene);
+      load(again);
+    }
   }
   if (news.scene) adoptScene(std::move(*news.scene));
   takePictures(std::move(news.pictures));
-  if (news.bounds && state_.scene) state_.scene->bounds = *news.bounds;
+  if (news.posed && state_.scene) {
+    state_.scene->bounds = news.posed->bounds;
+    state_.scene->surroundings = news.posed->surroundings;
+  }
   for (const EnvironmentThumbnail& thumbnail : news.thumbnails) takeThumbnail(thumbnail);
   if (news.pick) takePick(std::move(*news.pick));
   for (const std::string& message : news.messages) say(message);
@@ -205,8 +212,9 @@ void Window::adoptScene(ViewedScene scene) {
   const bool another = !state_.scene || !sameScene(state_.scene->options, scene.options);
   const bool otherNodes = !state_.scene || !sameNodes(state_.scene->options, scene.options);
   const std::vector<ChangedNumber> changed = numbersSavedIn(scene);
+  const LightOptions lightBefore = state_.sides[0].light;
   showScene(state_, std::move(scene));
-  takeOver(history_, state_, changed);
+  takeOver(history_, state_, changed, lightBefore);
   glfwSetWindowTitle(window_.get(), windowTitle(state_.scene->options.scene).c_str());
   wanted_ = state_.scene->options;
   if (pasted_ && sameScene(*pasted_, wanted_)) takeOptions(state_, *std::exchange(pasted_, {}));

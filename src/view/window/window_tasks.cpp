@@ -12,6 +12,7 @@
 #include "image/image.h"
 #include "options/option_row.h"
 #include "scene/up_axis.h"
+#include "view/set_by_eye.h"
 #include "view/shown_names.h"
 #include "view/window/view_window.h"
 
@@ -21,8 +22,6 @@ namespace {
 
 /// Stands before the user as long as Escape answers it.
 constexpr const char* kQuitQuestion = "press Escape again to quit";
-constexpr const char* kUnsaved =
-    "the numbers that were set are not saved (Ctrl+Shift+S); quit again to leave them";
 
 }  // namespace
 
@@ -199,14 +198,23 @@ RenderOptions Window::shownOptions() const {
   return o;
 }
 
-/// Returns true if the window is to be closed. Numbers that nobody has saved are asked for once.
-bool Window::closes() {
-  if (glfwWindowShouldClose(window_.get()) == 0) return false;
+/// Returns true if no number is lost that nobody has saved, or if the user was asked, and sees it still.
+/// `deed` would lose them.
+bool Window::mayLeave(const std::string& deed) {
+  const std::string question =
+      "the numbers that were set are not saved (Ctrl+Shift+S); " + deed + " again to leave them";
   const std::vector<SetNumber>& set = state_.sides[0].selection.set;
   const bool isSaved = set.empty() || set == saved_ || set == start_.options.selection.set;
-  if (isSaved || isSeen(facts_.messages, kUnsaved, glfwGetTime())) return true;
+  if (isSaved || isSeen(facts_.messages, question, glfwGetTime())) return true;
+  say(question);
+  return false;
+}
+
+/// Returns true if the window is to be closed.
+bool Window::closes() {
+  if (glfwWindowShouldClose(window_.get()) == 0) return false;
+  if (mayLeave("quit")) return true;
   glfwSetWindowShouldClose(window_.get(), GLFW_FALSE);
-  say(kUnsaved);
   return false;
 }
 
@@ -243,6 +251,7 @@ void Window::executeOnBookmark(const Task& task) {
 
 void Window::copyCommand() {
   RenderOptions o = shownOptions();
+  nameLight(o, *state_.scene);
   const bool layers = !o.output.aovs.empty() || o.output.aovSamples || o.output.aovVariance;
   o.output.file = freePictureName(o.scene, layers ? ".exr" : ".png");
   glfwSetClipboardString(window_.get(), start_.commandText(o).c_str());
