@@ -58,8 +58,8 @@ struct Statistics {
   bool defaultLight = false;
   std::string defaultLightReason;
   std::optional<SunPlace> sun;  ///< of a sky
-  double clampIndirect = 0.0;  ///< 0: not clamped
-  std::string lightSelection;  ///< name of the choice of lights; empty: there is none to choose
+  double clampIndirect = 0.0;   ///< 0: not clamped
+  std::string lightSelection;   ///< name of the choice of lights; empty: there is none to choose
   std::string lightSelectionReason;
   std::string lightReuse;       ///< value of --light-reuse
   std::string lightPathReason;  ///< why light paths are traced, or are not; empty: the stage has none

@@ -30,7 +30,6 @@ struct Drop {
 /// Puts them into the options of the scene that is shown, or being loaded: a scene with a camera of its own,
 /// an environment, or both. Of several of a kind the last is taken. `up` points up in a scene, as in
 /// SceneSelection.
-Drop takeDrop(const RenderOptions& shown, std::span<const std::filesystem::path> files,
-              const glm::dvec3& up);
+Drop takeDrop(const RenderOptions& shown, std::span<const std::filesystem::path> files, const glm::dvec3& up);
 
 }  // namespace fragtrace

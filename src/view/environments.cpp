@@ -46,7 +46,8 @@ std::vector<EnvironmentChoice> environmentChoices(const ViewedScene& scene) {
 size_t currentChoice(const ViewedScene& scene, const std::vector<EnvironmentChoice>& choices) {
   const RenderOptions& o = scene.options;
   const bool sky = o.light.sky.on;
-  const bool studio = o.light.studio || (scene.surroundings == Surroundings::Map && o.light.hdriFile.empty() && !sky);
+  const bool studio =
+      o.light.studio || (scene.surroundings == Surroundings::Map && o.light.hdriFile.empty() && !sky);
   const auto lights = [&](const EnvironmentChoice& choice) {
     if (!o.light.hdriFile.empty() || studio || sky)
       return choice.file == o.light.hdriFile && choice.studio == studio && choice.sky == sky;

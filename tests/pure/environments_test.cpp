@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "image_test_folder.h"
+#include "view/set_by_eye.h"
 
 namespace fragtrace {
 namespace {
@@ -59,6 +60,23 @@ TEST(Environments, TheStudioByDefaultIsTheStudio) {
   scene.options.light.defaultLight = DefaultLight::Studio;
   const std::vector<EnvironmentChoice> choices = environmentChoices(scene);
   EXPECT_EQ(choices[currentChoice(scene, choices)].name, "Studio");
+}
+
+TEST(Environments, WhatEmissionByEyeCouldChangeIsNamed) {
+  const auto named = [](Surroundings surroundings, const char* place) {
+    ViewedScene scene;
+    scene.surroundings = surroundings;
+    RenderOptions options;
+    options.selection.set = {{place, {0.0}}};
+    nameLight(options, scene);
+    return std::pair(options.light.studio, options.light.defaultLight);
+  };
+  const char* emission = "/materials/0/extensions/KHR_materials_emissive_strength/emissiveStrength";
+  using enum DefaultLight;
+  EXPECT_EQ(named(Surroundings::Map, emission), std::pair(true, Studio));
+  EXPECT_EQ(named(Surroundings::None, "/materials/0/emissiveFactor"), std::pair(false, None));
+  EXPECT_EQ(named(Surroundings::DefaultLight, emission), std::pair(false, Studio));
+  EXPECT_EQ(named(Surroundings::Map, "/materials/0/alphaCutoff"), std::pair(false, Studio));
 }
 
 }  // namespace

@@ -14,8 +14,8 @@
 
 namespace fragtrace {
 
-/// Says what is wrong with a colour above 1, of a material's emission or of a light, that glTF does not allow;
-/// null: it is none.
+/// Says what is wrong with a colour above 1, of a material's emission or of a light, that glTF does not
+/// allow; null: it is none.
 const char* whatIsBright(const SetNumber& set);
 
 /// The rule for the value at a JSON pointer, if the loader reads numbers there and the document has the
@@ -29,8 +29,8 @@ void writeNumbers(nlohmann::json& root, const std::string& pointer, const Number
 /// Throws UsageError for a place without numbers, and for too few or too many.
 void checkNumbers(const nlohmann::json& root, std::span<const SetNumber> set);
 
-/// Checks and writes the user's numbers; warns of colours that glTF does not allow. What the loader then finds
-/// wrong there is said of --set.
+/// Checks and writes the user's numbers; warns of colours that glTF does not allow. What the loader then
+/// finds wrong there is said of --set.
 void writeNumbers(nlohmann::json& root, const std::vector<SetNumber>& set, Diagnostics& diagnostics);
 
 }  // namespace fragtrace

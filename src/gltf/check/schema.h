@@ -33,8 +33,9 @@ std::optional<NumberRule> numberRuleAt(std::string_view pointer);
 /// The members of the object at a JSON pointer that are such numbers or hold some, by the schema.
 std::vector<std::string> numberMembersAt(std::string_view pointer);
 
-/// Places of such numbers that are the object's at the first pointer, followed by what may stand there, by the
-/// schema, and by the second one: of "/materials/0" and "/roughnessFactor", one below pbrMetallicRoughness.
+/// Places of such numbers that are the object's at the first pointer, followed by what may stand there, by
+/// the schema, and by the second one: of "/materials/0" and "/roughnessFactor", one below
+/// pbrMetallicRoughness.
 std::vector<std::string> numbersBelow(std::string_view pointer, std::string_view end);
 
 }  // namespace fragtrace

@@ -43,7 +43,8 @@ std::optional<SetNumber> numberAt(std::span<const Material> materials, std::span
 /// allow.
 std::vector<std::string> warningsOf(std::span<const SetNumber> set);
 
-/// Returns true if one of these numbers is of emission, by which a scene may get light of its own, or lose it.
+/// Returns true if one of these numbers is of emission, by which a scene may get light of its own, or lose
+/// it.
 bool setsEmission(std::span<const SetNumber> set);
 
 /// The shortest number in decimal digits that is this one as a float, so that the same is read from a file.

@@ -26,11 +26,10 @@ void sayWhatIsNotSeen(const RenderOptions& options, const LoadedScene& loaded, c
   const bool nothing = stats.scene.triangles == 0 && stats.scene.spheres == 0;
   const bool seen = stats.film.hitPixels > 0 || stats.film.samples == 0;
   if (options.camera.region || nothing || seen || variant.countsVisits) return;
-  say(options, std::string("warning: ") + (chosen ? "this" : "the default") +
-                   " view shows nothing of the scene; " +
-                   (chosen && !loaded.overrides.fit
-                        ? "--fit moves the camera until it does"
-                        : "--camera-position and --camera-focal-point choose another"));
+  say(options,
+      std::string("warning: ") + (chosen ? "this" : "the default") + " view shows nothing of the scene; " +
+          (chosen && !loaded.overrides.fit ? "--fit moves the camera until it does"
+                                           : "--camera-position and --camera-focal-point choose another"));
 }
 
 /// The share of pixels that are exactly black, 0..1.
