@@ -19,6 +19,11 @@ void setNumberIn(std::vector<SetNumber>& set, SetNumber number, const SetNumber&
 /// end what was set there.
 void setNumber(ViewState& state, SetNumber number, const SetNumber& inFile);
 
+/// Returns true if the scene of these options keeps what lights it beside its own light, when it is posed as
+/// the selection says. The default light depends on the nodes that are shown, but not on emission that the
+/// user sets: it would end in the middle of a drag.
+bool keepsEnvironment(const RenderOptions& shown, const SceneSelection& wanted, Surroundings kind);
+
 /// Names the light of the scene that is shown, where emission that is set could have `render` choose another
 /// one by default.
 void nameLight(RenderOptions& options, const ViewedScene& scene);

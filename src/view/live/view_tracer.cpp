@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "gl/driver_choice.h"
-#include "gltf/edit/factors.h"
 #include "session/environment.h"
 #include "session/outputs.h"
 #include "session/phase_timer.h"
+#include "view/set_by_eye.h"
 #include "view/shown_text.h"
 
 namespace fragtrace {
@@ -35,15 +35,6 @@ std::string whatFailed(const std::exception_ptr& error) {
   } catch (const std::exception& e) {
     return e.what();
   }
-}
-
-/// Returns true if the scene, posed anew, has the light that it has. The default light depends on the nodes
-/// that are shown, but not on emission that the user sets: it would end in the middle of a drag.
-bool keepsEnvironment(const RenderOptions& shown, const SceneSelection& wanted, Surroundings kind) {
-  if (kind == Surroundings::DefaultLight) return false;  // no option would light a scene of its own light so
-  if (hasMap(shown) || setsEmission(wanted.set)) return true;
-  return kind == Surroundings::Map && shown.selection.hiddenNodes == wanted.hiddenNodes &&
-         !setsEmission(shown.selection.set);
 }
 
 }  // namespace
