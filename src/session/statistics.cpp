@@ -50,6 +50,10 @@ nlohmann::ordered_json denoiseJson(const DenoiseStatistics& denoise) {
 
 /// Appends the ways in which light was sampled.
 void addLighting(nlohmann::ordered_json& json, const Statistics& s) {
+  if (s.sun) {
+    json["sun_elevation"] = s.sun->elevation;
+    json["sun_azimuth"] = s.sun->azimuth;
+  }
   if (s.clampIndirect > 0.0) json["clamp_indirect"] = s.clampIndirect;
   if (!s.lightSelection.empty()) {
     json["light_selection"] = s.lightSelection;
@@ -117,10 +121,6 @@ std::string statisticsText(const Statistics& s) {
     json["gpu_bytes_per_triangle"] = double(s.geometryBytes) / double(s.scene.triangles);
   json["default_light"] = s.defaultLight;
   if (s.defaultLight) json["default_light_reason"] = s.defaultLightReason;
-  if (s.sun) {
-    json["sun_elevation"] = s.sun->elevation;
-    json["sun_azimuth"] = s.sun->azimuth;
-  }
   json["variant"] = s.variant;
   json["quick_compilation"] = s.quickCompilation;
   json["schedule"] = s.scheduleReason.empty() ? "wavefront" : "megakernel";

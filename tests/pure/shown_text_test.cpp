@@ -3,8 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include "base/text.h"
+
 namespace fragtrace {
 namespace {
+
+TEST(JoinedTexts, HaveASeparatorAlsoBehindAnEmptyOne) {
+  EXPECT_EQ(joined(std::vector<std::string>{"", "a", ""}), ", a, ");
+  EXPECT_EQ(joined(std::vector<std::string>{}), "");
+}
 
 TEST(ShownText, ShortTextIsShownAsItIs) {
   for (const char* text : {"", "a", "two\nlines", "Größe", "12345678"})

@@ -83,24 +83,24 @@ std::vector<std::string> namesIn(const json& array) {
 /// same, one that stands deeper, or an element by its name; empty: nothing.
 std::string nearerPlace(const json& root, const std::string& pointer) {
   const Missing at = firstMissing(root, pointer);
-  const auto [place, part, rest] = cutAt(at, pointer);
+  const CutPointer cut = cutAt(at, pointer);
   if (!at.part || at.parent->is_object()) {
-    for (const std::string& below : numbersBelow(place, "/" + part + rest)) {
+    for (const std::string& below : numbersBelow(cut.place, pointer.substr(cut.place.size()))) {
       if (numberRuleIn(root, below)) return below;
     }
-    const std::vector<std::string> members = numberMembersAt(place);
-    if (std::ranges::find(members, part) != members.end()) return "";
-    const auto isAlike = [&](const std::string& member) { return isSameButForCase(member, part); };
+    const std::vector<std::string> members = numberMembersAt(cut.place);
+    if (std::ranges::find(members, cut.part) != members.end()) return "";
+    const auto isAlike = [&](const std::string& member) { return isSameButForCase(member, cut.part); };
     const auto alike = std::ranges::find_if(members, isAlike);
-    const std::string nearest = alike != members.end() ? *alike : nearestName(part, members);
-    return nearest.empty() ? "" : place + "/" + nearest + rest;
+    const std::string nearest = alike != members.end() ? *alike : nearestName(cut.part, members);
+    return nearest.empty() ? "" : cut.place + "/" + nearest + cut.rest;
   }
   if (!at.parent->is_array()) return "";
   const std::vector<std::string> names = namesIn(*at.parent);
-  std::optional<size_t> index = findPart(part, names);
-  if (!index) index = findPart(nearestName(part, names), names);
+  std::optional<size_t> index = findPart(cut.part, names);
+  if (!index) index = findPart(nearestName(cut.part, names), names);
   const bool isNamed = index && !names[*index].empty();
-  return isNamed ? place + "/" + std::to_string(*index) + rest : "";
+  return isNamed ? cut.place + "/" + std::to_string(*index) + cut.rest : "";
 }
 
 /// A hint at what may be meant by a pointer to no number.
@@ -118,7 +118,7 @@ std::string hintFor(const json& root, const std::string& pointer) {
     const std::vector<std::string> members = numberMembersAt(place);
     const bool isKnown = std::ranges::find(members, part) != members.end();
     if (isKnown) return ": " + (place.empty() ? "it" : place) + " has no " + part;
-    const std::vector<std::string> below = numbersBelow(place, "/" + part + rest);
+    const std::vector<std::string> below = numbersBelow(place, pointer.substr(place.size()));
     return below.empty() ? "" : ": the file has no " + below.front();
   }
   if (!at.parent->is_array()) return "";
