@@ -26,6 +26,16 @@ class Materials(Case):
     def picture(self, viewer):
         return pixels_of(viewer.press_for_file("F12", ".png"))
 
+    def save_over(self, viewer):
+        """Writes the model over the file that is shown, which is read again."""
+        viewer.key("ctrl+shift+s")
+        viewer.until(lambda s: s["dialog"] == "list", "a list")
+        time.sleep(0.2)
+        viewer.xdotool("type", "scene")
+        time.sleep(0.2)
+        viewer.key("Return", "Return")
+        return viewer.rest(lambda s: not s["set"], "read again")
+
     def slide(self, viewer, name, part):
         """Presses on a slider at a part of its width."""
         x, y, width, height = viewer.until(lambda s: s["places"].get(name), f"a place of {name}")["places"][name]
@@ -115,13 +125,7 @@ class Materials(Case):
         changed = self.picture(viewer)
         self.same(changed, pixels_of(self.render(file, *PANEL)))
         # Written over, and read again, the file has the numbers; undo takes them back, which is not saved.
-        viewer.key("ctrl+shift+s")
-        viewer.until(lambda s: s["dialog"] == "list", "a list")
-        time.sleep(0.2)
-        viewer.xdotool("type", "scene")
-        time.sleep(0.2)
-        viewer.key("Return", "Return")
-        viewer.rest(lambda s: not s["set"], "read again")
+        self.save_over(viewer)
         self.assertEqual(self.scene.read_text(), file.read_text())
         self.same(self.picture(viewer), changed)
         viewer.key("ctrl+z")
@@ -142,14 +146,7 @@ class Materials(Case):
         words[words.index("--output") + 1] = str(command)
         subprocess.run([FRAGTRACE, *words[1:], "--quiet"], check=True)
         self.same(shown, pixels_of(command))
-        # Written over the file that is shown, which is read again.
-        viewer.key("ctrl+shift+s")
-        viewer.until(lambda s: s["dialog"] == "list", "a list")
-        time.sleep(0.2)
-        viewer.xdotool("type", "scene")
-        time.sleep(0.2)
-        viewer.key("Return", "Return")
-        said = viewer.rest(lambda s: not s["set"], "read again")["messages"]
+        said = self.save_over(viewer)["messages"]
         self.assertTrue(any("render it with --studio" in m for m in said), said)
         self.same(self.picture(viewer), shown)
         self.same(pixels_of(self.render(self.scene, *PANEL, "--studio")), shown)
