@@ -40,8 +40,8 @@ CameraRay throughLens(CameraRay ray, vec3 right, vec3 up, vec3 forward, vec2 len
   return r;
 }
 
-// An equirectangular panorama and an equidistant fisheye. Directions are in the camera's own axes: x to the right, y up,
-// z forward. Those that are returned are unit vectors; others have any length.
+// An equirectangular panorama and an equidistant fisheye. Directions are in the camera's own axes: x to the right, y
+// up, z forward. Those that are returned are unit vectors; others have any length.
 
 /// The direction through a place of the panorama: x is in half turns to the right of forward, y in quarter turns up.
 /// Places beyond the poles continue on the other side.
