@@ -3,11 +3,12 @@
 // documents iterate over.
 #pragma once
 
-#include <bitset>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
+
+#include "base/set_of.h"
 
 namespace fragtrace {
 
@@ -41,7 +42,7 @@ enum class Stage : uint8_t {
   Watertight,
   Count
 };
-using StageSet = std::bitset<size_t(Stage::Count)>;
+using StageSet = SetOf<Stage>;
 
 struct StageRow {
   Stage stage;

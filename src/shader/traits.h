@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <bitset>
 #include <span>
 
 #include "scene/scene.h"
@@ -73,7 +72,7 @@ enum class Trait : uint8_t {
   ObjectNumbers,
   Count
 };
-using TraitSet = std::bitset<size_t(Trait::Count)>;
+using TraitSet = SetOf<Trait>;
 
 /// The attributes that primitives bring for their materials' maps; spheres bring all of them.
 struct Coordinates {

@@ -2,9 +2,9 @@
 // The shader variant: what was asked for, cut down to what the scene holds.
 #pragma once
 
+#include <compare>
 #include <optional>
 #include <string>
-#include <tuple>
 
 #include "scene/scene.h"
 #include "shader/render_options.h"
@@ -41,14 +41,7 @@ struct ShaderVariant {
 
   std::string literals;  ///< the scene as shader text, when it is drawn that way
 
-  auto key() const {
-    return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads, dispatch,
-                      pixelFilter, aov, countsVisits, uniformLights, lightCandidates, lightRecords,
-                      neighbours, clampIndirect, shadowCatcher, lens, lensShift, camera, lightPaths, gpu,
-                      wavefront, waveUnit, resumable, literals);
-  }
-  bool operator<(const ShaderVariant& other) const { return key() < other.key(); }
-  bool operator==(const ShaderVariant& other) const { return key() == other.key(); }
+  auto operator<=>(const ShaderVariant&) const = default;  // NOLINT(modernize-use-nullptr): it is none
 };
 
 /// The light from outside the scene: an environment map, a constant default light, or nothing.
