@@ -84,17 +84,15 @@ Known knownOf(Surface now, vec3 point) {
   float depth = dot(view, cameras[7].xyz);
   vec3 right = cameras[5].xyz;
   vec3 up = cameras[6].xyz;
-  vec2 place;
+  float w = cameras[7].w == kPerspectiveType ? depth : 1.0;
+  if (!(w > 0.0)) return known;
+  vec2 place = vec2(dot(view, right) / dot(right, right), dot(view, up) / dot(up, up)) / w;
+  place -= vec2(cameras[5].w, cameras[6].w);
   if (cameras[7].w >= kPanoramaType) {
     vec2 whole = vec2(length(right), length(up));
     vec3 d = vec3(dot(view, right) / whole.x, dot(view, up) / whole.y, depth);
     place = cameras[7].w == kPanoramaType ? panoramaPlace(d) : fisheyePlace(d) / whole;
     depth = length(view);
-  } else {
-    float w = cameras[7].w == kPerspectiveType ? depth : 1.0;
-    if (!(w > 0.0)) return known;
-    place = vec2(dot(view, right) / dot(right, right), dot(view, up) / dot(up, up)) / w;
-    place -= vec2(cameras[5].w, cameras[6].w);
   }
   vec2 at = (0.5 + 0.5 * place) * vec2(pastSize) - 0.5;
   if (!(all(greaterThan(at, vec2(-1.0))) && all(lessThan(at, vec2(pastSize))))) return known;

@@ -6,8 +6,8 @@
 
 namespace fragtrace {
 
-/// A set of members of an enumeration that ends with Count. Sets have an order, so that they can stand in a key
-/// whose comparison is defaulted.
+/// A set of members of an enumeration that ends with Count. Sets have an order, so that they can stand in a
+/// key whose comparison is defaulted.
 template <typename Member>
 struct SetOf : std::bitset<size_t(Member::Count)> {
   using Bits = std::bitset<size_t(Member::Count)>;

@@ -236,6 +236,7 @@ int runSequence(const RenderOptions& options) {
     throw;
   }
   const bool isKept = endVideo(options, run) || options.output.toStandardOutput;
+  run.video.reset();  // leave() destroys nothing, and the encoder would go on
   return leave(isStream(options.output) ? sayHowStreamEnded(options, counts, isKept)
                                         : sayHowSequenceEnded(options, counts));
 }

@@ -134,7 +134,8 @@ std::vector<OptionRow> cameraRows() {
                         {.effect = Effect::View, .excludes = "--camera-view-angle"}),
       numbers<double>(
           "--lens-shift",
-          "X,Y in parts of the picture's width and height: show what lies so much more to the right and up "
+          "X,Y in parts of the picture's width and height, -10 to 10: show what lies so much more to the "
+          "right and up "
           "without turning the camera, so that verticals stay upright",
           FRAGTRACE_MEMBER(camera.overrides.lensShift), 2, lensShiftOf,
           [](const glm::dvec2& n) { return numbersText(n.x, n.y); }, {"0.25,-0.5", "0,1e-07"}, kProjection),

@@ -14,6 +14,11 @@
 namespace fragtrace {
 namespace {
 
+double radiusOf(const BoundsDouble& bounds) {
+  const double radius = 0.5 * glm::length(bounds.extent());
+  return radius > 0.0 && std::isfinite(radius) ? radius : 1.0;
+}
+
 /// Below this sine of their angle, two directions count as parallel: what would be left is mostly rounding.
 constexpr double kParallelSine = 1e-9;
 
@@ -108,11 +113,6 @@ Camera orbiting(const Camera& lens, const Orbit& orbit, const CameraOverrides& o
 
 }  // namespace
 
-double radiusOf(const BoundsDouble& bounds) {
-  const double radius = 0.5 * glm::length(bounds.extent());
-  return radius > 0.0 && std::isfinite(radius) ? radius : 1.0;
-}
-
 glm::dvec3 outwardsOf(const Orbit& orbit) {
   const double elevation = glm::radians(orbit.elevationDegrees);
   return std::cos(elevation) * levelOutwards(orbit) + std::sin(elevation) * kVertical;
@@ -186,6 +186,7 @@ Camera zoomed(Camera camera, double zoom) {
 
 glm::dvec3 turningPoint(const Camera& camera, const CameraOverrides& overrides, const BoundsDouble& bounds) {
   if (overrides.focalPoint) return *overrides.focalPoint;
+  if (!isRectilinear(camera.type) && !overrides.orbit) return camera.position;
   const bool placed = overrides.orbit || overrides.fit;
   return placed ? centerOf(bounds) : focalPointOf(camera, bounds);
 }

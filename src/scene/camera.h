@@ -46,9 +46,6 @@ struct CameraOverrides {
   bool operator==(const CameraOverrides&) const = default;
 };
 
-/// The radius of the sphere about the bounds, or 1 where there is none.
-double radiusOf(const BoundsDouble& bounds);
-
 /// A camera that looks at the centre of the bounds with an angle of 45 degrees, from far enough that the
 /// bounding sphere fits a picture of that width / height. It looks along -z, or along the axis in which the
 /// bounds are flat, which it would otherwise see from the edge.
@@ -80,7 +77,8 @@ double focalLengthOf(double viewAngle);
 Camera zoomed(Camera camera, double zoom);
 
 /// A point on the axis about which a turntable turns: the focal point asked for, else that of the camera,
-/// else, where the scene's bounds placed the camera (orbit, fit), their centre.
+/// else, where the scene's bounds placed the camera (orbit, fit), their centre. A panorama and a fisheye that
+/// no orbit places turn where they stand.
 glm::dvec3 turningPoint(const Camera& camera, const CameraOverrides& overrides, const BoundsDouble& bounds);
 
 /// The index asked for, or that of the camera asked for by name (indexOfPart()); none if neither is given.

@@ -78,7 +78,6 @@ CameraOverrides settledOverrides(CameraOverrides asked, const Scene& scene) {
   if (!scene.cameras.empty() || asked.position || asked.orbit) return asked;
   if (asked.type == CameraType::Panorama) {
     asked.position = scene.bounds.empty() ? glm::dvec3(0.0) : scene.bounds.center();
-    if (!asked.focalPoint) asked.focalPoint = *asked.position - glm::dvec3(0.0, 0.0, radiusOf(scene.bounds));
     return asked;
   }
   asked.orbit = firstView(scene);

@@ -73,7 +73,10 @@ CameraPose poseOf(const Camera& camera, const BoundsDouble& bounds) {
   pose.viewUp = camera.up;
   pose.type = camera.type;
   pose.lensShift = camera.shift;
-  pose.viewAngleDegrees = glm::degrees(camera.fovY);
+  if (camera.type == CameraType::Fisheye)
+    pose.fisheyeDegrees = glm::degrees(camera.fovY);
+  else
+    pose.viewAngleDegrees = glm::degrees(camera.fovY);
   pose.halfHeight = camera.type == CameraType::Orthographic ? camera.halfHeight : halfHeightOf(pose);
   return pose;
 }
@@ -85,10 +88,14 @@ CameraOverrides overridesOf(const CameraPose& pose) {
   if (pose.type != CameraType::Panorama) overrides.viewUp = pose.viewUp;
   if (pose.type == CameraType::Orthographic)
     overrides.parallelScale = pose.halfHeight;
-  else if (pose.type != CameraType::Panorama)
+  else if (pose.type == CameraType::Fisheye)
+    overrides.viewAngleDegrees = pose.fisheyeDegrees;
+  else if (pose.type == CameraType::Perspective)
     overrides.viewAngleDegrees = pose.viewAngleDegrees;
-  if (!isRectilinear(pose.type)) overrides.type = pose.type;
-  if (pose.lensShift != glm::dvec2(0.0)) overrides.lensShift = pose.lensShift;
+  if (!isRectilinear(pose.type))
+    overrides.type = pose.type;
+  else if (pose.lensShift != glm::dvec2(0.0))
+    overrides.lensShift = pose.lensShift;
   return overrides;
 }
 
@@ -193,8 +200,9 @@ CameraPose lookAlong(CameraPose pose, const glm::dvec3& direction, const glm::dv
 }
 
 CameraPose widen(CameraPose pose, double amount) {
-  const double widest = pose.type == CameraType::Fisheye ? 360.0 : kWidest;
-  pose.viewAngleDegrees = std::clamp(pose.viewAngleDegrees * std::exp(amount), kNarrowest, widest);
+  const bool fisheye = pose.type == CameraType::Fisheye;
+  double& angle = fisheye ? pose.fisheyeDegrees : pose.viewAngleDegrees;
+  angle = std::clamp(angle * std::exp(amount), kNarrowest, fisheye ? 360.0 : kWidest);
   return pose;
 }
 
@@ -203,9 +211,6 @@ CameraPose withProjection(CameraPose pose, CameraType type) {
   const CameraPose before = pose;
   const double halfHeight = halfHeightOf(pose);
   pose.type = type;
-  if (type == CameraType::Fisheye) pose.viewAngleDegrees = 180.0;
-  if (before.type == CameraType::Fisheye) pose.viewAngleDegrees = CameraPose().viewAngleDegrees;
-  if (!isRectilinear(type)) pose.lensShift = {};
   if (before.type == CameraType::Orthographic && type == CameraType::Perspective) {
     const double distance = std::clamp(halfHeight / tangentOf(pose), kNearest, kFarthest);
     pose.position = pose.focalPoint - distance * forwardOf(pose);

@@ -5,7 +5,7 @@ import json
 import math
 
 from materials_test import quad
-from support import SCENES, Case, main
+from support import SCENES, Case, Exr, main
 
 BOX = "cornell-box"
 PLACE = (0.1, 0.5, 0.2)
@@ -120,6 +120,15 @@ class CameraTypes(Case):
                 # Only along edges, which the map blurs by its texels.
                 self.assertLess(sum(d > 0.02 for d in apart) / len(apart), 0.06)
                 self.assertLess(sum(apart) / len(apart), 0.01)
+
+    def test_a_turntable_turns_where_it_stands(self):
+        """A quarter turn moves the panorama of a corner of the box by a quarter of its width."""
+        self.renders(SCENES / f"{BOX}.gltf", "-o", self.folder / "t#.exr", "--turntable", 4, "--resolution", "64,32", "--spp", 1, "--stage", "flat", "--aov", "position",
+                     "--camera-type", "panorama", "--camera-position", "0.3,0.2,0.1", "--quiet")
+        first, second = (sorted(p for p in self.folder.glob("t*.exr"))[i] for i in (0, 1))
+        xs = [Exr(p).layers["position.X"] for p in (first, second)]
+        near = lambda shift: sum(abs(xs[0][y][x] - xs[1][y][(x + shift) % 64]) < 0.1 for y in range(32) for x in range(64))
+        self.assertGreater(max(near(16), near(48)), 1900)
 
     def test_wrong_use(self):
         scene = SCENES / "cornell-box.gltf"

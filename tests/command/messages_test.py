@@ -94,6 +94,7 @@ class Values(Case):
                             ("/materials/0/pbrMetallicRoughness/roughnesFactor", "; did you mean /materials/0/pbrMetallicRoughness/roughnessFactor?"),
                             ("/materials/0/extensions/KHR_materials_sheen/sheenRoughnessFactor", ": /materials/0/extensions has no KHR_materials_sheen\n"),
                             ("/materials/red/pbrmetallicroughness/ROUGHNESSFACTOR", "; did you mean /materials/1/pbrMetallicRoughness/roughnessFactor?"),
+                            ("/materials/0/pbrMetallicRoughness/roughness", "; did you mean /materials/0/pbrMetallicRoughness/roughnessFactor?"),
                             ("/materials/0/roughnessFactor", "; did you mean /materials/0/pbrMetallicRoughness/roughnessFactor?"),
                             ("/materials/0/ior", ": the file has no /materials/0/extensions/KHR_materials_ior/ior\n"),
                             ("/materials/0/extensions/KHR_materials_shen/sheenRoughnessFactor", "of the file that is read\n"),

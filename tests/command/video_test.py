@@ -128,6 +128,19 @@ class Videos(Case):
         self.assertEqual(self.video.stat().st_size, count * 40 * 30 * 3)
         self.assertEqual(self.left(), ["turn.mp4"])
 
+    def test_interrupted_before_the_first_picture_it_leaves_nothing(self):
+        process = subprocess.Popen([FRAGTRACE, "render", PLANE, "-o", self.video, "--turntable", "90", "--resolution", "40,30", "--spp", "100000000", "--progress", "none"],
+                                   env=self.stand_in, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        deadline = time.monotonic() + 5
+        while not any(name.endswith(".part") for name in self.left()) and time.monotonic() < deadline:
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        self.assertIn("nothing is written", process.communicate(timeout=20)[1])
+        time.sleep(0.3)  # in which an encoder that goes on would make its file
+        self.assertEqual(self.left(), [])
+
     def test_an_encoder_that_dies_leaves_the_older_file(self):
         self.video.write_text("an older one")
         for variable, bytes_read, begins in (("DIES_AFTER", 1000, "picture "), ("DIES_IN_TRIAL", 0, "cannot write ")):

@@ -180,6 +180,7 @@ TEST(ImageBias, LayersThatLackAreNamedWithTheirOption) {
   image.attributes["fragtrace:uniform"] = "1";
   EXPECT_EQ(refused(image), "");
   EXPECT_NE(refused(twoPixels(1, 1, 1)).find("fewer than two"), std::string::npos);
+  EXPECT_NE(refused(twoPixels(1, -1, 4)).find("negative variance"), std::string::npos);
   EXPECT_NE(refused(Image{1, 1, {"R", "G", "B"}, {1, 1, 1}, {}}).find("sizes differ"), std::string::npos);
 }
 

@@ -91,7 +91,12 @@ std::string nearerPlace(const json& root, const std::string& pointer) {
     const std::vector<std::string> members = numberMembersAt(cut.place);
     if (std::ranges::find(members, cut.part) != members.end()) return "";
     const auto isAlike = [&](const std::string& member) { return isSameButForCase(member, cut.part); };
-    const auto alike = std::ranges::find_if(members, isAlike);
+    auto alike = std::ranges::find_if(members, isAlike);
+    // The name without its end, as panels and other programs have it.
+    const auto begins = [&](const std::string& member) {
+      return isSameButForCase(member, cut.part + "Factor");
+    };
+    if (alike == members.end()) alike = std::ranges::find_if(members, begins);
     const std::string nearest = alike != members.end() ? *alike : nearestName(cut.part, members);
     return nearest.empty() ? "" : cut.place + "/" + nearest + cut.rest;
   }

@@ -41,9 +41,11 @@ class Estimates {
         fail("has no layer samples.Y, which render --aov samples writes");
       count_ = std::strtod(samples->second.c_str(), nullptr);
     }
-    for (size_t i = 0; i < size_t(image_.width) * size_t(image_.height); ++i)
+    for (size_t i = 0; i < size_t(image_.width) * size_t(image_.height); ++i) {
       if (count(i) != 0 && !(count(i) >= 2))
         fail("has pixels with fewer than two samples, whose noise is not known");
+      if (variance(i) < 0.0) fail("has pixels of negative variance");
+    }
   }
 
   double luminance(size_t pixel) const {

@@ -26,7 +26,7 @@ Worker& ktx2Worker() {
   static constexpr WorkerKind kKtx2{"libfragtrace_ktx2.so", "the codec of KTX2 textures",
                                     "scripts/build makes it",
                                     "; `scripts/setup ktx2` before scripts/build brings it, `gltf-transform "
-                                    "ktxdecompress IN OUT` writes a file with "
+                                    "ktxdecompress IN OUT` (with KTX-Software's `ktx`) writes a file with "
                                     "PNG textures"};
   static Worker theOne(kKtx2);
   return theOne;

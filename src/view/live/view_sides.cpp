@@ -3,6 +3,7 @@
 // picture until the program is there.
 #include <algorithm>
 
+#include "options/option_row.h"
 #include "session/picture/denoising.h"
 #include "view/live/view_tracer.h"
 
@@ -38,7 +39,9 @@ void ViewTracer::adoptSide(Side& side, const RenderOptions& asked) {
     if (!program) {
       program = side.program;
       side.awaited = std::exchange(options, side.options);
-      options.camera = side.awaited->camera;
+      // The camera moves meanwhile, unless the program there is of another lens.
+      if (programOptions(options).camera == programOptions(*side.awaited).camera)
+        options.camera = side.awaited->camera;
       // The other processor has nothing to do.
       if (whyNotDenoised(*side.awaited).empty()) maker_->prepareFilter();
     }

@@ -82,8 +82,8 @@ Task drawCamera(ViewState& state, ViewFacts& facts) {
   }
   const bool fisheye = type == CameraType::Fisheye;
   if (fisheye || type == CameraType::Perspective) {
-    if (slider(places, "View angle", state.pose.viewAngleDegrees, 1.0f, fisheye ? 360.0f : 170.0f,
-               "%.1f degrees"))
+    if (slider(places, "View angle", fisheye ? state.pose.fisheyeDegrees : state.pose.viewAngleDegrees, 1.0f,
+               fisheye ? 360.0f : 170.0f, "%.1f degrees"))
       state.posed = true;
   }
   if (type == CameraType::Perspective) drawLens(state, places);
