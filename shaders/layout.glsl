@@ -67,6 +67,8 @@ const int kAovEmission = 10;
 const int kAovDiffuse = 11;
 const int kAovSpecular = 12;
 const int kAovGuides = 13;
+const int kAovCryptoObject = 14;
+const int kAovCryptoMaterial = 15;
 
 // Film flags.
 const uint kPixelSuspended = 1u;  // the path of this pixel goes on in the next draw

@@ -207,8 +207,8 @@ vec3 aovAt(Surface s, int slot, int instance, vec3 baseColor, vec3 wo) {
   if (kAov == kAovRoughness) return vec3(materialAt(s.material, baseColor, s.texcoords).roughness);
   if (kAov == kAovTexcoords) return vec3(s.texcoords.xy, 0.0);
   if (kAov == kAovPosition) return frame.worldOrigin + frame.metresPerUnit * s.position;
-  if (kAov == kAovObject) return vec3(objectNumber(slot, instance));
-  if (kAov == kAovMaterial) return vec3(materialFloats(s.material, kMaterialPerlin).w);
+  if (kAov == kAovObject || kAov == kAovCryptoObject) return vec3(objectNumber(slot, instance));
+  if (kAov == kAovMaterial || kAov == kAovCryptoMaterial) return vec3(materialFloats(s.material, kMaterialPerlin).w);
   return vec3(depthOf(s));
 }
 

@@ -17,6 +17,15 @@ bool isStoredAsHalf(std::string_view channel) {
   return !isCryptomatte && last.size() == 1 && kColors.find(last[0]) != std::string_view::npos;
 }
 
+std::string lightLayer(std::string_view group) {
+  std::string name = "light_";
+  for (const char c : group) {
+    const bool taken = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+    name += taken ? c : '_';
+  }
+  return name;
+}
+
 std::optional<size_t> findChannel(const Image& image, std::string_view name) {
   const auto found = std::ranges::find(image.channels, name);
   if (found == image.channels.end()) return std::nullopt;

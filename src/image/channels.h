@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "image/image.h"
@@ -23,6 +24,10 @@ inline constexpr const char* kObservedChannel = "denoising.observed.Y";
 /// name: colours (.R .G .B .A), normals and roughness. All others keep 32 bits: numbers of samples, depths,
 /// variances, texture coordinates, and the identifiers of Cryptomatte.
 bool isStoredAsHalf(std::string_view channel);
+
+/// The layer of a light group: "light_" and its name, with _ in place of characters that programs for compositing
+/// do not take in names.
+std::string lightLayer(std::string_view group);
 
 /// The index of the channel of that exact name.
 std::optional<size_t> findChannel(const Image& image, std::string_view name);

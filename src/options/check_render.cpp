@@ -54,6 +54,19 @@ void chooseStandardOutput(OutputOptions& o) {
   o.file = "standard output." + o.format;
 }
 
+/// The light of groups adds up where it is one sum over all lights.
+void checkLightGroups(const RenderOptions& o) {
+  if (o.output.lightGroups.empty()) return;
+  const std::string light = "--aov light:" + o.output.lightGroups.front() + ": ";
+  if (!has(o.stages, Stage::Gi)) throw UsageError(light + "only stage gi has it");
+  const auto refuse = [&](bool given, const char* option, const char* why) {
+    if (given) throw UsageError(light + "not with " + option + ", " + why);
+  };
+  refuse(o.light.shadowCatcher, "--shadow-catcher", "whose shadows are a share of all light");
+  refuse(o.light.reuse != LightReuse::None, "--light-reuse", "which chooses light samples by their light");
+  refuse(o.output.debugView != DebugView::None, "--debug-view", "which shows no light");
+}
+
 void checkOutput(const RenderOptions& o, bool anyOutput) {
   const OutputOptions& out = o.output;
   const bool isVideo = videoFormatOf(out.file) != nullptr;
@@ -67,7 +80,8 @@ void checkOutput(const RenderOptions& o, bool anyOutput) {
   const auto part = std::ranges::find_if(out.aovs, isPathAov);
   if (part != out.aovs.end() && !has(o.stages, Stage::Gi))
     throw UsageError("--aov " + std::string(rowOf(*part).name) + ": only stage gi has it");
-  const bool hasLayers = !out.aovs.empty() || out.aovSamples || out.aovVariance;
+  checkLightGroups(o);
+  const bool hasLayers = !out.aovs.empty() || !out.lightGroups.empty() || out.aovSamples || out.aovVariance;
   if (hasLayers && !anyOutput && formatOfName(out.file) != ImageFormat::OpenExr)
     throw UsageError("--aov: only .exr files hold more layers");
   if (out.treeLevel && !out.file.empty() && !holdsDisplay(out.file))

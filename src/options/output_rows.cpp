@@ -4,6 +4,7 @@
 
 #include "base/errors.h"
 #include "bvh/bvh.h"
+#include "image/channels.h"
 #include "options/option_row.h"
 #include "options/row_makers.h"
 
@@ -23,9 +24,26 @@ std::vector<std::string> layerNames() {
   return names;
 }
 
+constexpr std::string_view kGroup = "light:";
+
+void chooseLightGroup(const std::string& name, OutputOptions& o) {
+  if (name.empty()) throw UsageError("--aov light: the name of a light follows, such as light:environment");
+  for (const std::string& other : o.lightGroups) {
+    if (other == name) return;
+    if (lightLayer(other) == lightLayer(name))
+      throw UsageError("--aov light:" + name + ": its layer has the name of that of light:" + other + ", " +
+                       lightLayer(name));
+  }
+  o.lightGroups.push_back(name);
+}
+
 void chooseLayers(const std::vector<std::string>& names, OutputOptions& o) {
   const std::vector<std::string> known = layerNames();
   for (const std::string& name : names) {
+    if (name.starts_with(kGroup)) {
+      chooseLightGroup(name.substr(kGroup.size()), o);
+      continue;
+    }
     const auto index = choose<size_t>("--aov", name, known);
     if (name == "samples") {
       o.aovSamples = true;
@@ -41,9 +59,12 @@ void chooseLayers(const std::vector<std::string>& names, OutputOptions& o) {
 
 OptionRow layersRow() {
   OptionRow row{.name = "--aov",
-                .help = "extra layers to write into an .exr, separated by commas: " + joined(layerNames()),
+                .help = "extra layers to write into an .exr, separated by commas: " + joined(layerNames()) +
+                        ", light:NAME (the light of the lights and emissive materials of that name, of the "
+                        "environment, or of the rest)",
                 .traits = {.effect = Effect::Layers, .renewal = Renewal::Program},
                 .examples = layerNames()};
+  row.examples.emplace_back("light:rest");
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
     app.add_option_function<std::vector<std::string>>(
            r.name, [&raw](const std::vector<std::string>& names) { chooseLayers(names, raw.options.output); },
@@ -52,7 +73,7 @@ OptionRow layersRow() {
         ->allow_extra_args(false);
   };
   row.isDefault = [](const RenderOptions& o) {
-    return o.output.aovs.empty() && !o.output.aovSamples && !o.output.aovVariance;
+    return o.output.aovs.empty() && o.output.lightGroups.empty() && !o.output.aovSamples && !o.output.aovVariance;
   };
   row.words = [](const RenderOptions& o) {
     std::string names;
@@ -60,10 +81,12 @@ OptionRow layersRow() {
     for (const Aov aov : o.output.aovs) add(rowOf(aov).name);
     if (o.output.aovSamples) add("samples");
     if (o.output.aovVariance) add("variance");
+    for (const std::string& group : o.output.lightGroups) add(std::string(kGroup) + group);
     return std::vector{names};
   };
   row.copy = [](RenderOptions& to, const RenderOptions& from) {
     to.output.aovs = from.output.aovs;
+    to.output.lightGroups = from.output.lightGroups;
     to.output.aovSamples = from.output.aovSamples;
     to.output.aovVariance = from.output.aovVariance;
   };

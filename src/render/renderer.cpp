@@ -131,13 +131,13 @@ void Renderer::setFrame(const Film& film, const View& view) {
   frame_.cameraMedium = view.cameraMedium ? float(*view.cameraMedium + 1) : 0.0f;
   frame_.cameraForward = camera.forward;
   frame_.metresPerUnit = float(view.space.unit);
-  frame_.background = view.background;
+  frame_.background = view.background * view.surroundings;
   frame_.backgroundShows = view.seesNothing ? -1.0f : float(view.showEnvironment);
   frame_.environmentRotation = glm::dvec2(std::cos(view.hdriRotation), std::sin(view.hdriRotation));
   frame_.lens = glm::vec4(float(view.lens.radius / view.space.unit),
                           float(view.lens.focusDistance / view.space.unit), float(view.lens.blades), 0.0f);
   frame_.lensShift = glm::vec4(2.0 * camera.shift, 0.0, 0.0);
-  frame_.environmentScale = float(view.hdriIntensity);
+  frame_.environmentScale = float(view.hdriIntensity) * view.surroundings;
   frame_.environmentChance = environmentChance(lightShare_, view.hdriIntensity);
   frame_.pictureSize = placed.whole;
   frame_.seed = int(view.seed);

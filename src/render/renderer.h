@@ -51,6 +51,8 @@ struct View {
   Lens lens;                    ///< when the variant has one
   double hdriRotation = 0.0;    ///< radians about +Y
   double hdriIntensity = 1.0;   ///< factor of the environment's radiance
+  float surroundings = 1.0f;    ///< factor of all light from outside the scene, as the camera sees it, too;
+                                ///< no light sample depends on it
   glm::vec3 background{0.0f};   ///< seen by camera rays that miss
   bool showEnvironment = true;  ///< camera rays that miss see the environment map instead, or its backdrop
   bool seesNothing = false;     ///< they see nothing: the picture is to be laid over another one
@@ -101,6 +103,9 @@ class Renderer {
 
   /// Replaces the scene by the next one of a sequence, which is read in the same way. Programs stay.
   void replaceScene(GpuScene scene);
+
+  /// Replaces arrays by others of the same numbers of rows, except those that are unchanged.
+  void replaceArrays(GpuScene scene) { buffers_.replace(scene); }
 
   /// Replaces the surroundings alone (packSurroundings).
   void replaceSurroundings(GpuScene scene);

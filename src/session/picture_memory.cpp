@@ -7,6 +7,7 @@
 
 #include "base/errors.h"
 #include "image/channels.h"
+#include "image/cryptomatte.h"
 #include "render/film/film_pixels.h"
 
 namespace fragtrace {
@@ -20,7 +21,9 @@ uint64_t bytesOfFilm(const RenderOptions& options) {
   constexpr uint64_t kWithLayers = kOne + 48 + sizeof(FilmPixel);
   constexpr uint64_t kAdaptive = kOne + 96 + 2 * sizeof(FilmPixel) + 2 * sizeof(double);
   if (isAdaptive(options)) return kAdaptive;
-  return options.output.aovs.empty() ? kOne : kWithLayers;
+  constexpr uint64_t kMattes = 64;  // the numbers that are counted for a pixel
+  if (std::ranges::any_of(options.output.aovs, isMatte)) return kWithLayers + kMattes;
+  return options.output.aovs.empty() && options.output.lightGroups.empty() ? kOne : kWithLayers;
 }
 
 /// Bytes that filtering takes for a pixel: textures and the sources of two of them, earlier copies of the
@@ -51,7 +54,10 @@ size_t channelsOf(const RenderOptions& options) {
   size_t channels = 3 + size_t(!options.light.background) + size_t(options.output.aovSamples) +
                     size_t(options.output.aovVariance);
   for (const Aov aov : options.output.aovs)
-    channels += aov == Aov::Guides ? kGuideChannels.size() + 1 : rowOf(aov).channels.size();
+    channels += aov == Aov::Guides ? kGuideChannels.size() + 1
+                : isMatte(aov)     ? size_t(2 * kMatteRanks)
+                                   : rowOf(aov).channels.size();
+  channels += 3 * options.output.lightGroups.size();
   if (options.output.denoise != Denoise::None) channels += 3;  // the noisy picture
   return channels;
 }

@@ -32,6 +32,10 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
     return;
   }
   if (!asked && options.device.traversal != TraversalMethod::Auto) return;
+  if (!options.output.lightGroups.empty()) {
+    if (asked) throw UsageError("--traversal literals: not with --aov light:NAME, whose light is no literal");
+    return;
+  }
   // Who asks for the wavefront gets it, which needs a tree.
   if (!asked && options.device.schedule == Schedule::Wavefront && has(variant.stages, Stage::Gi)) return;
   const std::string reason = asked ? whyNoLiterals(loaded.scene, packed) : "";
@@ -54,6 +58,13 @@ std::string settleVariant(ShaderVariant& variant, const LoadedScene& loaded, con
   variant.gpu = isForGpu(options.device.tune, context);
   return chooseSchedule(variant, options,
                         {context.software, pathsOf(options, loaded.size), loaded.bvh.nodes.size()});
+}
+
+/// Keeps the arrays that hold light, where light groups are asked for.
+void keepLight(Tracer& tracer, const GpuScene& packed, const RenderOptions& options) {
+  if (options.output.lightGroups.empty()) return;
+  tracer.materials = packed.buffers[layout::kMaterialsBinding];
+  tracer.lights = packed.buffers[layout::kLightsBinding];
 }
 
 Phase buildProgram(ProgramCache& programs, const ShaderVariant& variant) {
@@ -249,6 +260,7 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   tracer.reads = choice.reads;
   stats.readFallback = choice.fallback;
   settleVariants(tracer, loaded, packed, options, context, stats);
+  keepLight(tracer, packed, options);
   const Phase building = ahead ? *ahead : buildProgram(programs, tracer.variant);
   stats.phases.push_back(building);
   tracer.programMs = building.end - building.begin;
@@ -276,6 +288,7 @@ void replaceScene(Tracer& tracer, const Context& context, const LoadedScene& loa
       packed.unchanged[i] = packed.unchanged[i] || before[i] == tracer.arrayHashes[i];
   }
   settleVariants(tracer, loaded, packed, options, context, stats);
+  keepLight(tracer, packed, options);
   PhaseTimer uploading("upload");
   tracer.renderer->replaceScene(std::move(packed));
   stats.phases.push_back(uploading.end());

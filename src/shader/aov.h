@@ -25,7 +25,9 @@ enum class Aov : uint8_t {
              ///< camera,
   Diffuse,   ///< light that was scattered first by a diffuse surface,
   Specular,  ///< light that was scattered first by any other surface
-  Guides     ///< guides of filters, all in one: kGuideChannels
+  Guides,    ///< guides of filters, all in one: kGuideChannels
+  CryptoObject,   ///< Cryptomatte of the glTF nodes: ids and shares of each pixel (image/cryptomatte.h)
+  CryptoMaterial  ///< the same of the materials
 };
 
 struct AovRow {
@@ -34,7 +36,7 @@ struct AovRow {
 };
 
 /// In the order of Aov.
-inline constexpr std::array<AovRow, 14> kAovRows{{{"", ""},
+inline constexpr std::array<AovRow, 16> kAovRows{{{"", ""},
                                                   {"albedo", "RGB"},
                                                   {"normal", "XYZ"},
                                                   {"depth", "Z"},
@@ -47,13 +49,18 @@ inline constexpr std::array<AovRow, 14> kAovRows{{{"", ""},
                                                   {"emission", "RGB"},
                                                   {"diffuse", "RGB"},
                                                   {"specular", "RGB"},
-                                                  {"denoising", ""}}};
+                                                  {"denoising", ""},
+                                                  {"crypto-object", ""},
+                                                  {"crypto-material", ""}}};
 
 inline const AovRow& rowOf(Aov aov) { return kAovRows[size_t(aov)]; }
 
 /// Returns true if the AOV is light, for which paths are traced to their ends, and not a property of the
 /// first hit.
 inline bool isPathAov(Aov aov) { return aov == Aov::Emission || aov == Aov::Diffuse || aov == Aov::Specular; }
+
+/// Returns true if the AOV is a Cryptomatte.
+inline bool isMatte(Aov aov) { return aov == Aov::CryptoObject || aov == Aov::CryptoMaterial; }
 
 /// The content of a picture. All but None are colours to be displayed as they are, without exposure and tone
 /// curve.

@@ -278,7 +278,7 @@ ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& pre
   if (roughnessTexture || aov == Aov::Texcoords) keep(Trait::Texcoords);
   if (follows) keep(Trait::SmoothSurfaces);
   if (follows) keep(Trait::Scattering);
-  if (aov == Aov::Object) v.traits.set(size_t(Trait::ObjectNumbers));
+  if (aov == Aov::Object || aov == Aov::CryptoObject) v.traits.set(size_t(Trait::ObjectNumbers));
   const bool paths = guides && has(options.stages, Stage::Gi);
   v.shadowCatcher = paths && options.light.shadowCatcher;
   v.traits.set(size_t(Trait::Fog), paths && options.fog.density > 0.0 && !options.light.shadowCatcher);

@@ -9,12 +9,15 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "image/channels.h"
+#include "image/cryptomatte.h"
 #include "render/adaptive.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
 #include "session/picture/checkpoints.h"
 #include "session/picture/denoising.h"
 #include "session/picture/draw_picture.h"
+#include "session/picture/light_groups.h"
+#include "session/picture/mattes.h"
 #include "session/picture/picture_file.h"
 #include "session/progress_bar.h"
 #include "session/say.h"
@@ -64,28 +67,31 @@ std::vector<double> measureAovs(const PictureJob& job, Film& film, const View& v
   Work work{{}, glm::min(film.size(), glm::ivec2(kSide)), 0, 1};
   work.corner = (film.size() - work.size) / 2;
   const double times = areaOf(job.loaded.region.size) / areaOf(work.size);
-  std::vector<double> seconds;
-  for (const ShaderVariant& variant : job.tracer.aovs) {
+  const auto secondsOf = [&](const ShaderVariant& variant) {
     if (!job.tracer.renderer->knows(variant))
       stats.compileMs += job.tracer.renderer->compile(variant, film, view);
-    if (!job.showsProgress) {
-      seconds.push_back(0.0);
-      continue;
-    }
+    if (!job.showsProgress) return 0.0;
     job.tracer.renderer->use(variant);
     RenderTimes measured;
     job.tracer.renderer->addSamples(film, view, {&work, 1}, measured);
-    seconds.push_back(0.001 * measured.renderMs * times);
     film.clear();
-  }
+    return 0.001 * measured.renderMs * times;
+  };
+  std::vector<double> seconds;
+  for (const ShaderVariant& variant : job.tracer.aovs) seconds.push_back(secondsOf(variant));
+  const size_t groups = job.options.output.lightGroups.size();
+  if (groups > 0) seconds.insert(seconds.end(), groups, secondsOf(job.tracer.variant));
   return seconds;
 }
 
 /// The seconds that the layers from `first` on will take if the picture has so many samples.
 double secondsOfAovs(const PictureJob& job, const DrawingPlan& plan, size_t first, int samples) {
   double seconds = 0.0;
-  for (size_t i = first; i < plan.layerSeconds.size(); ++i)
-    seconds += plan.layerSeconds[i] * samplesOfLayer(job.options, job.tracer.aovs[i].aov, samples);
+  const std::vector<ShaderVariant>& aovs = job.tracer.aovs;
+  for (size_t i = first; i < plan.layerSeconds.size(); ++i) {
+    const int own = i < aovs.size() ? samplesOfLayer(job.options, aovs[i].aov, samples) : samples;
+    seconds += plan.layerSeconds[i] * own;
+  }
   return seconds;
 }
 
@@ -157,6 +163,7 @@ void sayWhatWentWrong(const RenderOptions& options, const FilmTotals& film, cons
 }
 
 DrawingPlan planDrawing(const PictureJob& job, Statistics& stats) {
+  lightGroupsOf(job.options, job.loaded.scene);  // a wrong name is found before anything is drawn
   std::vector<Region> parts = partsOf(job.options, job.loaded);
   Film film(parts.front().size);
   const View view = viewOf(job.loaded, parts.front());
@@ -308,35 +315,89 @@ Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, C
   return withoutNeedlessCounts(std::move(picture), options, stats);
 }
 
+namespace {
+
+/// A layer that is to be drawn in all parts.
+struct LayerTask {
+  std::string name;
+  int samples = 0;
+  double secondsAfter = 0.0;  ///< of the layers that follow
+  int interrupts = 0;         ///< more of these end it
+  std::function<LayerDraw(const Region& part, const Renderer::Progress& progress)> draw;
+};
+
+struct DrawnLayer {
+  Image image;
+  FilmTotals totals;
+};
+
+/// Draws the layer. Throws RenderError.
+DrawnLayer drawnLayer(const LayerTask& task, const PictureJob& job, const DrawingPlan& plan, Statistics& stats) {
+  const std::vector<Share> shares = sharesOf(plan.parts, job.loaded.region.size);
+  ProgressBar bar("layer " + task.name, hidesProgress(job), task.samples);
+  DrawnLayer layer;
+  for (size_t p = 0; p < plan.parts.size(); ++p) {
+    const Region& part = plan.parts[p];
+    LayerDraw own = task.draw(part, [&](double fraction) {
+      bar.show(shares[p].of(fraction), task.secondsAfter);
+      return interrupts() == task.interrupts;
+    });
+    stats.complete = stats.complete && own.complete;
+    stats.compileMs += own.compileMs;
+    stats.featureMs += own.drawMs;
+    add(layer.totals, own.totals, p == 0);
+    addPart(layer.image, std::move(own.image), part, job.loaded.region);
+  }
+  bar.clear();
+  return layer;
+}
+
+/// Adds the layers of --aov light:NAME.
+void addLightGroups(Image& picture, const PictureJob& job, const DrawingPlan& plan, int samples, int before,
+                    Statistics& stats) {
+  const std::vector<std::string>& names = job.options.output.lightGroups;
+  if (names.empty()) return;
+  const LightGroups groups = lightGroupsOf(job.options, job.loaded.scene);
+  for (size_t i = 0; i < names.size(); ++i) {
+    const auto draw = [&](const Region& part, const Renderer::Progress& progress) {
+      const View view = viewOfGroup(viewOf(job.loaded, part), groups, i);
+      return drawLayer(part.size, *job.tracer.renderer, job.tracer.variant, view, samples, progress);
+    };
+    const double after = secondsOfAovs(job, plan, job.tracer.aovs.size() + i + 1, samples);
+    const std::string name = "light:" + names[i];
+    showLights(job.tracer, job.loaded.scene, groups, i);
+    const DrawnLayer layer = drawnLayer({name, samples, after, before, draw}, job, plan, stats);
+    showLights(job.tracer, job.loaded.scene, groups, std::nullopt);
+    sayWhatWentWrong(job.options, layer.totals, name);
+    const std::string inFile = lightLayer(names[i]);
+    appendChannels(picture, layer.image, {inFile + ".R", inFile + ".G", inFile + ".B"});
+  }
+}
+
+}  // namespace
+
 void addAovs(Image& picture, const PictureJob& job, const DrawingPlan& plan, Statistics& stats) {
   const int drawn = int(std::max(1u, stats.adaptive ? stats.film.fewestSamples : stats.film.mostSamples));
   const int all = stats.complete ? drawn : std::min(drawn, kFewLayerSamples);
   const int before = interrupts();
-  const std::vector<Share> shares = sharesOf(plan.parts, job.loaded.region.size);
   for (size_t i = 0; i < job.tracer.aovs.size(); ++i) {
     const ShaderVariant& variant = job.tracer.aovs[i];
     const int samples = samplesOfLayer(job.options, variant.aov, all);
+    const auto draw = [&](const Region& part, const Renderer::Progress& progress) {
+      const View view = viewOf(job.loaded, part);
+      if (isMatte(variant.aov))
+        return drawMattes(part.size, *job.tracer.renderer, variant, view, samples, job.loaded.scene, progress);
+      return drawLayer(part.size, *job.tracer.renderer, variant, view, samples, progress);
+    };
     const double after = secondsOfAovs(job, plan, i + 1, all);
-    ProgressBar bar("layer " + std::string(rowOf(variant.aov).name), hidesProgress(job), samples);
-    Image layer;
-    FilmTotals totals;
-    for (size_t p = 0; p < plan.parts.size(); ++p) {
-      const Region& part = plan.parts[p];
-      LayerDraw own = drawLayer(part.size, *job.tracer.renderer, variant, viewOf(job.loaded, part), samples,
-                                [&](double fraction) {
-                                  bar.show(shares[p].of(fraction), after);
-                                  return interrupts() == before;
-                                });
-      stats.complete = stats.complete && own.complete;
-      stats.compileMs += own.compileMs;
-      stats.featureMs += own.drawMs;
-      add(totals, own.totals, p == 0);
-      addPart(layer, std::move(own.image), part, job.loaded.region);
-    }
-    bar.clear();
-    appendChannels(picture, layer, layer.channels);
-    sayWhatWentWrong(job.options, totals, std::string(rowOf(variant.aov).name));
+    const std::string name(rowOf(variant.aov).name);
+    const DrawnLayer layer = drawnLayer({name, samples, after, before, draw}, job, plan, stats);
+    sayWhatWentWrong(job.options, layer.totals, name);
+    appendChannels(picture, layer.image, layer.image.channels);
+    if (isMatte(variant.aov))
+      setManifest(picture, matteLayer(variant.aov), namesOfMatte(variant.aov, job.loaded.scene));
   }
+  addLightGroups(picture, job, plan, all, before, stats);
 }
 
 }  // namespace fragtrace

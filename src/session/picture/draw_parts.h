@@ -40,7 +40,7 @@ class CheckpointKeeper;
 /// parts, which stay black. Throws InputError and UsageError for the checkpoint, RenderError.
 Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, CheckpointKeeper& keeper);
 
-/// Adds the layers of first hits, drawn with the picture's samples: for an adaptive picture those that all
+/// Adds the layers of first hits, the parts of the light and the light groups, drawn with the picture's samples: for an adaptive picture those that all
 /// pixels have, for an interrupted one a few, since the user waits. Throws RenderError.
 void addAovs(Image& picture, const PictureJob& job, const DrawingPlan& plan, Statistics& stats);
 

@@ -79,6 +79,10 @@ LayerDraw drawLayer(glm::ivec2 size, Renderer& renderer, const ShaderVariant& va
   }
   const FilmPixels pixels = film.read();
   layer.totals = totalsOf(pixels);
+  if (variant.aov == Aov::None) {
+    layer.image = imageOf(pixels, {});
+    return layer;
+  }
   const AovRow& row = rowOf(variant.aov);
   std::vector<std::string> names = {"R", "G", "B"};
   names.resize(row.channels.size());

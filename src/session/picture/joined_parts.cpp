@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "base/vectors.h"
 #include "image/channels.h"
+#include "image/cryptomatte.h"
 #include "image/over_white.h"
 #include "session/picture/denoising.h"
 
@@ -174,6 +175,10 @@ Spread spreadOf(const Part& part) {
 
 Part readPart(const std::filesystem::path& path) {
   Part part{path, asDrawn(readStoredImage(path)), {}};
+  if (holdsMattes(part.image))
+    throw InputError(path.string() +
+                     ": holds a Cryptomatte, whose numbers have no mean; render it to a file of its own "
+                     "(--aov crypto-object, crypto-material)");
   part.made = provenanceOf(part.image, path);
   const bool counted = findChannel(part.image, kSamplesChannel).has_value();
   if (!part.made.uniform && !counted) {

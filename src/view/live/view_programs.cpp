@@ -68,6 +68,7 @@ RenderOptions programPart(const RenderOptions& options) {
   part.sampling.clampIndirect = part.sampling.clampIndirect > 0.0 ? 1.0 : 0.0;
   part.light.sky = {.on = part.light.sky.on};  // showSurroundings()
   part.output.aovs.clear();
+  part.output.lightGroups.clear();
   part.selection.camera.clear();
   if (has(part.stages, Stage::Gi) && part.output.debugView == DebugView::None)
     part.output.aovs = {Aov::Guides};

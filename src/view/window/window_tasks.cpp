@@ -252,7 +252,8 @@ void Window::executeOnBookmark(const Task& task) {
 void Window::copyCommand() {
   RenderOptions o = shownOptions();
   nameLight(o, *state_.scene);
-  const bool layers = !o.output.aovs.empty() || o.output.aovSamples || o.output.aovVariance;
+  const bool layers =
+      !o.output.aovs.empty() || !o.output.lightGroups.empty() || o.output.aovSamples || o.output.aovVariance;
   o.output.file = freePictureName(o.scene, layers ? ".exr" : ".png");
   glfwSetClipboardString(window_.get(), start_.commandText(o).c_str());
   say("copied the command that renders this picture");

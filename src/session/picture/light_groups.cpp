@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "session/picture/light_groups.h"
+
+#include <algorithm>
+#include <bit>
+#include <set>
+
+#include "base/errors.h"
+#include "base/text.h"
+#include "shader/layout.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// Light that is dimmed so much vanishes in the rounding of any sum. It is not 0, since the shader leaves out the
+/// shadow rays of light samples that are 0, and with them random numbers.
+constexpr float kDimmed = 0x1p-60f;
+
+constexpr const char* kSurroundings = "environment";
+constexpr const char* kRest = "rest";
+
+bool isLit(const Material& material) { return material.emissive() || material.unlit; }
+
+std::string placeOfLight(uint32_t source) {
+  return "/extensions/KHR_lights_punctual/lights/" + std::to_string(source);
+}
+
+/// The names of all that can be a group.
+std::string namesIn(const Scene& scene) {
+  std::set<std::string> names{kSurroundings, kRest};
+  for (size_t i = 0; i < scene.lightSources.size(); ++i) {
+    const std::string& name = scene.lightSources[i].name;
+    names.insert(name.empty() ? placeOfLight(uint32_t(i)) : name);
+  }
+  for (const Material& material : scene.materials) {
+    if (isLit(material)) names.insert(material.name.empty() ? material.place : material.name);
+  }
+  return joined(names);
+}
+
+/// Multiplies the first three numbers of a row.
+void scaleRow(Words& words, size_t row, float factor) {
+  for (size_t i = row * 4; i < row * 4 + 3; ++i)
+    words[i] = std::bit_cast<uint32_t>(std::bit_cast<float>(words[i]) * factor);
+}
+
+}  // namespace
+
+LightGroups lightGroupsOf(const RenderOptions& options, const Scene& scene) {
+  const std::vector<std::string>& names = options.output.lightGroups;
+  std::vector<bool> found(names.size(), false);
+  const auto indexOf = [&](const std::string& name) -> std::optional<size_t> {
+    const auto place = std::ranges::find(names, name);
+    if (name.empty() || place == names.end()) return std::nullopt;
+    found[size_t(place - names.begin())] = true;
+    return size_t(place - names.begin());
+  };
+  LightGroups groups;
+  const std::optional<size_t> rest = indexOf(kRest);
+  const auto groupOf = [&](const std::string& name, const std::string& place) {
+    const bool reserved = name == kSurroundings || name == kRest;
+    const std::optional<size_t> named = reserved ? std::nullopt : indexOf(name);
+    const std::optional<size_t> placed = indexOf(place);
+    return named ? named : placed ? placed : rest;
+  };
+  for (const Material& material : scene.materials)
+    groups.ofMaterials.push_back(isLit(material) ? groupOf(material.name, material.place) : std::nullopt);
+  for (const Light& light : scene.lights)
+    groups.ofLights.push_back(groupOf(scene.lightSources[light.source].name, placeOfLight(light.source)));
+  const std::optional<size_t> surroundings = indexOf(kSurroundings);
+  groups.ofSurroundings = surroundings ? surroundings : rest;
+  groups.ofVolume = rest;
+  for (size_t i = 0; i < names.size(); ++i) {
+    if (!found[i])
+      throw UsageError("--aov light:" + names[i] + ": " + options.scene.string() +
+                       " has no light and no emissive material of that name, but " + namesIn(scene));
+  }
+  return groups;
+}
+
+void showLights(const Tracer& tracer, const Scene& scene, const LightGroups& groups,
+                std::optional<size_t> group) {
+  GpuScene dimmed;
+  dimmed.unchanged.fill(true);
+  Words& materials = dimmed.buffers[layout::kMaterialsBinding] = tracer.materials;
+  Words& lights = dimmed.buffers[layout::kLightsBinding] = tracer.lights;
+  dimmed.unchanged[layout::kMaterialsBinding] = false;
+  dimmed.unchanged[layout::kLightsBinding] = false;
+  for (size_t i = 0; group && i < groups.ofMaterials.size(); ++i) {
+    if (groups.ofMaterials[i] == group) continue;
+    const size_t row = i * layout::kMaterialRows;
+    scaleRow(materials, row + layout::kMaterialEmission, kDimmed);
+    // The base colour of such a surface is its light.
+    if (scene.materials[i].unlit) scaleRow(materials, row, kDimmed);
+  }
+  for (size_t i = 0; group && i < groups.ofLights.size() && !lights.empty(); ++i) {
+    if (groups.ofLights[i] != group) scaleRow(lights, i * layout::kLightRows, kDimmed);
+  }
+  tracer.renderer->replaceArrays(std::move(dimmed));
+}
+
+View viewOfGroup(const View& view, const LightGroups& groups, size_t group) {
+  View dimmed = view;
+  if (groups.ofSurroundings != group) dimmed.surroundings = kDimmed;
+  if (groups.ofVolume != group)
+    dimmed.volume.source.emission = dimmed.volume.source.emission.value_or(0.0) * kDimmed;
+  return dimmed;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Layers of the light of some lamps alone (--aov light:NAME). The picture's own program draws them on the same
+// samples. All other lamps are dimmed so much that nothing is seen of them. They still take their light samples
+// and shadow rays, so the layers add up to the picture.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "session/tracer.h"
+
+namespace fragtrace {
+
+/// The group of each light, as an index into OutputOptions::lightGroups; none: no layer shows it.
+struct LightGroups {
+  std::vector<std::optional<size_t>> ofMaterials;  ///< by the index of the material
+  std::vector<std::optional<size_t>> ofLights;     ///< by the index of the punctual light
+  std::optional<size_t> ofSurroundings;
+  std::optional<size_t> ofVolume;
+};
+
+/// Throws UsageError where the scene has no light of a name.
+LightGroups lightGroupsOf(const RenderOptions& options, const Scene& scene);
+
+/// Dims all lights of the scene on the device that are not of the group; none: all shine again. Throws
+/// RenderError.
+void showLights(const Tracer& tracer, const Scene& scene, const LightGroups& groups,
+                std::optional<size_t> group);
+
+/// The view with surroundings and volume dimmed in the same way.
+View viewOfGroup(const View& view, const LightGroups& groups, size_t group);
+
+}  // namespace fragtrace

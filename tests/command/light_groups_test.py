@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The light of some lamps alone: --aov light:NAME."""
+import json
+
+from support import SCENES, Case, main
+
+BOX = json.loads((SCENES / "cornell-box.gltf").read_text())
+
+
+class LightGroups(Case):
+    def scene(self):
+        """The Cornell box with a point light, an unlit wall, and a block that lets half of the light pass."""
+        gltf = json.loads(json.dumps(BOX))
+        gltf["extensionsUsed"] += ["KHR_lights_punctual", "KHR_materials_unlit"]
+        gltf["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "point", "name": "key", "intensity": 4, "color": [1, 0.5, 0.2]}]}}
+        gltf["scenes"][0]["nodes"].append(len(gltf["nodes"]))
+        gltf["nodes"].append({"extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [0.4, 0.2, 0.6]})
+        gltf["materials"][1]["extensions"] = {"KHR_materials_unlit": {}}
+        block = next(node for node in gltf["nodes"] if node.get("name") == "short-block")
+        mesh = json.loads(json.dumps(gltf["meshes"][block["mesh"]]))
+        mesh["primitives"][0]["material"] = len(gltf["materials"])
+        gltf["materials"].append({"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.8, 0.8, 0.5], "metallicFactor": 0}})
+        block["mesh"] = len(gltf["meshes"])
+        gltf["meshes"].append(mesh)
+        path = self.folder / "lamps.gltf"
+        path.write_text(json.dumps(gltf))
+        return str(path.with_suffix(""))
+
+    def drawn(self, scene, groups, *options, size="24,16", spp=8):
+        groups = ",".join("light:" + group for group in groups)
+        return self.picture(scene, "x.exr", "--resolution", size, "--spp", spp, *(["--aov", groups] if groups else []), *options)
+
+    def values(self, exr, group=None):
+        return [value for c in "RGB" for value in exr.values(f"light_{group}.{c}" if group else c)]
+
+    def adds_up(self, exr, groups):
+        parts = [self.values(exr, group) for group in groups]
+        for all_of_it, *own in zip(self.values(exr), *parts):
+            self.assertAlmostEqual(sum(own), all_of_it, delta=1e-5 * all_of_it + 1e-9)
+        return [sum(part) for part in parts]
+
+    def test_they_add_up_to_the_picture(self):
+        names = ["key", "lamp", "red", "environment"]
+        for options in ([], ["--clamp-indirect", "0.5", "--dispatch", "compute"]):
+            exr = self.drawn(self.scene(), names, "--studio", *options)
+            self.assertTrue(all(total > 1 for total in self.adds_up(exr, names)))
+        rest = self.drawn(self.scene(), ["key", "rest"], "--studio", "--region", "4,4,12,8", "--half")
+        self.assertTrue(all(total > 1 for total in [sum(self.values(rest, group)) for group in ("key", "rest")]))
+
+    def test_light_paths_belong_to_their_lamp(self):
+        """Caustics, by light paths."""
+        names = ["rest", "environment"]
+        exr = self.drawn("caustic-ground", names, "--caustics", "on")
+        self.assertTrue(self.adds_up(exr, names)[0] > 1)
+
+    def test_a_group_is_the_picture_of_its_lamp_alone(self):
+        exr = self.drawn(self.scene(), ["key", "lamp"], "--studio", spp=64, size="12,8")
+        dark = ["--set", "/materials/3/emissiveFactor=0,0,0", "--set", "/materials/1/pbrMetallicRoughness/baseColorFactor=0,0,0,1", "--no-default-light"]
+        alone = self.drawn(self.scene(), [], *dark, spp=64, size="12,8")
+        self.assertAlmostEqual(sum(self.values(exr, "key")) / sum(self.values(alone)), 1, delta=0.02)
+
+    def test_what_cannot_go_with_them_is_refused(self):
+        def refused(groups, *options, says):
+            self.fails(2, "render", self.scene() + ".gltf", "-o", self.folder / "y.exr", "--aov", groups, *options, says=says)
+        refused("light:nobody", says=["light:nobody", "key", "lamp", "red", "environment", "rest"])
+        refused("light:a b,light:a.b", says=["light_a_b"])
+        refused("light:", says=["the name of a light"])
+        refused("light:key", "--shadow-catcher", says=["--shadow-catcher"])
+        refused("light:key", "--light-reuse", "candidates", says=["--light-reuse"])
+        refused("light:key", "--stage", "phong", says=["only stage gi"])
+        refused("light:key", "--traversal", "literals", says=["literals"])
+
+
+if __name__ == "__main__":
+    main()
