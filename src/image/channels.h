@@ -25,8 +25,8 @@ inline constexpr const char* kObservedChannel = "denoising.observed.Y";
 /// variances, texture coordinates, and the identifiers of Cryptomatte.
 bool isStoredAsHalf(std::string_view channel);
 
-/// The layer of a light group: "light_" and its name, with _ in place of characters that programs for compositing
-/// do not take in names.
+/// The layer of a light group: "light_" and its name, with _ in place of characters that programs for
+/// compositing do not take in names.
 std::string lightLayer(std::string_view group);
 
 /// The index of the channel of that exact name.

@@ -59,7 +59,8 @@ void appendRanks(std::span<const MatteShare> shares, uint32_t samples, std::vect
 std::vector<std::string> matteChannels(const std::string& layer) {
   std::vector<std::string> names;
   for (int i = 0; i < kMatteRanks / 2; ++i) {
-    for (const char channel : {'R', 'G', 'B', 'A'}) names.push_back(layer + "0" + std::to_string(i) + "." + channel);
+    for (const char channel : {'R', 'G', 'B', 'A'})
+      names.push_back(layer + "0" + std::to_string(i) + "." + channel);
   }
   return names;
 }
@@ -71,7 +72,8 @@ void setManifest(Image& image, const std::string& layer, std::span<const std::st
   image.attributes[key + "name"] = layer;
   image.attributes[key + "hash"] = "MurmurHash3_32";
   image.attributes[key + "conversion"] = "uint32_to_float32";
-  image.attributes[key + "manifest"] = manifest.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  image.attributes[key + "manifest"] =
+      manifest.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 bool holdsMattes(const Image& image) {

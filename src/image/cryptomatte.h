@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Cryptomatte 1.2.0 (Friedman and Jones, Fully Automatic ID Mattes with Support for Motion Blur and
-// Transparency, 2015): the layers NAME00, NAME01 and NAME02 of an .exr tell which names a pixel shows, and how
-// large the share of each is. Programs for compositing make masks of them.
+// Transparency, 2015): the layers NAME00, NAME01 and NAME02 of an .exr tell which names a pixel shows, and
+// how large the share of each is. Programs for compositing make masks of them.
 #pragma once
 
 #include <cstdint>

@@ -64,7 +64,7 @@ OptionRow layersRow() {
                         "environment, or of the rest)",
                 .traits = {.effect = Effect::Layers, .renewal = Renewal::Program},
                 .examples = layerNames()};
-  row.examples.emplace_back("light:rest");
+  row.examples.insert(row.examples.begin(), "light:rest");
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
     app.add_option_function<std::vector<std::string>>(
            r.name, [&raw](const std::vector<std::string>& names) { chooseLayers(names, raw.options.output); },
@@ -73,7 +73,8 @@ OptionRow layersRow() {
         ->allow_extra_args(false);
   };
   row.isDefault = [](const RenderOptions& o) {
-    return o.output.aovs.empty() && o.output.lightGroups.empty() && !o.output.aovSamples && !o.output.aovVariance;
+    return o.output.aovs.empty() && o.output.lightGroups.empty() && !o.output.aovSamples &&
+           !o.output.aovVariance;
   };
   row.words = [](const RenderOptions& o) {
     std::string names;

@@ -253,6 +253,7 @@ struct Light {
   float innerConeAngle = 0.0f;
   float outerConeAngle = 0.7853981634f;
   uint32_t source = 0;  ///< index into Scene::lightSources
+  std::string node{};   ///< the name of the node that places it, or else its JSON pointer
 };
 
 /// A punctual light as the file describes it; nodes place it.

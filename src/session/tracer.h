@@ -20,8 +20,8 @@ struct Tracer {
   uint64_t sceneHash = 0;  ///< hash of all that was uploaded; only for .exr and checkpoints, which keep it
   KeptArrays kept;         ///< arrays that the next scene of a sequence need not upload
   std::array<uint64_t, layout::kSceneBufferCount> arrayHashes{};  ///< set if sceneHash is
-  Words materials;         ///< as packed; only where light groups are asked for, which scale the light
-  Words lights;            ///< the same of punctual lights
+  Words materials;  ///< as packed; only where light groups are asked for, which scale the light
+  Words lights;     ///< the same of punctual lights
   BufferReads reads = BufferReads::Auto;
   int textureSide = kLargestTextureSide;
 };

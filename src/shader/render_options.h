@@ -191,8 +191,8 @@ struct OutputOptions {
   std::filesystem::path file;
   std::string format;  ///< format of standard output
   std::filesystem::path statsFile;
-  std::filesystem::path oidnLibrary;  ///< file of Open Image Denoise; none: it is looked for
-  std::vector<Aov> aovs;              ///< more layers of .exr files
+  std::filesystem::path oidnLibrary;     ///< file of Open Image Denoise; none: it is looked for
+  std::vector<Aov> aovs;                 ///< more layers of .exr files
   std::vector<std::string> lightGroups;  ///< names of the lights that have a layer each
   SequenceOptions sequence;
   double checkpointSeconds = 0.0;  ///< between two checkpoints; 0: none is written

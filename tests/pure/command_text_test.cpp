@@ -30,6 +30,24 @@ TEST(CommandText, IsAWholeCommandOfRender) {
             "--resolution 640,480 --spp 17");
 }
 
+TEST(CommandText, LightGroupsAreRefusedWhereLightDoesNotAddUp) {
+  const auto with = [](const std::string& words) {
+    return refusal("fragtrace render a.gltf -o a.exr --aov light:key,light:rest " + words);
+  };
+  EXPECT_EQ(with("--clamp-indirect 2 --caustics on --denoise variance"),
+            "--caustics on: light paths cannot be clamped (--clamp-indirect)");
+  EXPECT_EQ(with("--caustics on --denoise variance"), "taken");
+  EXPECT_EQ(with("--shadow-catcher bottom"),
+            "--aov light:key: not with --shadow-catcher, whose shadows are a share of all light");
+  EXPECT_EQ(with("--light-reuse candidates"),
+            "--aov light:key: not with --light-reuse, which chooses light samples by their light");
+  EXPECT_EQ(with("--debug-view normal"), "--aov light:key: not with --debug-view, which shows no light");
+  EXPECT_EQ(with("--stage phong"), "--aov light:key: only stage gi has it");
+  EXPECT_EQ(with("--aov light:"), "--aov light: the name of a light follows, such as light:environment");
+  EXPECT_EQ(with("--aov light:a.b,light:a_b"),
+            "--aov light:a_b: its layer has the name of that of light:a.b, light_a_b");
+}
+
 TEST(CommandText, StagesReadBackAsThemselves) {
   StageSet fewer = stagesUpTo(Stage::Gi);
   fewer.reset(size_t(Stage::Shadows)).reset(size_t(Stage::Sobol)).set(size_t(Stage::Schlick));

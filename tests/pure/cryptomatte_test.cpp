@@ -66,14 +66,17 @@ TEST(Cryptomatte, RanksByShare) {
 TEST(Cryptomatte, AttributesAreThoseOfTheSpecification) {
   Image image;
   EXPECT_FALSE(holdsMattes(image));
-  setManifest(image, "CryptoObject", std::array<std::string, 3>{"bunny", "a \"quoted\" name", "bunny"});
+  setManifest(
+      image, "CryptoObject",
+      std::array<std::string, 4>{"bunny", "a \"quoted\" name", "bunny", "flowerA.flowerA_petal1.:1065"});
   EXPECT_TRUE(holdsMattes(image));
   EXPECT_EQ(image.attributes.at("cryptomatte/3ae39a5/name"), "CryptoObject");
   EXPECT_EQ(image.attributes.at("cryptomatte/3ae39a5/hash"), "MurmurHash3_32");
   EXPECT_EQ(image.attributes.at("cryptomatte/3ae39a5/conversion"), "uint32_to_float32");
   const auto manifest = nlohmann::json::parse(image.attributes.at("cryptomatte/3ae39a5/manifest"));
-  EXPECT_EQ(manifest.size(), 2u);
+  EXPECT_EQ(manifest.size(), 3u);
   EXPECT_EQ(manifest.at("bunny"), "13851a76");
+  EXPECT_EQ(manifest.at("flowerA.flowerA_petal1.:1065"), "7f0e5296");  // the hash is no ordinary float
   EXPECT_TRUE(manifest.contains("a \"quoted\" name"));
   setManifest(image, "CryptoMaterial", {});
   EXPECT_EQ(image.attributes.at("cryptomatte/be359d6/manifest"), "{}");

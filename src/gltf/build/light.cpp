@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gltf/build/nodes.h"
 #include "gltf/build/placed.h"
 #include "gltf/read/value.h"
 
@@ -55,6 +56,7 @@ std::optional<Light> lightAt(Document& document, const PlacedNode& node, const L
     document.diagnostics.refuse(place + "/type", inQuotes(described.type) + " is not a kind of light");
   }
   light.source = uint32_t(index);
+  light.node = nameOrPlace(source.name, "nodes", node.index);
   light.intensity = intensityOf(sourceOf(described), space);
   for (int c = 0; c < 3; ++c) {
     if (!std::isfinite(light.intensity[c]) || light.intensity[c] < 0.0f) {

@@ -16,6 +16,7 @@
 #include "session/picture/checkpoints.h"
 #include "session/picture/denoising.h"
 #include "session/picture/draw_picture.h"
+#include "session/picture/layer_times.h"
 #include "session/picture/light_groups.h"
 #include "session/picture/mattes.h"
 #include "session/picture/picture_file.h"
@@ -58,49 +59,6 @@ std::vector<Share> sharesOf(std::span<const Region> parts, glm::ivec2 size) {
     done += own;
   }
   return shares;
-}
-
-/// The seconds that a sample of each layer takes in all pixels, measured in the middle of the first part.
-/// Compiles all layers. The film is empty afterwards.
-std::vector<double> measureAovs(const PictureJob& job, Film& film, const View& view, Statistics& stats) {
-  constexpr int kSide = 256;
-  Work work{{}, glm::min(film.size(), glm::ivec2(kSide)), 0, 1};
-  work.corner = (film.size() - work.size) / 2;
-  const double times = areaOf(job.loaded.region.size) / areaOf(work.size);
-  const auto secondsOf = [&](const ShaderVariant& variant) {
-    if (!job.tracer.renderer->knows(variant))
-      stats.compileMs += job.tracer.renderer->compile(variant, film, view);
-    if (!job.showsProgress) return 0.0;
-    job.tracer.renderer->use(variant);
-    RenderTimes measured;
-    job.tracer.renderer->addSamples(film, view, {&work, 1}, measured);
-    film.clear();
-    return 0.001 * measured.renderMs * times;
-  };
-  std::vector<double> seconds;
-  for (const ShaderVariant& variant : job.tracer.aovs) seconds.push_back(secondsOf(variant));
-  const size_t groups = job.options.output.lightGroups.size();
-  if (groups > 0) seconds.insert(seconds.end(), groups, secondsOf(job.tracer.variant));
-  return seconds;
-}
-
-/// The seconds that the layers from `first` on will take if the picture has so many samples.
-double secondsOfAovs(const PictureJob& job, const DrawingPlan& plan, size_t first, int samples) {
-  double seconds = 0.0;
-  const std::vector<ShaderVariant>& aovs = job.tracer.aovs;
-  for (size_t i = first; i < plan.layerSeconds.size(); ++i) {
-    const int own = i < aovs.size() ? samplesOfLayer(job.options, aovs[i].aov, samples) : samples;
-    seconds += plan.layerSeconds[i] * own;
-  }
-  return seconds;
-}
-
-/// The time that layers will take at least: those of an adaptive picture have the fewest samples of any
-/// pixel, a number that is not yet known.
-double secondsOfAovs(const PictureJob& job, const DrawingPlan& plan) {
-  constexpr int kLeastAdaptive = 64;
-  const int spp = job.options.sampling.spp;
-  return secondsOfAovs(job, plan, 0, isAdaptive(job.options) ? std::min(spp, kLeastAdaptive) : spp);
 }
 
 /// The worst of both parts, since a goal holds in each of them.
@@ -332,7 +290,8 @@ struct DrawnLayer {
 };
 
 /// Draws the layer. Throws RenderError.
-DrawnLayer drawnLayer(const LayerTask& task, const PictureJob& job, const DrawingPlan& plan, Statistics& stats) {
+DrawnLayer drawnLayer(const LayerTask& task, const PictureJob& job, const DrawingPlan& plan,
+                      Statistics& stats) {
   const std::vector<Share> shares = sharesOf(plan.parts, job.loaded.region.size);
   ProgressBar bar("layer " + task.name, hidesProgress(job), task.samples);
   DrawnLayer layer;
@@ -366,9 +325,10 @@ void addLightGroups(Image& picture, const PictureJob& job, const DrawingPlan& pl
     const double after = secondsOfAovs(job, plan, job.tracer.aovs.size() + i + 1, samples);
     const std::string name = "light:" + names[i];
     showLights(job.tracer, job.loaded.scene, groups, i);
-    const DrawnLayer layer = drawnLayer({name, samples, after, before, draw}, job, plan, stats);
+    DrawnLayer layer = drawnLayer({name, samples, after, before, draw}, job, plan, stats);
     showLights(job.tracer, job.loaded.scene, groups, std::nullopt);
     sayWhatWentWrong(job.options, layer.totals, name);
+    dropDimmed(layer.image, picture);
     const std::string inFile = lightLayer(names[i]);
     appendChannels(picture, layer.image, {inFile + ".R", inFile + ".G", inFile + ".B"});
   }
@@ -386,7 +346,8 @@ void addAovs(Image& picture, const PictureJob& job, const DrawingPlan& plan, Sta
     const auto draw = [&](const Region& part, const Renderer::Progress& progress) {
       const View view = viewOf(job.loaded, part);
       if (isMatte(variant.aov))
-        return drawMattes(part.size, *job.tracer.renderer, variant, view, samples, job.loaded.scene, progress);
+        return drawMattes(part.size, *job.tracer.renderer, variant, view, samples, job.loaded.scene,
+                          progress);
       return drawLayer(part.size, *job.tracer.renderer, variant, view, samples, progress);
     };
     const double after = secondsOfAovs(job, plan, i + 1, all);

@@ -40,8 +40,9 @@ class CheckpointKeeper;
 /// parts, which stay black. Throws InputError and UsageError for the checkpoint, RenderError.
 Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, CheckpointKeeper& keeper);
 
-/// Adds the layers of first hits, the parts of the light and the light groups, drawn with the picture's samples: for an adaptive picture those that all
-/// pixels have, for an interrupted one a few, since the user waits. Throws RenderError.
+/// Adds the layers of first hits, the parts of the light and the light groups, drawn with the picture's
+/// samples: for an adaptive picture those that all pixels have, for an interrupted one a few, since the user
+/// waits. Throws RenderError.
 void addAovs(Image& picture, const PictureJob& job, const DrawingPlan& plan, Statistics& stats);
 
 /// Says what is odd about the picture, or about that layer of it. Throws RenderError if the driver ended

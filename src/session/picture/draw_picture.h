@@ -53,8 +53,8 @@ struct LayerDraw {
   FilmTotals totals;
 };
 
-/// Draws a layer; an incomplete one if progress stopped it. That of a variant without an AOV is R, G and B. The
-/// renderer keeps that variant. Compiles the variant if it is new.
+/// Draws a layer; an incomplete one if progress stopped it. That of a variant without an AOV is R, G and B.
+/// The renderer keeps that variant. Compiles the variant if it is new.
 LayerDraw drawLayer(glm::ivec2 size, Renderer& renderer, const ShaderVariant& variant, const View& view,
                     int samples, const Renderer::Progress& progress = Renderer::toTheEnd);
 

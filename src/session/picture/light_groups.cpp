@@ -13,8 +13,8 @@ namespace fragtrace {
 
 namespace {
 
-/// Light that is dimmed so much vanishes in the rounding of any sum. It is not 0, since the shader leaves out the
-/// shadow rays of light samples that are 0, and with them random numbers.
+/// Light that is dimmed so much vanishes in the rounding of any sum. It is not 0, since the shader leaves out
+/// the shadow rays of light samples that are 0, and with them random numbers.
 constexpr float kDimmed = 0x1p-60f;
 
 constexpr const char* kSurroundings = "environment";
@@ -22,16 +22,12 @@ constexpr const char* kRest = "rest";
 
 bool isLit(const Material& material) { return material.emissive() || material.unlit; }
 
-std::string placeOfLight(uint32_t source) {
-  return "/extensions/KHR_lights_punctual/lights/" + std::to_string(source);
-}
-
 /// The names of all that can be a group.
 std::string namesIn(const Scene& scene) {
   std::set<std::string> names{kSurroundings, kRest};
-  for (size_t i = 0; i < scene.lightSources.size(); ++i) {
-    const std::string& name = scene.lightSources[i].name;
-    names.insert(name.empty() ? placeOfLight(uint32_t(i)) : name);
+  for (const Light& light : scene.lights) {
+    const std::string& name = scene.lightSources[light.source].name;
+    names.insert(name.empty() ? light.node : name);
   }
   for (const Material& material : scene.materials) {
     if (isLit(material)) names.insert(material.name.empty() ? material.place : material.name);
@@ -58,16 +54,19 @@ LightGroups lightGroupsOf(const RenderOptions& options, const Scene& scene) {
   };
   LightGroups groups;
   const std::optional<size_t> rest = indexOf(kRest);
-  const auto groupOf = [&](const std::string& name, const std::string& place) {
-    const bool reserved = name == kSurroundings || name == kRest;
-    const std::optional<size_t> named = reserved ? std::nullopt : indexOf(name);
-    const std::optional<size_t> placed = indexOf(place);
-    return named ? named : placed ? placed : rest;
+  // A light has two names. Both may be groups: then it belongs to the first.
+  const auto groupOf = [&](const std::string& first, const std::string& second) {
+    for (const std::string& name : {first, second}) {
+      const bool reserved = name == kSurroundings || name == kRest;
+      const std::optional<size_t> named = reserved ? std::nullopt : indexOf(name);
+      if (named) return named;
+    }
+    return rest;
   };
   for (const Material& material : scene.materials)
     groups.ofMaterials.push_back(isLit(material) ? groupOf(material.name, material.place) : std::nullopt);
   for (const Light& light : scene.lights)
-    groups.ofLights.push_back(groupOf(scene.lightSources[light.source].name, placeOfLight(light.source)));
+    groups.ofLights.push_back(groupOf(scene.lightSources[light.source].name, light.node));
   const std::optional<size_t> surroundings = indexOf(kSurroundings);
   groups.ofSurroundings = surroundings ? surroundings : rest;
   groups.ofVolume = rest;
@@ -106,6 +105,15 @@ View viewOfGroup(const View& view, const LightGroups& groups, size_t group) {
   if (groups.ofVolume != group)
     dimmed.volume.source.emission = dimmed.volume.source.emission.value_or(0.0) * kDimmed;
   return dimmed;
+}
+
+void dropDimmed(Image& layer, const Image& picture) {
+  constexpr float kNothing = 0x1p-50f;
+  const size_t colors = layer.channelCount();
+  for (size_t i = 0; i < layer.values.size(); ++i) {
+    const float all = picture.values[i / colors * picture.channelCount() + i % colors];
+    if (layer.values[i] < kNothing * all) layer.values[i] = 0.0f;
+  }
 }
 
 }  // namespace fragtrace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Layers of the light of some lamps alone (--aov light:NAME). The picture's own program draws them on the same
-// samples. All other lamps are dimmed so much that nothing is seen of them. They still take their light samples
-// and shadow rays, so the layers add up to the picture.
+// Layers of the light of some lamps alone (--aov light:NAME). The picture's own program draws them on the
+// same samples. All other lamps are dimmed so much that nothing is seen of them. They still take their light
+// samples and shadow rays, so the layers add up to the picture.
 #pragma once
 
 #include <optional>
@@ -30,5 +30,9 @@ void showLights(const Tracer& tracer, const Scene& scene, const LightGroups& gro
 
 /// The view with surroundings and volume dimmed in the same way.
 View viewOfGroup(const View& view, const LightGroups& groups, size_t group);
+
+/// Sets to 0 what dimmed lights leave in the colours of a group. `picture`: of the same size; its first
+/// channels are the colours with all light.
+void dropDimmed(Image& layer, const Image& picture);
 
 }  // namespace fragtrace

@@ -66,9 +66,8 @@ LayerDraw drawMattes(glm::ivec2 size, Renderer& renderer, const ShaderVariant& v
   std::vector<double> before(shares.size(), 0.0);
   FilmPixels pixels;
   for (int i = 0; i < samples && layer.complete; ++i) {
-    layer.complete = renderer.addSamples(film, view, i, i + 1, times, [&](double fraction) {
-      return progress((i + fraction) / samples);
-    });
+    layer.complete = renderer.addSamples(film, view, i, i + 1, times,
+                                         [&](double fraction) { return progress((i + fraction) / samples); });
     pixels = {};
     pixels = film.read();
     for (size_t p = 0; p < shares.size(); ++p) {
