@@ -12,7 +12,8 @@ std::vector<double> measureAovs(const PictureJob& job, Film& film, const View& v
   constexpr int kSide = 256;
   Work work{{}, glm::min(film.size(), glm::ivec2(kSide)), 0, 1};
   work.corner = (film.size() - work.size) / 2;
-  const double times = double(job.loaded.region.size.x) * job.loaded.region.size.y / (double(work.size.x) * work.size.y);
+  const double times =
+      double(job.loaded.region.size.x) * job.loaded.region.size.y / (double(work.size.x) * work.size.y);
   const auto secondsOf = [&](const ShaderVariant& variant) {
     if (!job.tracer.renderer->knows(variant))
       stats.compileMs += job.tracer.renderer->compile(variant, film, view);

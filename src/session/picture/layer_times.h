@@ -8,8 +8,8 @@
 
 namespace fragtrace {
 
-/// The seconds that a sample of each layer takes in all pixels, measured in the middle of the first part: of AOVs, then
-/// of light groups. Compiles all layers. The film is empty afterwards.
+/// The seconds that a sample of each layer takes in all pixels, measured in the middle of the first part: of
+/// AOVs, then of light groups. Compiles all layers. The film is empty afterwards.
 std::vector<double> measureAovs(const PictureJob& job, Film& film, const View& view, Statistics& stats);
 
 /// The seconds that the layers from `first` on will take if the picture has so many samples.
