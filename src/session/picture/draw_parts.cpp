@@ -127,10 +127,7 @@ DrawingPlan planDrawing(const PictureJob& job, Statistics& stats) {
   const View view = viewOf(job.loaded, parts.front());
   std::vector<double> layerSeconds = measureAovs(job, film, view, stats);
   stats.parts = int(parts.size());
-  if (job.tracer.renderer->knows(job.tracer.variant))
-    job.tracer.renderer->use(job.tracer.variant);
-  else
-    stats.compileMs += job.tracer.renderer->compile(job.tracer.variant, film, view);
+  stats.compileMs += useOrCompile(*job.tracer.renderer, job.tracer.variant, film, view);
   return {std::move(parts), std::move(film), std::move(layerSeconds)};
 }
 

@@ -60,15 +60,18 @@ int samplesOfLayer(const RenderOptions& options, Aov aov, int ofPicture) {
   return asked ? ofPicture : std::min(ofPicture, kFewLayerSamples);
 }
 
+double useOrCompile(Renderer& renderer, const ShaderVariant& variant, Film& film, const View& view) {
+  if (!renderer.knows(variant)) return renderer.compile(variant, film, view);
+  renderer.use(variant);
+  return 0.0;
+}
+
 LayerDraw drawLayer(glm::ivec2 size, Renderer& renderer, const ShaderVariant& variant, const View& view,
                     int samples, const Renderer::Progress& progress) {
   LayerDraw layer;
   RenderTimes times;
   Film film(size);
-  if (renderer.knows(variant))
-    renderer.use(variant);
-  else
-    layer.compileMs = renderer.compile(variant, film, view);
+  layer.compileMs = useOrCompile(renderer, variant, film, view);
   layer.complete = renderer.addSamples(film, view, 0, samples, times, progress);
   layer.drawMs = times.renderMs;
   if (variant.aov == Aov::Guides) {

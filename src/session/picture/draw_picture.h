@@ -53,6 +53,9 @@ struct LayerDraw {
   FilmTotals totals;
 };
 
+/// Has the renderer draw this variant, and compiles it if it is new. Returns the milliseconds that this took.
+double useOrCompile(Renderer& renderer, const ShaderVariant& variant, Film& film, const View& view);
+
 /// Draws a layer; an incomplete one if progress stopped it. That of a variant without an AOV is R, G and B.
 /// The renderer keeps that variant. Compiles the variant if it is new.
 LayerDraw drawLayer(glm::ivec2 size, Renderer& renderer, const ShaderVariant& variant, const View& view,

@@ -15,10 +15,8 @@ std::vector<double> measureAovs(const PictureJob& job, Film& film, const View& v
   const double times =
       double(job.loaded.region.size.x) * job.loaded.region.size.y / (double(work.size.x) * work.size.y);
   const auto secondsOf = [&](const ShaderVariant& variant) {
-    if (!job.tracer.renderer->knows(variant))
-      stats.compileMs += job.tracer.renderer->compile(variant, film, view);
+    stats.compileMs += useOrCompile(*job.tracer.renderer, variant, film, view);
     if (!job.showsProgress) return 0.0;
-    job.tracer.renderer->use(variant);
     RenderTimes measured;
     job.tracer.renderer->addSamples(film, view, {&work, 1}, measured);
     film.clear();

@@ -58,10 +58,7 @@ LayerDraw drawMattes(glm::ivec2 size, Renderer& renderer, const ShaderVariant& v
   LayerDraw layer;
   RenderTimes times;
   Film film(size);
-  if (renderer.knows(variant))
-    renderer.use(variant);
-  else
-    layer.compileMs = renderer.compile(variant, film, view);
+  layer.compileMs = useOrCompile(renderer, variant, film, view);
   std::vector<std::vector<MatteShare>> shares(size_t(size.x) * size_t(size.y));
   std::vector<double> before(shares.size(), 0.0);
   FilmPixels pixels;
