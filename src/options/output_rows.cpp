@@ -30,9 +30,10 @@ void chooseLightGroup(const std::string& name, OutputOptions& o) {
   if (name.empty()) throw UsageError("--aov light: the name of a light follows, such as light:environment");
   for (const std::string& other : o.lightGroups) {
     if (other == name) return;
-    if (lightLayer(other) == lightLayer(name))
-      throw UsageError("--aov light:" + name + ": its layer has the name of that of light:" + other + ", " +
-                       lightLayer(name));
+    if (lightLayer(other) != lightLayer(name)) continue;
+    std::string text = "--aov light:" + name;
+    text.append(": its layer has the name of that of light:").append(other).append(", ").append(lightLayer(name));
+    throw UsageError(text);
   }
   o.lightGroups.push_back(name);
 }
