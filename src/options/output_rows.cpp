@@ -32,7 +32,10 @@ void chooseLightGroup(const std::string& name, OutputOptions& o) {
     if (other == name) return;
     if (lightLayer(other) != lightLayer(name)) continue;
     std::string text = "--aov light:" + name;
-    text.append(": its layer has the name of that of light:").append(other).append(", ").append(lightLayer(name));
+    text.append(": its layer has the name of that of light:")
+        .append(other)
+        .append(", ")
+        .append(lightLayer(name));
     throw UsageError(text);
   }
   o.lightGroups.push_back(name);
