@@ -79,6 +79,14 @@ int runProgram(const MainFunction& run, int argc, char** argv) {
   const int status = statusOf(run, argc, argv);
   reportEnd(status);
   endAsMeant();
+#ifndef __SANITIZE_ADDRESS__
+  // After an error the driver's end may wait for ever (~EglContext).
+  if (status != 0) {
+    std::cout.flush();
+    std::fflush(nullptr);
+    std::_Exit(status);
+  }
+#endif
   return status;
 }
 

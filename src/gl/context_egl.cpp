@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <vector>
 
 #include "base/text.h"
@@ -58,7 +59,9 @@ class EglContext : public Context {
   ~EglContext() override {
     egl_.makeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     egl_.destroyContext(display_, context_);
-    egl_.terminate(display_);
+    // Without its last display the driver is unloaded. After an error its end may wait for ever for a lock: Mesa
+    // keeps one where it could not start a thread.
+    if (std::uncaught_exceptions() == 0) egl_.terminate(display_);
   }
 
  private:

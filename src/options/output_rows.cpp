@@ -64,8 +64,8 @@ void chooseLayers(const std::vector<std::string>& names, OutputOptions& o) {
 OptionRow layersRow() {
   OptionRow row{.name = "--aov",
                 .help = "extra layers to write into an .exr, separated by commas: " + joined(layerNames()) +
-                        ", light:NAME (the light of the lights and emissive materials of that name, of the "
-                        "environment, or of the rest)",
+                        "; light:NAME is the light of the lights and emissive materials of that name, of the "
+                        "environment, or of the rest",
                 .traits = {.effect = Effect::Layers, .renewal = Renewal::Program},
                 .examples = layerNames()};
   row.examples.insert(row.examples.begin(), "light:rest");
