@@ -59,8 +59,8 @@ class EglContext : public Context {
   ~EglContext() override {
     egl_.makeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     egl_.destroyContext(display_, context_);
-    // Without its last display the driver is unloaded. After an error its end may wait for ever for a lock: Mesa
-    // keeps one where it could not start a thread.
+    // Without its last display the driver is unloaded. After an error its end may wait for ever for a lock:
+    // Mesa keeps one where it could not start a thread.
     if (std::uncaught_exceptions() == 0) egl_.terminate(display_);
   }
 
