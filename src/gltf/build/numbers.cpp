@@ -79,8 +79,8 @@ std::vector<std::string> namesIn(const json& array) {
   return names;
 }
 
-/// Brings a pointer to no number one step nearer to one that may be meant: to a member that is spelled much the
-/// same, to one that stands deeper, or to an element by its name. Returns nothing where none is near.
+/// Brings a pointer to no number one step nearer to one that may be meant: to a member that is spelled much
+/// the same, to one that stands deeper, or to an element by its name. Returns nothing where none is near.
 std::string nearerPlace(const json& root, const std::string& pointer) {
   const Missing at = firstMissing(root, pointer);
   const CutPointer cut = cutAt(at, pointer);
