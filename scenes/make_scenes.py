@@ -16,6 +16,7 @@ import feature_scene  # noqa: F401, registers its scene
 from gi_scenes import sky_radiance
 import lamp_scenes  # noqa: F401, registers its scenes
 import media_scenes  # noqa: F401, registers its scenes
+import motion_scenes  # noqa: F401, registers its scene
 
 # Closed forms
 

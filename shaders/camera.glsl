@@ -40,6 +40,50 @@ CameraRay throughLens(CameraRay ray, vec3 right, vec3 up, vec3 forward, vec2 len
   return r;
 }
 
+const uint kTimeDimension = 3u;
+
+/// The time of a path, 0..1 while the shutter is open. Each path has one, so a pixel sees the mean over them (Cook,
+/// Porter and Carpenter, Distributed Ray Tracing, 1984).
+float timeOf(Sampler s) { return drawFloat(s, kTimeDimension); }
+
+/// A rigid motion: a turn about a unit axis, then a shift.
+struct RigidMotion {
+  vec3 axis;
+  vec2 circle;  // cosine and sine of the angle
+  vec3 shift;
+};
+
+vec3 turnedBy(RigidMotion m, vec3 v) {
+  return m.circle.x * v + m.circle.y * cross(m.axis, v) + (1.0f - m.circle.x) * dot(m.axis, v) * m.axis;
+}
+
+/// The motion of a camera over a part of the time that the shutter is open, which may be negative. turn: axis and
+/// angle over all of it. slide: the motion of its position, along the axis and, at the start, along the arc. The
+/// position runs along a helix, and so along a circle or a straight line, too (Chasles' theorem).
+RigidMotion motionOver(vec4 turn, vec3 slide, float part) {
+  RigidMotion m;
+  m.axis = vec3(turn);
+  float angle = part * turn.w;
+  float turns = angle * (0.5f * kInversePi);
+  m.circle = unitCircle(turns - floor(turns));
+  float squared = angle * angle;
+  // sin(a) / a and (1 - cos(a)) / a; of small angles by their series.
+  bool small = abs(angle) < 0.1f;
+  float sine = small ? 1.0f - squared * (1.0f - 0.05f * squared) / 6.0f : m.circle.y / angle;
+  float versine = small ? angle * (0.5f - squared * (1.0f - squared / 30.0f) / 24.0f) : (1.0f - m.circle.x) / angle;
+  vec3 along = dot(slide, m.axis) * m.axis;
+  m.shift = part * (along + sine * (slide - along) + versine * cross(m.axis, slide));
+  return m;
+}
+
+/// A ray of a camera at `position` that has moved since.
+CameraRay carried(RigidMotion m, vec3 position, CameraRay ray) {
+  CameraRay r;
+  r.origin = position + turnedBy(m, ray.origin - position) + m.shift;
+  r.direction = normalize(turnedBy(m, ray.direction));
+  return r;
+}
+
 // An equirectangular panorama and an equidistant fisheye. Directions are in the camera's own axes: x to the right, y
 // up, z forward. Those that are returned are unit vectors; others have any length.
 

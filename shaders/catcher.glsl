@@ -87,7 +87,7 @@ Path endShadow(Path p) {
   if (p.hitSlot < 0) return p;
   bool passes = false;
   if (kAlpha) {
-    Surface s = surfaceAt(p.hitSlot, p.hitInstance, p.origin, p.direction, p.hitT, p.hitWeights);
+    Surface s = surfaceAt(p.hitSlot, p.hitInstance, p.origin, p.direction, p.hitT, p.hitWeights, p.time);
     uint flags = materialFlags(s.material);
     float alpha = alphaAt(s.material, flags, baseColorAt(s.material, s.texcoords, s.color).a);
     passes = passesThrough(flags, alpha, p.sampler, nextCrossing(p));
@@ -107,7 +107,7 @@ Path endShadow(Path p) {
 /// The guides of the catcher are white and level, so that a filter does not take it for empty surroundings.
 Path guideAtCatcher(Path p) {
   float t = catcherDistance(p.origin, p.direction);
-  p = takeGuide(p, depthAlong(p.direction, t), vec3(0.0, 1.0, 0.0));
+  p = takeGuide(p, depthAlong(p.direction, t, p.time), vec3(0.0, 1.0, 0.0));
   return guideStop(p, vec3(1.0));
 }
 

@@ -64,7 +64,7 @@ Path guideAt(Path p, Surface s, uint flags, vec4 base) {
 
 /// A medium before all surfaces is a white surface at a distance, since its light is noisy, too.
 Path guideInMedium(Path p, float t) {
-  p = takeGuide(p, depthAlong(p.direction, t), -p.direction);
+  p = takeGuide(p, depthAlong(p.direction, t, p.time), -p.direction);
   return guideStop(p, vec3(1.0));
 }
 

@@ -73,6 +73,17 @@ TriangleHit intersectTriangle(vec3 origin, RayShear s, vec3 v0, vec3 v1, vec3 v2
   return h;
 }
 
+/// The plane of a triangle: its unit normal, and its distance from the origin along that.
+vec4 planeThrough(vec3 v0, vec3 v1, vec3 v2) {
+  vec3 e1 = v1 - v0;
+  vec3 e2 = v2 - v0;
+  // Scaled, so that no product underflows.
+  vec3 largest = max(abs(e1), abs(e2));
+  float scale = max(max(largest.x, largest.y), max(largest.z, float(1e-30)));
+  vec3 normal = normalize(cross(e1 / scale, e2 / scale));
+  return vec4(normal, dot(normal, (v0 + v1 + v2) * float(1.0 / 3.0)));
+}
+
 /// The distance along the ray to the plane dot(normal, x) = distance of a triangle, within the depths of its vertices.
 /// The weighted depths of a sliver have an error of rounding times its aspect ratio, so a ray that starts beside it
 /// could find it behind itself (docs/design/numerics.md, "Distance along the ray"). Farther away than a 64th of those

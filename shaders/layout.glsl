@@ -80,6 +80,7 @@ const uint kPixelTargetShift = 3u;  // above: the most samples this pixel is to 
 const int kTraversalDone = -2147483647 - 1;
 const uint kNodeRows = 2u;
 const uint kLeafRows = 5u;
+// Where surfaces move (kMoving), a leaf has these rows twice: when its segment begins and when it ends.
 const uint kLeafBlock = 4u;  // the iterative traversal tests this many leaves in one loop iteration
 
 // An instance is a leaf of the upper tree whose index is from here on: kInstanceLeaf + its number, which is that of its
@@ -271,6 +272,11 @@ struct Frame {
   float environmentScale;   // factor of the environment's radiance
   vec4 lens;                // of the camera, local space: radius, distance in focus along the view; blades
   vec4 lensShift;           // x, y: the middle of the picture, in halves of its width and height
+  // While the shutter is open (camera.glsl): the camera turns about an axis by radians, and moves.
+  vec4 cameraTurn;
+  vec4 cameraSlide;         // local space
+  // Surfaces move in straight pieces: their number, and nodes and leaves of each; vertices of one pose.
+  ivec4 segments;
 };
 
 // Fog in a ball round the scene (media/fog.glsl); std140.

@@ -79,16 +79,25 @@ vec3 emittedFrom(uint material, int slot, vec2 weights, float cosine) {
   return radiance;
 }
 
-/// A point on the triangle of an emitter, chosen with `chance`.
-LightSample triangleLight(int emitter, float chance, vec3 point, float u, float v) {
+/// A point on the triangle of an emitter, chosen with `chance`, at a time of the path.
+LightSample triangleLight(int emitter, float chance, vec3 point, float u, float v, float time) {
   uvec4 corner = emitterRow(emitter, 1);
   uvec4 edge1 = emitterRow(emitter, 2);
   uvec4 edge2 = emitterRow(emitter, 3);
+  vec3 origin = uintBitsToFloat(uvec3(corner));
   vec3 e1 = uintBitsToFloat(uvec3(edge1));
   vec3 e2 = uintBitsToFloat(uvec3(edge2));
   float inverseArea = uintBitsToFloat(edge1.w);
+  float standing = inverseArea;
+  if (kMoving) {
+    Corners at = movingTriangle(slotInSegment(int(edge2.w), time), time).at;
+    origin = at.v0;
+    e1 = at.v1 - at.v0;
+    e2 = at.v2 - at.v0;
+    inverseArea = 2.0f / max(length(cross(e1, e2)), float(1e-30));
+  }
   vec2 w = sampleTriangle(u, v);
-  vec3 towards = uintBitsToFloat(uvec3(corner)) + w.x * e1 + w.y * e2 - point;
+  vec3 towards = origin + w.x * e1 + w.y * e2 - point;
   float squared = dot(towards, towards);
   if (squared <= 0.0f) return noLight();
   float distance = sqrt(squared);
@@ -98,7 +107,8 @@ LightSample triangleLight(int emitter, float chance, vec3 point, float u, float 
   if (cosine <= 0.0f) return noLight();
   float pdf = chance * inverseArea * squared / cosine;
   vec3 radiance = emittedFrom(corner.w & kFaceMaterialMask, int(edge2.w), w, cosine);
-  return makeLight(direction, distance, radiance / pdf, pdf);
+  // For MIS a moving one counts as large as it is at first, as emitterPdf() has it: any weights do that add up to 1.
+  return makeLight(direction, distance, radiance / pdf, kMoving ? pdf * standing / inverseArea : pdf);
 }
 
 LightSample environmentLight(float chance, uvec2 bits) {
@@ -134,7 +144,7 @@ int emitterAt(uint bits) {
 }
 
 /// A light sample of an emitter that was chosen with `chance`; u and v choose the point on an emissive triangle.
-LightSample lightOfEmitter(int emitter, float chance, vec3 point, float u, float v, bool onlyTriangles) {
+LightSample lightOfEmitter(int emitter, float chance, vec3 point, float u, float v, bool onlyTriangles, float time) {
   uint kind = emitterRow(emitter, 3).w;
   bool punctual = kPunctualLights && (kind & kEmitterPunctual) != 0u;
   LightSample s = noLight();
@@ -143,7 +153,7 @@ LightSample lightOfEmitter(int emitter, float chance, vec3 point, float u, float
     s = punctualLight(int(kind & ~kEmitterPunctual), point);
     s.irradiance /= chance;
   }
-  if (kEmissiveTriangles && !punctual) s = triangleLight(emitter, chance, point, u, v);
+  if (kEmissiveTriangles && !punctual) s = triangleLight(emitter, chance, point, u, v, time);
   return s;
 }
 
@@ -154,6 +164,7 @@ struct LightChoice {
   uvec2 bits;    // a direction of the environment
   float u;       // a point on an emissive triangle
   float v;
+  float time;    // of the path (kMoving)
 };
 
 const int kFromEnvironment = -1;
@@ -165,6 +176,7 @@ LightChoice makeChoice(int emitter, float chance, uvec2 bits, float u, float v) 
   c.bits = bits;
   c.u = u;
   c.v = v;
+  c.time = 0.0f;
   return c;
 }
 
@@ -179,9 +191,9 @@ LightChoice emitterByPower(float chance, uvec2 bits) {
 }
 
 /// A light sample by power; onlyTriangles drops punctual lights, which the caller visits one by one.
-LightSample emitterLight(float chance, vec3 point, uvec2 bits, bool onlyTriangles) {
+LightSample emitterLight(float chance, vec3 point, uvec2 bits, bool onlyTriangles, float time) {
   LightChoice c = emitterByPower(chance, bits);
-  return lightOfEmitter(c.emitter, c.chance, point, c.u, c.v, onlyTriangles);
+  return lightOfEmitter(c.emitter, c.chance, point, c.u, c.v, onlyTriangles, time);
 }
 
 /// Bits of the part of all numbers that begins at `first` and is 1 / `stretch` of them, as bits of their own.
@@ -192,134 +204,7 @@ uint stretchBits(uint bits, uint first, float stretch) {
   return (bits - first) * uint(stretch) + high;
 }
 
-/// A unit vector as three numbers of 8 bits each; of those, kNoNormal is none.
-uint packNormal(vec3 n) {
-  uint x = uint(n.x * 127.0f + 127.5f);
-  uint y = uint(n.y * 127.0f + 127.5f);
-  uint z = uint(n.z * 127.0f + 127.5f);
-  return x | y << 8 | z << 16;
-}
-
-vec3 unpackNormal(uint bits) {
-  return vec3(float(bits & 0xffu), float(bits >> 8 & 0xffu), float(bits >> 16)) / float(127.0) - float(1.0);
-}
-
-/// Who is lit: a point, and the normal of its surface as packNormal has it, or kNoNormal where light comes from all
-/// around.
-struct Receiver {
-  vec3 point;
-  vec3 normal;
-  bool facing;
-};
-
-Receiver receiverOf(vec3 point, uint normal) {
-  Receiver r;
-  r.point = point;
-  r.facing = normal != kNoNormal;
-  r.normal = r.facing ? unpackNormal(normal) : vec3(0.0f);
-  return r;
-}
-
-/// The row behind the emitters.
-int lightNodes() { return int(frame.emitterCount) * int(kEmitterRows); }
-
-/// One word of four a row.
-uint lightWord(int firstRow, int index) {
-  uvec4 four = readEmitters(firstRow + index / 4);
-  int which = index % 4;
-  return which == 0 ? four.x : which == 1 ? four.y : which == 2 ? four.z : four.w;
-}
-
-/// A node of the light tree: what the lights below it may send to a receiver, and the first child, or kLightLeaf and
-/// the emitter, with flags.
-struct LightNode {
-  float importance;
-  uint child;
-};
-
-/// The importance is as far as a node's bounds tell: as those of Conty Estevez and Kulla (2018), but that the cosine at
-/// the lights is bounded by how far they reach along their axis. Of lights in one plane, as windows are, it tells
-/// whether the point is in front. 0 where none of them reaches the receiver.
-LightNode lightNodeFrom(int index, Receiver to) {
-  int row = lightNodes() + index * int(kLightNodeRows);
-  vec4 place = uintBitsToFloat(readEmitters(row));
-  uvec4 shape = readEmitters(row + 1);
-  LightNode node;
-  node.child = shape.w;
-  node.importance = place.w;
-  float radius = uintBitsToFloat(shape.z);
-  if (radius < 0.0f) return node;
-  vec3 away = to.point - vec3(place);
-  vec3 axis = vec3(float(shape.x & 0x3ffu), float(shape.x >> 10 & 0x3ffu), float(shape.x >> 20));
-  axis = axis / float(511.0) - float(1.0);
-  float spread = float(shape.y & 0xffffu) / 32767.0f - 1.0f;
-  float squared = dot(away, away);
-  float inverse = 1.0f / sqrt(max(max(squared, radius * radius), float(1e-30)));
-  float along = dot(axis, away);
-  if ((shape.w & kLightBothSides) != 0u) along = abs(along);
-  float cosine = 1.0f;
-  if ((shape.w & kLightSharp) == 0u) {
-    float front = min((along + float(shape.y >> 16) / 65535.0f * radius) * inverse, 1.0f);
-    // From behind, the lights may be twice as far away as the middle of their box, or its radius.
-    front *= front < 0.0f ? float(0.5) : 1.0f;
-    // cos(a - b) of the angles from the axis and of the spread.
-    float within = front * spread + sqrt(max(0.0f, (1.0f - front * front) * (1.0f - spread * spread)));
-    cosine = front >= spread ? 1.0f : max(within, 0.0f);
-  } else if (kPunctualLights && squared > radius * radius) {
-    // A cone as wide as the spread and as what the node is seen under.
-    float sineSeen = radius * inverse;
-    float cosineSeen = sqrt(max(0.0f, 1.0f - sineSeen * sineSeen));
-    float sineSpread = sqrt(max(0.0f, 1.0f - spread * spread));
-    bool all = sineSpread * cosineSeen + spread * sineSeen < 0.0f;
-    cosine = all || along * inverse >= spread * cosineSeen - sineSpread * sineSeen ? 1.0f : 0.0f;
-  }
-  // The normal is not exact.
-  if (to.facing) cosine *= clamp((radius - dot(to.normal, away)) * inverse + float(0.01), 0.0f, 1.0f);
-  node.importance = min(cosine * place.w * inverse * inverse, float(1e30));
-  return node;
-}
-
-/// The chance that a point's light sample goes below a node rather than below its sibling.
-float shareOf(LightNode node, LightNode sibling) {
-  return node.importance > 0.0f ? node.importance / (node.importance + sibling.importance) : 0.0f;
-}
-
-/// The emitter that `choice` draws by the tree, with `chance` that any is.
-LightChoice emitterByTree(float chance, Receiver to, uint choice, uvec2 bits) {
-  uint child = readEmitters(lightNodes() + 1).w;
-  float own = 1.0f;
-  while ((child & kLightLeaf) == 0u && own > 0.0f) {
-    int index = int(child & kLightIndex);
-    LightNode first = lightNodeFrom(index, to);
-    LightNode second = lightNodeFrom(index + 1, to);
-    float share = shareOf(first, second);
-    uint border = uint(share * 4294967040.0f);
-    bool taken = choice < border || second.importance <= 0.0f;
-    choice = taken ? stretchBits(choice, 0u, 1.0f / share) : stretchBits(choice, border, 1.0f / (1.0f - share));
-    own *= taken ? share : shareOf(second, first);
-    child = taken ? first.child : second.child;
-  }
-  return makeChoice(int(child & kLightIndex), chance * own, bits, unitFloat(bits.x), unitFloat(bits.y));
-}
-
-/// The pdf over solid angle with which the tree chooses, from a point, the place that its ray hit on an emissive
-/// triangle: a leaf knows its way to the root.
-float treePdf(int slot, vec3 point, uint normal, float distance, float cosine) {
-  int count = 2 * int(frame.emitterCount) - 1;
-  int parents = lightNodes() + count * int(kLightNodeRows);
-  uint leaf = lightWord(parents + (count + 3) / 4, slot);
-  if (leaf == kNoLightNode) return 0.0f;
-  Receiver to = receiverOf(point, normal);
-  int node = int(leaf);
-  LightNode own = lightNodeFrom(node, to);
-  float pdf = uintBitsToFloat(emitterRow(int(own.child & kLightIndex), 2).w) * (1.0f - frame.environmentChance);
-  while (node > 0 && pdf > 0.0f) {
-    pdf *= shareOf(own, lightNodeFrom(node % 2 == 1 ? node + 1 : node - 1, to));
-    node = int(lightWord(parents, node));
-    if (node > 0) own = lightNodeFrom(node, to);
-  }
-  return pdf * distance * distance / max(cosine, float(1e-7));
-}
+#include "lights/light_tree.glsl"
 
 /// The chance that a point's light sample is one of an emitter or, kFromEnvironment, of the environment; 1 for what no
 /// ray can find.
@@ -343,12 +228,14 @@ int lightSampleCount() {
 struct LightNumbers {
   uint choice;
   uvec2 bits;
+  float time;  // of the path (kMoving)
 };
 
 LightNumbers lightNumbers(Sampler sampler, uint dimension) {
   LightNumbers n;
   n.choice = kLightTree ? drawBits(sampler, dimension) : 0u;
   n.bits = drawPairBits(sampler, dimension + 1u);
+  n.time = kMoving ? timeOf(sampler) : 0.0f;
   return n;
 }
 
@@ -368,6 +255,7 @@ LightChoice chooseLight(LightNumbers n, vec3 point, uint normal) {
   if (emitters && !environment && kLightTree)
     c = emitterByTree(1.0f - chance, receiverOf(point, normal), n.choice, c.bits);
   if (emitters && !environment && !kLightTree) c = emitterByPower(1.0f - chance, c.bits);
+  if (kMoving) c.time = n.time;
   return c;
 }
 
@@ -377,7 +265,8 @@ LightSample lightOfChoice(LightChoice c, vec3 point) {
   LightSample s = noLight();
   if (kSun && c.emitter == kFromEnvironment) return skyLight(c.chance, c.bits);
   if (kEnvironmentSampling && c.emitter == kFromEnvironment) s = environmentLight(c.chance, c.bits);
-  if (emitters && c.emitter != kFromEnvironment) s = lightOfEmitter(c.emitter, c.chance, point, c.u, c.v, false);
+  if (emitters && c.emitter != kFromEnvironment)
+    s = lightOfEmitter(c.emitter, c.chance, point, c.u, c.v, false, c.time);
   return s;
 }
 
@@ -393,6 +282,8 @@ LightSample sampleLight(int index, vec3 point, uint normal, Sampler sampler, uin
   int punctual = kPunctualLights ? int(frame.punctualCount) : 0;
   LightSample s = noLight();
   if (kPunctualLights && index < punctual) s = punctualLight(index, point);
-  if (kEmissiveTriangles && index == punctual) s = emitterLight(1.0f, point, drawPairBits(sampler, dimension), true);
+  float time = kMoving ? timeOf(sampler) : 0.0f;
+  if (kEmissiveTriangles && index == punctual)
+    s = emitterLight(1.0f, point, drawPairBits(sampler, dimension), true, time);
   return s;
 }

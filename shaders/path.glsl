@@ -4,6 +4,9 @@
 /// Paths scatter, so that --bounces can end them.
 const bool kScatters = kGi || kReflections || kRefraction;
 
+/// Paths have a time: the camera or surfaces move while the shutter is open.
+const bool kTimed = kMovingCamera || kMoving;
+
 /// The AOV is a number of a part of the scene. Such numbers have no mean: they are those of the pixel's middle.
 const bool kIdAov = kAov == kAovObject || kAov == kAovMaterial;
 
@@ -62,6 +65,7 @@ float dispersedIor(Path p, uint material) {
 Path traceAnew(Path p, float limit) {
   int steps = p.traversal.steps;
   p.traversal = startTraversal(limit, frame.leafCount);
+  if (kMoving) p.traversal = beginAt(p.traversal, momentAt(p.time, frame.segments.x), frame.segments.y);
   p.traversal.steps = steps;
   return p;
 }
@@ -109,9 +113,13 @@ Path pathAlong(vec3 origin, vec3 direction, Sampler sampler, int steps) {
   p.origin = origin;
   p.direction = direction;
   p.traversal.steps = steps;
+  if (kTimed) p.time = kIdAov ? 0.5 : timeOf(sampler);
   if (kScattering && kMedia && frame.cameraMedium > 0.0) p = standInside(p, uint(frame.cameraMedium) - 1u);
   return extend(p);
 }
+
+/// How far the camera has moved from the middle of the shutter's time (kMovingCamera).
+RigidMotion cameraMotionAt(float time) { return motionOver(frame.cameraTurn, frame.cameraSlide.xyz, time - 0.5); }
 
 /// The ray of a panorama or a fisheye.
 CameraRay roundCameraRay(vec2 point) {
@@ -153,6 +161,7 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
     vec2 lens = frame.lens.x * sampleAperture(uv.x, uv.y, int(frame.lens.z));
     ray = throughLens(ray, frame.cameraRight, frame.cameraUp, frame.cameraForward, lens, frame.lens.y);
   }
+  if (kMovingCamera && !kIdAov) ray = carried(cameraMotionAt(timeOf(sampler)), frame.cameraPosition, ray);
   // Outside of the fisheye's circle the ray goes up from above all, and meetSurroundings() gives it no light.
   if (kFisheye && !withinFisheye(point)) ray = CameraRay(vec3(0.0, kAboveAll, 0.0), vec3(0.0, 1.0, 0.0));
   Path p = pathAlong(ray.origin, ray.direction, sampler, steps);
@@ -160,8 +169,10 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   return p;
 }
 
-/// The depth of a point at a distance along the camera's ray, in metres.
-float depthAlong(vec3 direction, float t) {
+/// The depth of a point at a distance along the camera's ray of a path with this time, in metres.
+float depthAlong(vec3 direction, float t, float time) {
+  if (kMovingCamera && !kPanorama && !kFisheye)
+    return t * dot(direction, turnedBy(cameraMotionAt(time), frame.cameraForward)) * frame.metresPerUnit;
   return (kPanorama || kFisheye ? t : t * dot(direction, frame.cameraForward)) * frame.metresPerUnit;
 }
 
@@ -342,7 +353,8 @@ vec3 emittedAt(Path p, Surface s, uint flags) {
   vec3 radiance = emissionAt(s.material, s.texcoords);
   if (kClearcoat) radiance *= emissionUnderCoat(s.material, s.texcoords, cosine);
   if (!kGi || !kEmissiveTriangles || !s.emitter || p.pdf <= 0.0) return radiance;
-  float pdf = kLightTree ? treePdf(p.hitSlot, p.origin, p.normal, p.hitT, cosine)
+  int slot = kMoving ? slotInFirst(p.hitSlot, p.time) : p.hitSlot;
+  float pdf = kLightTree ? treePdf(slot, p.origin, p.normal, p.hitT, cosine)
                              : emitterPdf(s.material, p.hitT, cosine);
   return radiance * misWeight(p.pdf, pdf);
 }

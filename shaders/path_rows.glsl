@@ -98,6 +98,7 @@ Path loadPath(int row, uint key) {
   p.pdf = begins ? 0.0 : f.w;
   a = readPathStates(row + kRowCounts);
   p.sampler = makeSampler(key, a.x);
+  if (kMovingCamera || kMoving) p.time = timeOf(p.sampler);
   p.rays = int(a.y);
   p = withCounts(p, a.z, a.w);
   if (kShadowRows) {
@@ -180,6 +181,7 @@ Path resumePath(int row, uint key) {
   if (kLightPaths) p.fromLight.glassFirst = (a.z & 32u) != 0u;
   if (kLightPaths) p.fromLight.splatPixel = uintBitsToFloat(readPathStates(row + kRowAov).xy);
   if (kPathAov) p.aovWeight = uintBitsToFloat(readPathStates(row + kRowAov).xyz);
+  if (kMoving) p.traversal.part = momentAt(p.time, frame.segments.x).part;
   p.traversal.node = int(a.x);
   p.traversal.visits = int(a.w);
   a = readPathStates(row + kRowTMin);

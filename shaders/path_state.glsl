@@ -56,6 +56,7 @@ struct Path {
   int rays;        // traced so far
   ivec2 pixel;     // of the film (kLightRecords, kNeighbours)
   Sampler sampler;
+  float time;      // 0..1 while the shutter is open (kTimed)
   bool oneChannel; // dispersion has left one of red, green and blue (kDispersion)
   bool cameraRay;  // nothing but alpha has touched the path yet
   bool caught;     // it has met the shadow catcher (kShadowCatcher)
@@ -98,6 +99,7 @@ Path newPath() {
   p.crossings = 0;
   p.rays = 0;
   p.pixel = ivec2(0);
+  p.time = 0.0;
   p.oneChannel = false;
   p.cameraRay = true;
   p.caught = false;

@@ -183,9 +183,14 @@ vec3 lightThrough(Surface s, vec3 baseColor, vec3 direction) {
   return straightThrough(b, toFrame(around, -direction));
 }
 
-/// Metres along the view axis, or from a panorama or a fisheye.
-float depthOf(Surface s) {
+/// Metres along the view axis, or from a panorama or a fisheye; of a path with this time.
+float depthOf(Surface s, float time) {
   vec3 way = s.position - frame.cameraPosition;
+  if (kMovingCamera) {
+    RigidMotion m = cameraMotionAt(time);
+    way = s.position - (frame.cameraPosition + m.shift);
+    if (!kPanorama && !kFisheye) return dot(way, turnedBy(m, frame.cameraForward)) * frame.metresPerUnit;
+  }
   return (kPanorama || kFisheye ? length(way) : dot(way, frame.cameraForward)) * frame.metresPerUnit;
 }
 
@@ -200,7 +205,7 @@ float objectNumber(int slot, int instance) {
 }
 
 /// Returns the AOV of the point that a camera ray hits.
-vec3 aovAt(Surface s, int slot, int instance, vec3 baseColor, vec3 wo) {
+vec3 aovAt(Surface s, int slot, int instance, vec3 baseColor, vec3 wo, float time) {
   if (kAov == kAovAlbedo) return baseColor;
   if (kAov == kAovNormal) return facingNormal(mappedNormal(s), wo);
   if (kAov == kAovGeometricNormal) return s.geometricNormal;
@@ -209,7 +214,7 @@ vec3 aovAt(Surface s, int slot, int instance, vec3 baseColor, vec3 wo) {
   if (kAov == kAovPosition) return frame.worldOrigin + frame.metresPerUnit * s.position;
   if (kAov == kAovObject || kAov == kAovCryptoObject) return vec3(objectNumber(slot, instance));
   if (kAov == kAovMaterial || kAov == kAovCryptoMaterial) return vec3(materialFloats(s.material, kMaterialPerlin).w);
-  return vec3(depthOf(s));
+  return vec3(depthOf(s, time));
 }
 
 #include "guides.glsl"
@@ -217,7 +222,7 @@ vec3 aovAt(Surface s, int slot, int instance, vec3 baseColor, vec3 wo) {
 
 /// One step at the point hit. The first visit also settles alpha, absorption and emission.
 Path shade(Path p) {
-  Surface s = surfaceAt(p.hitSlot, p.hitInstance, p.origin, p.direction, p.hitT, p.hitWeights);
+  Surface s = surfaceAt(p.hitSlot, p.hitInstance, p.origin, p.direction, p.hitT, p.hitWeights, p.time);
   uint flags = materialFlags(s.material);
   vec4 base = baseColorAt(s.material, s.texcoords, s.color);
   bool first = p.lightSampleIndex == 0;
@@ -230,7 +235,7 @@ Path shade(Path p) {
   }
   if (p.cameraRay) p.covered = true;
   if (!kDrawsLight) {
-    p.radiance = aovAt(s, p.hitSlot, p.hitInstance, base.rgb, -p.direction);
+    p.radiance = aovAt(s, p.hitSlot, p.hitInstance, base.rgb, -p.direction, p.time);
     p.phase = kPhaseEnd;
     return p;
   }
@@ -275,7 +280,7 @@ Path settleShadow(Path p) {
   bool passes = false;
   if (kPassing && slot >= 0) {
     Surface s = surfaceAt(slot, p.traversal.hitInstance, p.shadowOrigin, p.shadowDirection, p.traversal.t,
-                          p.traversal.weights);
+                          p.traversal.weights, p.time);
     uint flags = materialFlags(s.material);
     vec4 base = baseColorAt(s.material, s.texcoords, s.color);
     passes = kAlpha && passesThrough(flags, alphaAt(s.material, flags, base.a), p.sampler, nextCrossing(p));

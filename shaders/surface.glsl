@@ -55,15 +55,48 @@ Surface sphereSurface(uvec4 face, uvec4 place, vec3 origin, vec3 direction, floa
   return s;
 }
 
-Surface triangleSurface(uvec4 face, uvec4 place, vec3 origin, vec3 direction, float t, vec2 w) {
+/// A triangle on its way through a segment (kMoving).
+struct MovingTriangle {
+  Corners at;
+  float part;  // 0..1 of the segment
+};
+
+/// Slots before the segment of a time of the path.
+int slotsBefore(float time) { return 2 * frame.segments.z * momentAt(time, frame.segments.x).segment; }
+
+/// The slot of a triangle in the segment of a time of the path, from that in the first segment.
+int slotInSegment(int slot, float time) { return slot + slotsBefore(time); }
+
+/// And back: lamps are listed by those in the first segment.
+int slotInFirst(int slot, float time) { return slot - slotsBefore(time); }
+
+/// The triangle of a leaf slot at a time of the path.
+MovingTriangle movingTriangle(int slot, float time) {
+  Moment moment = momentAt(time, frame.segments.x);
+  MovingTriangle m;
+  m.at = cornersIn(loadMovingLeaf(slot / 2, moment.part), slot % 2 == 1);
+  m.part = moment.part;
+  return m;
+}
+
+/// A moving one has the point of its weights, which lies in its plane wherever that is.
+Surface triangleSurface(uvec4 face, uvec4 place, vec3 origin, vec3 direction, float t, vec2 w, MovingTriangle moving) {
   Surface s;
   s.geometricNormal = uintBitsToFloat(face.xyz);
+  Corners at = moving.at;
+  if (kMoving) s.geometricNormal = vec3(planeThrough(at.v0, at.v1, at.v2));
   s.front = dot(s.geometricNormal, direction) < 0.0;
   s.position = pointOnPlane(origin, direction, t, s.geometricNormal, uintBitsToFloat(place.x));
+  if (kMoving) s.position = (1.0 - w.x - w.y) * at.v0 + w.x * at.v1 + w.y * at.v2;
   s.shadingNormal = s.geometricNormal;
   ivec3 v = ivec3(place.yzw);
+  ivec3 to = v + frame.segments.w;
   if (kVertexNormals && (face.w & kFaceFlat) == 0u) {
     vec3 n = interpolate(readNormalAt(v.x), readNormalAt(v.y), readNormalAt(v.z), w).xyz;
+    if (kMoving) {
+      vec4 end = interpolate(readNormalAt(to.x), readNormalAt(to.y), readNormalAt(to.z), w);
+      n = mix(n, vec3(end), moving.part);
+    }
     // One that points backwards is turned round: which side is the front is told by the order of the vertices.
     float squared = dot(n, n);
     float side = dot(n, s.geometricNormal) < 0.0 ? -1.0 : 1.0;
@@ -75,6 +108,10 @@ Surface triangleSurface(uvec4 face, uvec4 place, vec3 origin, vec3 direction, fl
   if (kTangents) {
     vec4 first = readTangentAt(v.x);
     s.tangent = vec4(interpolate(first, readTangentAt(v.y), readTangentAt(v.z), w).xyz, first.w);
+    if (kMoving) {
+      vec4 end = interpolate(readTangentAt(to.x), readTangentAt(to.y), readTangentAt(to.z), w);
+      s.tangent = vec4(mix(s.tangent.xyz, end.xyz, moving.part), first.w);
+    }
   }
   s.color = vec4(1.0);
   if (kVertexColors) s.color = interpolate(readColorAt(v.x), readColorAt(v.y), readColorAt(v.z), w);
@@ -99,9 +136,9 @@ Surface inLocalSpace(Surface s, int instance) {
   return s;
 }
 
-/// The point that a ray hits on the primitive of a leaf slot (shown by an instance, or -1), at distance t and with
-/// barycentric weights.
-Surface surfaceAt(int slot, int instance, vec3 origin, vec3 direction, float t, vec2 weights) {
+/// The point that a ray of a path with this time hits on the primitive of a leaf slot (shown by an instance, or -1), at
+/// distance t and with barycentric weights.
+Surface surfaceAt(int slot, int instance, vec3 origin, vec3 direction, float t, vec2 weights, float time) {
   uvec4 face = faceRow(slot, 0);
   uvec4 place = faceRow(slot, 1);
   bool shown = kInstances && instance >= 0;
@@ -114,8 +151,13 @@ Surface surfaceAt(int slot, int instance, vec3 origin, vec3 direction, float t, 
   }
   bool isSphere = kSpheres && (!kTriangles || (face.w & kFaceSphere) != 0u);
   float error = uintBitsToFloat((face.w >> kFaceErrorShift) << kFloatErrorShift);
+  MovingTriangle moving;
+  if (kMoving) {
+    moving = movingTriangle(slot, time);
+    if (isSphere) place = floatBitsToUint(vec4(moving.at.v0, moving.at.v1.x));
+  }
   Surface s;
-  if (kTriangles) s = triangleSurface(face, place, origin, direction, t, weights);
+  if (kTriangles) s = triangleSurface(face, place, origin, direction, t, weights, moving);
   if (kCreases && !isSphere) {
     uvec4 inset = insetRow(slot);
     float times = 1.0;
@@ -123,7 +165,9 @@ Surface surfaceAt(int slot, int instance, vec3 origin, vec3 direction, float t, 
       InstanceReturn back = loadInstanceReturn(instance);
       times = offsetOutOfMesh(back, error) * back.stretchBack / error;
     }
-    s.position = insetFromCreases(s.position, weights, uintBitsToFloat(inset.xyz), inset.w, times);
+    vec3 middle = uintBitsToFloat(inset.xyz);
+    if (kMoving) middle = (moving.at.v0 + moving.at.v1 + moving.at.v2) / 3.0f;
+    s.position = insetFromCreases(s.position, weights, middle, inset.w, times);
   }
   if (isSphere) s = sphereSurface(face, place, origin, direction, t);
   s.positionError = error;

@@ -14,6 +14,7 @@ struct Traversal {
   // other way
   float tie;
   bool both;  // kLightPaths: single-sided surfaces have their backs, too
+  float part; // kMoving: of the segment in whose tree the traversal is, 0..1
   int visits; // nodes and leaves visited, counted for the heat map only
   float tMin;     // kPassing: only hits behind this distance count,
   int tMinSlot;   // and those at it in later slots: what the ray has passed through lies there
@@ -38,10 +39,18 @@ Traversal startTraversal(float limit, int leafCount) {
   s.steps = 0;
   s.tie = 0.0f;
   s.both = false;
+  s.part = 0.0f;
   s.visits = 0;
   s.tMin = 0.0f;
   s.tMinSlot = 0x7fffffff;
   s.stack = emptyStack();
+  return s;
+}
+
+/// A traversal that begins at a moment, in the tree of its segment.
+Traversal beginAt(Traversal s, Moment m, int nodesOfSegment) {
+  s.part = m.part;
+  s.node = s.node == kTraversalDone ? s.node : m.segment * nodesOfSegment;
   return s;
 }
 
@@ -72,10 +81,14 @@ PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear sh
     TriangleHit h;
     if (kWatertight) h = intersectTriangle(origin, shear, v0, v1, v2);
     if (!kWatertight) h = intersectTriangleFast(origin, direction, v0, v1, v2);
-    if (kSlivers && h.hit && (word & kPrimitiveSliver) != 0u) {
+    if (kSlivers && !kMoving && h.hit && (word & kPrimitiveSliver) != 0u) {
       int row = slot * int(kFaceRows);
       h.t = distanceToPlane(origin, direction, shear, v0, v1, v2, vec3(uintBitsToFloat(readFaces(row))),
                             uintBitsToFloat(readFaces(row + 1).x), h.t);
+    }
+    if (kSlivers && kMoving && h.hit && (word & kPrimitiveSliver) != 0u) {
+      vec4 plane = planeThrough(v0, v1, v2);
+      h.t = distanceToPlane(origin, direction, shear, v0, v1, v2, vec3(plane), plane.w, h.t);
     }
     bool there = !kCulling || h.front || (kLightPaths && s.both) || (word & kPrimitiveCull) == 0u;
     r.t = h.hit && there ? h.t : -1.0f;
@@ -95,7 +108,9 @@ PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear sh
 /// The nearest of what the traversal has and the two primitives of a leaf. The origin lies at distance `start` along
 /// the ray (kInstances).
 Traversal intersectLeaf(Traversal s, int leaf, vec3 origin, vec3 direction, RayShear shear, float start) {
-  LeafPair l = loadLeaf(leaf);
+  LeafPair l;
+  if (kMoving) l = loadMovingLeaf(leaf, s.part);
+  if (!kMoving) l = loadLeaf(leaf);
   PrimitiveHit a = intersectWord(s, origin, direction, shear, l.v0a, l.v1a, l.v2a, l.worda, 2 * leaf);
   PrimitiveHit b = intersectWord(s, origin, direction, shear, l.v0b, l.v1b, l.v2b, l.wordb, 2 * leaf + 1);
   if (kInstances) {

@@ -51,6 +51,55 @@ LeafPair loadLeaf(int index) {
   return l;
 }
 
+/// A time within one of the straight pieces in which surfaces move (kMoving).
+struct Moment {
+  int segment;
+  float part;  // 0..1 of the segment
+};
+
+/// time: 0..1 of all segments.
+Moment momentAt(float time, int segments) {
+  float place = time * float(segments);
+  Moment m;
+  m.segment = max(0, min(int(place), segments - 1));
+  m.part = place - float(m.segment);
+  return m;
+}
+
+/// A point on its way. Vertices that triangles share stay together: the same numbers give the same result.
+vec3 onItsWay(vec3 from, vec3 to, float part) {
+  precise vec3 point = from + part * (to - from);
+  return point;
+}
+
+/// The leaf at a part of its segment.
+LeafPair loadMovingLeaf(int index, float part) {
+  LeafPair l = loadLeaf(2 * index);
+  LeafPair to = loadLeaf(2 * index + 1);
+  l.v0a = onItsWay(l.v0a, to.v0a, part);
+  l.v0b = onItsWay(l.v0b, to.v0b, part);
+  l.v1a = onItsWay(l.v1a, to.v1a, part);
+  l.v1b = onItsWay(l.v1b, to.v1b, part);
+  l.v2a = onItsWay(l.v2a, to.v2a, part);
+  l.v2b = onItsWay(l.v2b, to.v2b, part);
+  return l;
+}
+
+/// The vertices of one of its primitives.
+struct Corners {
+  vec3 v0;
+  vec3 v1;
+  vec3 v2;
+};
+
+Corners cornersIn(LeafPair l, bool second) {
+  Corners c;
+  c.v0 = second ? l.v0b : l.v0a;
+  c.v1 = second ? l.v1b : l.v1a;
+  c.v2 = second ? l.v2b : l.v2a;
+  return c;
+}
+
 /// The transform of an instance, from local space to its mesh's space.
 struct InstanceSpace {
   vec3 place;  // the mesh's origin in local space

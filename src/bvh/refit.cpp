@@ -7,13 +7,10 @@ namespace fragtrace {
 
 namespace {
 
-Bounds boundsOfLeaf(const BvhLeaf& leaf, const Scene& scene) {
-  const auto triangles = uint32_t(scene.triangles.size());
+Bounds boundsOfLeaf(const BvhLeaf& leaf, std::span<const Bounds> primitives) {
   Bounds bounds;
   for (const uint32_t primitive : leaf.primitive) {
-    if (primitive == kMissIndex) continue;
-    bounds.include(primitive < triangles ? triangleBounds(scene, primitive)
-                                         : sphereBounds(scene.spheres[primitive - triangles]));
+    if (primitive != kMissIndex) bounds.include(primitives[primitive]);
   }
   return bounds;
 }
@@ -25,28 +22,30 @@ RefittableTree refittable(Bvh bvh, const Scene& scene) {
   return {std::move(bvh), cost, scene.triangles.size(), scene.spheres.size()};
 }
 
-std::optional<Bvh> refitted(const RefittableTree& tree, const Scene& scene) {
-  const bool same = scene.triangles.size() == tree.triangles && scene.spheres.size() == tree.spheres;
-  if (!same || tree.bvh.nodes.empty() || !tree.bvh.meshes.empty() || !scene.instances.empty())
-    return std::nullopt;
-  Bvh bvh = tree.bvh;
+void refitTo(Bvh& bvh, std::span<const Bounds> primitives) {
   // Children come after their parent.
   for (size_t i = bvh.nodes.size(); i-- > 0;) {
     BvhNode& node = bvh.nodes[i];
     for (size_t side : {0, 1}) {
       const uint32_t child = node.child[side];
       if ((child & kBvhLeafBit) != 0) {
-        node.bounds[side] = boundsOfLeaf(bvh.leaves[child & ~kBvhLeafBit], scene);
+        node.bounds[side] = boundsOfLeaf(bvh.leaves[child & ~kBvhLeafBit], primitives);
       } else {
         node.bounds[side] = bvh.nodes[child].bounds[0];
         node.bounds[side].include(bvh.nodes[child].bounds[1]);
       }
     }
   }
-  bvh.bounds = bvh.nodes[0].bounds[0];
-  bvh.bounds.include(bvh.nodes[0].bounds[1]);
-  for (size_t i = bvh.leaves.size() - bvh.besideTree; i < bvh.leaves.size(); ++i)
-    bvh.bounds.include(boundsOfLeaf(bvh.leaves[i], scene));
+  bvh.bounds = Bounds();
+  for (const BvhLeaf& leaf : bvh.leaves) bvh.bounds.include(boundsOfLeaf(leaf, primitives));
+}
+
+std::optional<Bvh> refitted(const RefittableTree& tree, const Scene& scene) {
+  const bool same = scene.triangles.size() == tree.triangles && scene.spheres.size() == tree.spheres;
+  if (!same || tree.bvh.nodes.empty() || !tree.bvh.meshes.empty() || !scene.instances.empty())
+    return std::nullopt;
+  Bvh bvh = tree.bvh;
+  refitTo(bvh, primitiveBounds(scene));
   if (!(bvhQuality(bvh).sahCost <= kMostRefitCost * tree.builtCost)) return std::nullopt;
   return bvh;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "bvh/bvh.h"
 
@@ -19,6 +20,9 @@ struct RefittableTree {
 
 /// The cost may rise by this factor before a new tree is built.
 inline constexpr double kMostRefitCost = 1.2;
+
+/// Gives a tree of one level the boxes that its primitives have now.
+void refitTo(Bvh& bvh, std::span<const Bounds> primitives);
 
 RefittableTree refittable(Bvh bvh, const Scene& scene);
 

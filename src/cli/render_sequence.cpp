@@ -77,9 +77,10 @@ Statistics prepareFrame(SequenceRun& run, const SequenceFrame& frame, const Sequ
   if (!turntable) before.document = &run.document;
   run.loaded.reset();
   run.loaded = loadScene(drawn, stats, {}, FilmOf::Part, before);
+  if (turntable) run.loaded->scene.motion.camera = frame.sweep > 0.0;
   if (!stats.treeRefitted) {
     run.tree.reset();
-    if (!turntable && keepsTree(options, run.loaded->scene))
+    if (!turntable && run.loaded->scene.motion.segments == 0 && keepsTree(options, run.loaded->scene))
       run.tree = refittable(run.loaded->bvh, run.loaded->scene);
   }
   if (first) {
@@ -107,7 +108,10 @@ Outcome drawFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOp
   const Camera camera = loaded.camera;
   if (sequence.turntable > 0) {
     const glm::dvec3 focalPoint = turningPoint(camera, loaded.overrides, loaded.scene.bounds);
-    loaded.camera = turnedCamera(camera, focalPoint, frame.turn);
+    const auto turned = [&](double angle) { return turnedCamera(camera, focalPoint, angle); };
+    loaded.camera = turned(frame.turn);
+    loaded.motion =
+        motionBetween(turned(frame.turn - 0.5 * frame.sweep), turned(frame.turn + 0.5 * frame.sweep));
     loaded.view = makeView(options, loaded, loaded.camera);
   }
   const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);

@@ -37,6 +37,7 @@ std::string whyMegakernel(const ShaderVariant& variant, const RenderOptions& opt
   if (variant.shadowCatcher) return "--shadow-catcher";
   if (variant.traversal == TraversalMethod::Literals) return "the scene is shader text";
   if (variant.traversal != TraversalMethod::FrontToBack) return "the tree is not walked front to back";
+  if (has(variant.traits, Trait::MovingSurfaces)) return "surfaces move: its rays have no time";
   if (options.device.dispatch == Dispatch::Fragment) return "--dispatch fragment";
   if (options.device.schedule == Schedule::Wavefront) return "";
   if (!work.software) return "a GPU: the wavefront has too few lanes for it";

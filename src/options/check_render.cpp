@@ -94,6 +94,23 @@ void checkLens(const LensOptions& lens) {
   if (!lens.fStop && lens.blades > 0) throw UsageError("--aperture-blades: goes with --f-stop");
 }
 
+/// What moves while the shutter is open cannot be drawn in every way.
+void checkShutter(const RenderOptions& o) {
+  if (o.camera.shutter <= 0.0) return;
+  if (!isSequence(o) && !o.selection.animationTime)
+    throw UsageError("--shutter: goes with --frames, --turntable or --animation-time");
+  const auto refuse = [](bool given, const char* option, const char* why) {
+    if (given) throw UsageError(std::string("--shutter: not with ") + option + ", " + why);
+  };
+  refuse(o.light.reuse == LightReuse::Spatial, "--light-reuse spatial",
+         "whose pixels take light of other moments");
+  refuse(o.light.caustics == Caustics::On, "--caustics on", "whose light paths know one moment");
+  if (o.output.sequence.turntable > 0) return;
+  const char* const noTree = "which has no tree for each moment";
+  refuse(o.device.traversal == TraversalMethod::Iterative, "--traversal iterative", noTree);
+  refuse(o.device.traversal == TraversalMethod::Literals, "--traversal literals", noTree);
+}
+
 /// Panoramas and fisheyes lack some of what other cameras have.
 void checkCamera(const RenderOptions& o) {
   const CameraOverrides& asked = o.camera.overrides;
@@ -199,6 +216,7 @@ RenderOptions finishRender(const RawRender& raw) {
   o.sampling.spp = samplesOf(raw);
   checkLens(o.camera.lens);
   checkCamera(o);
+  checkShutter(o);
   checkStudio(o.light);
   checkSky(o);
   checkFog(o);

@@ -192,6 +192,11 @@ std::vector<OptionRow> outputRows() {  // NOLINT(readability-function-size): a t
   constexpr OptionTraits kNumbered{.effect = Effect::View, .copied = false, .group = OptionGroup::Sequence};
   OptionTraits turntable = kNumbered;
   turntable.excludes = "--frames";
+  const OptionTraits shutter{.effect = Effect::Picture,
+                             .renewal = Renewal::Scene,
+                             .attribute = "shutter",
+                             .copied = false,
+                             .group = OptionGroup::Sequence};
   OptionTraits progress = kSaid;
   progress.group = OptionGroup::Output;
   OptionTraits quiet = kSaid;
@@ -260,6 +265,11 @@ std::vector<OptionRow> outputRows() {  // NOLINT(readability-function-size): a t
           "render N pictures, numbers 0 to N - 1, from evenly spaced directions around the focal point, each "
           "to --output with its number in place of ####, or all to a video",
           FRAGTRACE_MEMBER(output.sequence.turntable), {1, kMostFrame}, turntable),
+      limit<double>("--shutter",
+                    "blur what moves while the shutter is open, DEGREES of 360 of the time from picture to "
+                    "picture, around the moment of each: of an animation (--frames; --animation-time with "
+                    "--fps) or a turn (--turntable); films often have 180",
+                    FRAGTRACE_MEMBER(camera.shutter), {0.0, 360.0}, shutter),
       flag("--continue", "with --frames or --turntable: skip pictures that are there already",
            FRAGTRACE_MEMBER(output.sequence.keep), kNumbered),
       choice("--denoise",

@@ -66,6 +66,7 @@ struct GpuScene {
       buffers;  ///< buffers by binding; empty if the variant never reads one
   BoxGrid grid;
   uint32_t leafCount = 0;
+  glm::ivec4 segments{1, 0, 0, 0};  ///< layout::Frame::segments
   glm::ivec2 environmentSize{0};
   glm::ivec2 backdropSize{0};
   LightShare lightShare;

@@ -8,6 +8,7 @@
 #include "pack/pack_tree.h"
 #include "pack/words.h"
 #include "scene/hit_error.h"
+#include "scene/motion/moving_scene.h"
 
 namespace fragtrace {
 
@@ -24,15 +25,20 @@ void appendTriangle(Words& words, const Scene& scene, const Triangle& t) {
   const auto [v0, v1, v2] = cornersOf(scene, t);
   const glm::vec4 plane = planeOf(v0, v1, v2);
   const uint32_t flat = t.flat ? layout::kFaceFlat : 0u;
-  const uint32_t word = t.material | flat | errorBits(hitPointError({v0, v1, v2}));
+  const double error =
+      std::max(hitPointError({v0, v1, v2}), hitPointError(cornersOf(scene, atEnd(scene, t))));
+  const uint32_t word = t.material | flat | errorBits(error);
   words.insert(words.end(), {floatWord(plane.x), floatWord(plane.y), floatWord(plane.z), word,
                              floatWord(plane.w), t.vertex.x, t.vertex.y, t.vertex.z});
 }
 
-void appendSphere(Words& words, const Sphere& s) {
+void appendSphere(Words& words, const Scene& scene, uint32_t sphere) {
+  const Sphere& s = scene.spheres[sphere];
+  const Sphere& end = atEnd(scene, sphere);
   // q and -q are the same rotation; the shader derives w >= 0 from the rest.
   const glm::quat q = s.rotation.w < 0.0f ? -s.rotation : s.rotation;
-  const glm::vec3 reach = glm::abs(s.center) + glm::vec3(s.radius);
+  const glm::vec3 reach =
+      glm::max(glm::abs(s.center) + glm::vec3(s.radius), glm::abs(end.center) + glm::vec3(end.radius));
   const uint32_t word = s.material | layout::kFaceSphere | errorBits(hitPointError({reach, reach, reach}));
   words.insert(words.end(), {floatWord(q.x), floatWord(q.y), floatWord(q.z), word});
   appendRow(words, s.center, s.radius);
@@ -85,7 +91,7 @@ Words packFaces(const Scene& scene, const Bvh& bvh, bool creases) {
       } else if (primitive < scene.triangles.size()) {
         appendTriangle(words, scene, scene.triangles[primitive]);
       } else {
-        appendSphere(words, scene.spheres[primitive - scene.triangles.size()]);
+        appendSphere(words, scene, primitive - uint32_t(scene.triangles.size()));
       }
     }
   }

@@ -12,6 +12,7 @@
 #include "pack/inversion_table.h"
 #include "pack/light_tree.h"
 #include "pack/words.h"
+#include "scene/motion/moving_scene.h"
 
 namespace fragtrace {
 
@@ -41,7 +42,9 @@ void appendEmissive(std::vector<Emitter>& emitters, const Scene& scene,
                     std::span<const glm::vec3> materialRadiance, std::span<const uint32_t> slots) {
   // A smaller triangle is far below what a ray can be aimed at; the shader divides by the area.
   constexpr double kLeastArea = 1e-30;
-  for (size_t i = 0; i < scene.triangles.size(); ++i) {
+  // Of surfaces that move, a light sample finds the place at its time.
+  const size_t count = scene.motion.segments > 0 ? scene.motion.triangles : scene.triangles.size();
+  for (size_t i = 0; i < count; ++i) {
     const Triangle& t = scene.triangles[i];
     const double radiance = luminance(glm::dvec3(materialRadiance[t.material]));
     const double area = radiance > 0.0 ? triangleArea(scene, t) : 0.0;
@@ -85,14 +88,32 @@ void orderInSpace(std::vector<Emitter>& emitters) {
                    [](const Emitter& a, const Emitter& b) { return a.order < b.order; });
 }
 
+/// The bounds of a triangle that moves, over all of its way: in each pose, and halfway between them, where a
+/// turning one may face elsewhere than in either.
+LightBounds boundsOnItsWay(const Scene& scene, Triangle t, double radiance, bool bothSides) {
+  auto before = cornersOf<glm::dvec3>(scene, t);
+  LightBounds bounds = boundsOfTriangle(before, radiance, bothSides);
+  const double intensity = bounds.intensity;
+  for (uint32_t segment = 0; segment < scene.motion.segments; ++segment) {
+    t = atEnd(scene, t);
+    const auto next = cornersOf<glm::dvec3>(scene, t);
+    std::array<glm::dvec3, 3> halfway;
+    for (size_t i = 0; i < 3; ++i) halfway[i] = 0.5 * (before[i] + next[i]);
+    bounds = unite(bounds, boundsOfTriangle(halfway, radiance, bothSides));
+    bounds = unite(bounds, boundsOfTriangle(next, radiance, bothSides));
+    before = next;
+  }
+  bounds.intensity = intensity;
+  return bounds;
+}
+
 LightBounds boundsOf(const Emitter& e, const Scene& scene, std::span<const glm::vec3> materialRadiance,
                      bool alike) {
   if (alike) return {.intensity = 1.0, .everywhere = true};
   if (e.triangle == kMissIndex) return boundsOfLight(scene.lights[e.kind & ~layout::kEmitterPunctual]);
   const Triangle& t = scene.triangles[e.triangle];
-  return boundsOfTriangle(cornersOf<glm::dvec3>(scene, t),
-                          luminance(glm::dvec3(materialRadiance[t.material])),
-                          scene.materials[t.material].doubleSided);
+  return boundsOnItsWay(scene, t, luminance(glm::dvec3(materialRadiance[t.material])),
+                        scene.materials[t.material].doubleSided);
 }
 
 /// Appends the nodes, and the leaf of each slot.

@@ -321,7 +321,7 @@ void packGeometry(const Scene& scene, const Bvh& bvh, const TraitSet& traits, bo
   }
   packed.buffers[kNodesBinding] = packNodes(bvh, packed.grid);
   if (!scene.instances.empty()) appendInstances(scene, bvh, packed.buffers[kNodesBinding]);
-  packed.buffers[kLeavesBinding] = packLeaves(scene, bvh);
+  packed.buffers[kLeavesBinding] = packLeaves(scene, bvh, has(traits, Trait::MovingSurfaces));
   packed.buffers[kFacesBinding] = packFaces(scene, bvh, has(traits, Trait::Creases));
   packAttributes(scene.vertices, traits, packed);
 }
@@ -348,6 +348,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   const TraitSet& traits = variant.traits;
   packed.grid = makeGrid(bvh.bounds);
   packed.leafCount = uint32_t(bvh.leaves.size());
+  packed.segments = segmentsOf(scene, bvh);
   const double radius = radiusOf(bvh);
   const bool keepsGeometry = kept != nullptr && kept->geometry;
   packGeometry(scene, bvh, traits, keepsGeometry, packed);

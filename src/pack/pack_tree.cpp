@@ -6,6 +6,7 @@
 
 #include "pack/words.h"
 #include "scene/hit_error.h"
+#include "scene/motion/moving_scene.h"
 
 namespace fragtrace {
 
@@ -60,17 +61,20 @@ struct LeafSide {
   uint32_t word = layout::kPrimitiveNone;
 };
 
-LeafSide leafSide(const Scene& scene, uint32_t primitive) {
+/// ends: where its segment ends.
+LeafSide leafSide(const Scene& scene, uint32_t primitive, bool ends = false) {
   LeafSide side;
   if (primitive == kMissIndex) return side;
   const uint32_t triangles = uint32_t(scene.triangles.size());
   if (primitive < triangles) {
     const Triangle& t = scene.triangles[primitive];
-    side.points = cornersOf(scene, t);
+    side.points = cornersOf(scene, ends ? atEnd(scene, t) : t);
     side.word = primitive | triangleFlags(scene.materials[t.material]);
-    if (isSliver(side.points)) side.word |= layout::kPrimitiveSliver;
+    if (isSliver(cornersOf(scene, t)) || isSliver(cornersOf(scene, atEnd(scene, t))))
+      side.word |= layout::kPrimitiveSliver;
   } else {
-    const Sphere& s = scene.spheres[primitive - triangles];
+    const uint32_t sphere = primitive - triangles;
+    const Sphere& s = ends ? atEnd(scene, sphere) : scene.spheres[sphere];
     side.points = {s.center, glm::vec3(s.radius), glm::vec3(0.0f)};
     side.word = primitive | triangleFlags(scene.materials[s.material]) | layout::kPrimitiveSphere;
   }
@@ -116,16 +120,26 @@ Words packNodes(const Bvh& bvh, const BoxGrid& grid) {
   return words;
 }
 
-Words packLeaves(const Scene& scene, const Bvh& bvh) {
+Words packLeaves(const Scene& scene, const Bvh& bvh, bool moving) {
   Words words;
   const size_t padded =
       (bvh.leaves.size() + layout::kLeafBlock - 1) / layout::kLeafBlock * layout::kLeafBlock;
-  words.reserve(padded * layout::kLeafRows * 4);
+  words.reserve(padded * layout::kLeafRows * (moving ? 8u : 4u));
   for (const BvhLeaf& leaf : bvh.leaves) {
-    appendLeaf(words, leafSide(scene, leaf.primitive[0]), leafSide(scene, leaf.primitive[1]));
+    const auto [a, b] = leaf.primitive;
+    appendLeaf(words, leafSide(scene, a), leafSide(scene, b));
+    if (moving) appendLeaf(words, leafSide(scene, a, true), leafSide(scene, b, true));
   }
-  for (size_t i = bvh.leaves.size(); i < padded; ++i) appendLeaf(words, {}, {});
+  for (size_t i = bvh.leaves.size(); i < padded; ++i) {
+    appendLeaf(words, {}, {});
+    if (moving) appendLeaf(words, {}, {});
+  }
   return words;
+}
+
+glm::ivec4 segmentsOf(const Scene& scene, const Bvh& bvh) {
+  const uint32_t segments = std::max(1u, scene.motion.segments);
+  return {segments, bvh.nodes.size() / segments, bvh.leaves.size() / segments, scene.motion.vertices};
 }
 
 std::vector<uint32_t> leafSlots(const Scene& scene, const Bvh& bvh) {

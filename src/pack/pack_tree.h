@@ -13,8 +13,12 @@ BoxGrid makeGrid(const Bounds& bounds);
 /// their own.
 Words packNodes(const Bvh& bvh, const BoxGrid& grid);
 
-/// Leaves as structure of arrays, padded with empty ones to a multiple of kLeafBlock.
-Words packLeaves(const Scene& scene, const Bvh& bvh);
+/// Leaves as structure of arrays, padded with empty ones to a multiple of kLeafBlock. Moving ones come twice,
+/// when their segment begins and when it ends.
+Words packLeaves(const Scene& scene, const Bvh& bvh, bool moving = false);
+
+/// layout::Frame::segments.
+glm::ivec4 segmentsOf(const Scene& scene, const Bvh& bvh);
 
 /// For each triangle, its leaf slot (leaf * 2 + side).
 std::vector<uint32_t> leafSlots(const Scene& scene, const Bvh& bvh);

@@ -115,6 +115,7 @@ void Renderer::describeScene(const GpuScene& scene) {
   frame_.punctualCount = float(scene.punctualLights);
   frame_.leafCount = int(scene.leafCount);
   frame_.objectRow = int(scene.objectRow);
+  frame_.segments = scene.segments;
 }
 
 void Renderer::setFrame(const Film& film, const View& view) {
@@ -137,6 +138,8 @@ void Renderer::setFrame(const Film& film, const View& view) {
   frame_.lens = glm::vec4(float(view.lens.radius / view.space.unit),
                           float(view.lens.focusDistance / view.space.unit), float(view.lens.blades), 0.0f);
   frame_.lensShift = glm::vec4(2.0 * camera.shift, 0.0, 0.0);
+  frame_.cameraTurn = glm::vec4(view.motion.axis, view.motion.angle);
+  frame_.cameraSlide = glm::vec4(view.motion.slide / view.space.unit, 0.0);
   frame_.environmentScale = float(view.hdriIntensity) * view.surroundings;
   frame_.environmentChance = environmentChance(lightShare_, view.hdriIntensity);
   frame_.pictureSize = placed.whole;

@@ -18,6 +18,7 @@
 #include "render/draw_plan.h"
 #include "render/film.h"
 #include "scene/fog.h"
+#include "scene/motion/camera_motion.h"
 #include "scene/volume/grid.h"
 #include "shader/render_options.h"
 
@@ -47,6 +48,7 @@ bool canSplat();
 /// Settings that can change from picture to picture without touching program or buffers.
 struct View {
   Camera camera;                ///< world space
+  CameraMotion motion;          ///< of the camera, when the variant has one
   LocalSpace space;             ///< of the scene
   Lens lens;                    ///< when the variant has one
   double hdriRotation = 0.0;    ///< radians about +Y

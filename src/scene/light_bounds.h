@@ -32,7 +32,7 @@ double thicknessOf(const LightBounds& lights);
 LightBounds unite(const LightBounds& a, const LightBounds& b);
 
 /// An estimate of the irradiance that the lights send to a point. It is 0 only if none of them can shine
-/// there. It is the same as lightNodeFrom of shaders/lights.glsl.
+/// there. It is the same as lightNodeFrom of shaders/lights/light_tree.glsl.
 double importanceOf(const LightBounds& lights, const glm::dvec3& point);
 
 /// Luminous power. Lights that shine everywhere do so through the cross-section of a scene of that radius.

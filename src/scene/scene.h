@@ -15,6 +15,7 @@
 
 #include "base/bounds.h"
 #include "scene/local_space.h"
+#include "scene/motion/shutter_motion.h"
 #include "scene/volume/grid.h"
 
 namespace fragtrace {
@@ -291,8 +292,7 @@ struct Camera {
   double aspectRatio = 0.0;          ///< width / height; 0: not given
 };
 
-/// The way in which meshes that appear several times in the scene are kept: Auto shares them where that saves
-/// much memory.
+/// Meshes that appear several times are copied or shared; Auto shares them where that saves much memory.
 enum class Instancing : uint8_t { Auto, Flatten, Share };
 inline constexpr std::array<std::string_view, 3> kInstancingNames{"auto", "flatten", "share"};
 
@@ -320,8 +320,7 @@ struct PrimitiveOrigin {
   uint32_t nodeIndex = 0;  ///< the node's place in the file
 };
 
-/// Points and line segments of one mesh primitive, as a node places it. They become triangles once the camera
-/// is known, which gives their size (scene/strokes.h).
+/// Points and lines of a mesh primitive, as a node places it; triangles replace them (scene/strokes.h).
 struct Strokes {
   std::string node{};      ///< as in PrimitiveOrigin
   std::string mesh{};      ///< as in PrimitiveOrigin
@@ -383,6 +382,7 @@ struct Scene {
   std::vector<std::string> warnings;  ///< one line each, for stderr; names the file and the place
   Volume volume;                      ///< its grid is read after the scene's file
   BoundsDouble bounds;                ///< world space
+  ShutterMotion motion;
 };
 
 /// A triangle's vertices, in local space or that of its shared mesh.

@@ -82,6 +82,7 @@ View makeView(const RenderOptions& options, const LoadedScene& loaded, const Cam
   const Scene& scene = loaded.scene;
   View view;
   view.camera = camera;
+  view.motion = loaded.motion;
   view.lens = lensOf(options, camera, scene.bounds, scene.space);
   view.space = scene.space;
   view.hdriRotation = glm::radians(environmentTurn(options.light));

@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "bvh/bvh.h"
 #include "bvh/large_first.h"
+#include "bvh/moving_tree.h"
 #include "image/files/process.h"
 #include "image/files/video_format.h"
 #include "image/format.h"
@@ -30,6 +31,7 @@
 #include "session/environment.h"
 #include "session/outputs.h"
 #include "session/picture_memory.h"
+#include "session/shutter.h"
 
 namespace fragtrace {
 
@@ -115,6 +117,7 @@ bool isInStudio(const RenderOptions& options, const LoadedScene& loaded) {
 }
 
 Bvh buildTree(const Scene& scene, const RenderOptions& options) {
+  if (scene.motion.segments > 0) return buildMovingBvh(scene);
   if (!scene.instances.empty()) {
     if (!walksTree(options))
       throw UsageError("--traversal: only trees hold the meshes that this scene shares");
@@ -145,7 +148,8 @@ GltfOptions gltfOptionsOf(const RenderOptions& options) {
   loading.cameraPosition = options.camera.overrides.position;
   loading.cameraIndex = options.camera.index.value_or(0);
   loading.selection = options.selection;
-  loading.instancing = walksTree(options) ? options.device.instancing : Instancing::Flatten;
+  const bool flattens = !walksTree(options) || shutterSeconds(options) > 0.0;
+  loading.instancing = !flattens ? options.device.instancing : Instancing::Flatten;
   loading.limits = options.limits;
   loading.readsVolume = options.volume.file.empty();
   return loading;
@@ -326,6 +330,9 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
       return image;
     });
   }
+  const bool opens = shutterSeconds(options) > 0.0;
+  std::shared_ptr<KeptDocument> posed;  // read once for all poses of the shutter
+  if (opens && before.document == nullptr) before.document = &posed;
   loaded.scene = readScene(options, progress, before, stats);
   const Scene& scene = loaded.scene;
   checkOutputs(outputsOf(options), inputsOf(scene));
@@ -348,17 +355,23 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   checkCatcherPlace(options, loaded.scene);
   checkFogDepth(options, loaded.scene);
   checkMapOptions(options, light, loaded.scene);
+  stats.scene = describe(scene);
+  if (opens) {
+    step("reading the motion", 0.4);
+    PhaseTimer timer("shutter");
+    openShutter(loaded, options, *before.document, stats);
+    stats.phases.push_back(timer.end());
+  }
   sayWarnings(options, loaded.overrides.fit, loaded.scene);
   stats.loadMs = watch.lap();
   step("building the tree", 0.5);
-  loaded.bvh = refitOrBuild(before.tree, scene, options, stats);
+  loaded.bvh = refitOrBuild(scene.motion.segments > 0 ? nullptr : before.tree, scene, options, stats);
   stats.bvhBuildMs = watch.lap();
   step("reading the environment", 0.9);
   if (!early) settleEnvironment();
   std::ranges::move(ofEnvironment, std::back_inserter(loaded.scene.warnings));
   loaded.view = makeView(options, loaded, loaded.camera);
   if (readsMap) stats.phases.push_back(reading);
-  stats.scene = describe(scene);
   stats.warnings = scene.warnings;
   stats.size = loaded.region.size;
   stats.region = options.camera.region;

@@ -8,6 +8,7 @@
 #include "bvh/refit.h"
 #include "gltf/gltf.h"
 #include "render/renderer.h"
+#include "scene/motion/camera_motion.h"
 #include "scene/scene.h"
 #include "session/say.h"
 #include "session/statistics.h"
@@ -22,6 +23,7 @@ struct LoadedScene {
   Camera camera;
   CameraOverrides overrides;       ///< the camera was chosen by these (settledOverrides())
   std::optional<int> cameraIndex;  ///< index of that camera in the scene, if one was asked for
+  CameraMotion motion;             ///< of the camera, while the shutter is open
   glm::ivec2 size{0};              ///< size of the picture
   Region region;                   ///< part of the picture that is drawn
   Bvh bvh;

@@ -103,6 +103,7 @@ std::string statisticsText(const Statistics& s) {
         {"rounds", s.adaptive->rounds}};
   }
   addLighting(json, s);
+  if (s.motionSegments > 0) json["motion"] = {{"segments", s.motionSegments}, {"pixels_off", s.motionPixels}};
   if (s.featureMs > 0.0) json["feature_ms"] = s.featureMs;
   if (s.denoise) json["denoise"] = denoiseJson(*s.denoise);
   json["width"] = s.size.x;

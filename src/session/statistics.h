@@ -57,6 +57,8 @@ struct Statistics {
   size_t geometryBytes = 0;  ///< bytes among these for tree, leaves, records and vertex attributes
   bool defaultLight = false;
   std::string defaultLightReason;
+  uint32_t motionSegments = 0;  ///< straight pieces in which surfaces move; 0: they stand still
+  double motionPixels = 0.0;    ///< the most by which a vertex is off its way then, pixels
   std::optional<SunPlace> sun;  ///< of a sky
   double clampIndirect = 0.0;   ///< 0: not clamped
   std::string lightSelection;   ///< name of the choice of lights; empty: there is none to choose

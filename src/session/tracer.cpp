@@ -21,6 +21,7 @@ namespace fragtrace {
 
 void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const RenderOptions& options,
                  ShaderVariant& variant) {
+  if (loaded.scene.motion.segments > 0) return;
   if (loaded.bvh.besideTree > 0) {
     variant.literals = largeFirst(loaded.scene, loaded.bvh, variant);
     return;

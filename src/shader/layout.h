@@ -17,7 +17,7 @@ using glm::vec4;
 
 #include "layout.glsl"
 
-static_assert(sizeof(Frame) == 18 * 16);
+static_assert(sizeof(Frame) == 21 * 16);
 static_assert(offsetof(Frame, gridOrigin) == 4 * 16);
 static_assert(offsetof(Frame, pictureSize) == 9 * 16);
 static_assert(sizeof(Progress) == 16);

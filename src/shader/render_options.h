@@ -118,6 +118,8 @@ struct CameraOptions {
   std::optional<int> index;
   CameraOverrides overrides;
   LensOptions lens;
+  double shutter =
+      0.0;  ///< the part of a frame's time for which it is open, degrees of 360; 0: no motion blur
   std::optional<glm::dvec3>
       sceneOrigin;  ///< place that positions are rounded about; none: the focal point given
   PixelFilter pixelFilter = PixelFilter::Box;

@@ -382,6 +382,14 @@ std::span<const TraitRow> traitRows() {  // NOLINT(readability-function-size): a
        .name = "object-numbers",
        .constant = "kObjectNumbers",
        .absence = "no layer of objects"},
+      {.trait = Trait::MovingCamera,
+       .name = "moving-camera",
+       .constant = "kMovingCamera",
+       .absence = "no camera that moves while the shutter is open"},
+      {.trait = Trait::MovingSurfaces,
+       .name = "moving-surfaces",
+       .constant = "kMoving",
+       .absence = "no surface that moves while the shutter is open"},
   }};
   return rows;
 }

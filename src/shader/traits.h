@@ -70,6 +70,8 @@ enum class Trait : uint8_t {
   Slivers,
   SmoothSurfaces,
   ObjectNumbers,
+  MovingCamera,
+  MovingSurfaces,
   Count
 };
 using TraitSet = SetOf<Trait>;
@@ -109,6 +111,11 @@ inline bool hasLamps(const TraitSet& traits) {
 inline bool hasMedia(const TraitSet& traits) {
   return traits[size_t(Trait::Scattering)] || traits[size_t(Trait::Fog)] ||
          traits[size_t(Trait::DensityGrid)];
+}
+
+/// Returns true if paths have a time: the camera or surfaces move while the shutter is open.
+inline bool isTimed(const TraitSet& traits) {
+  return traits[size_t(Trait::MovingCamera)] || traits[size_t(Trait::MovingSurfaces)];
 }
 
 /// The row that lists the texture; std::logic_error where none does.

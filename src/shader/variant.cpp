@@ -95,8 +95,8 @@ void dropIdle(ShaderVariant& v) {
   // Only shadow rays would find its light.
   if (!stage(Stage::Shadows)) drop(v.traits, {Trait::ThinGlass});
   if (!hasLamps(v.traits)) drop(v.traits, {Trait::LightTree, Trait::Caustics});
-  // Light paths do not know of media.
-  if (hasMedia(v.traits)) drop(v.traits, {Trait::Caustics});
+  // Light paths do not know of media, nor of time.
+  if (hasMedia(v.traits) || isTimed(v.traits)) drop(v.traits, {Trait::Caustics});
   if (!hasNormalMaps(v.traits)) off(Stage::NormalMaps);
   if (!has(v.traits, Trait::Triangles)) off(Stage::Watertight);
   const bool leavesSurfaces = stage(Stage::Gi) || stage(Stage::Shadows) || stage(Stage::Reflections) ||
@@ -156,6 +156,8 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop, 
   mark(Trait::Creases, !scene.insets.empty());
   mark(Trait::Slivers, hasSlivers(scene));
   mark(Trait::DensityGrid, scene.volume.grid != nullptr);
+  mark(Trait::MovingCamera, scene.motion.camera);
+  mark(Trait::MovingSurfaces, scene.motion.segments > 0);
   return traits;
 }
 
@@ -179,6 +181,7 @@ std::string whyNoLightPaths(const RenderOptions& options) {
   if (options.camera.overrides.type == CameraType::Panorama && options.camera.pixelFilter != PixelFilter::Box)
     return "--pixel-filter of a panorama";
   if (std::ranges::any_of(options.output.aovs, isPathAov)) return "--aov has parts of the light";
+  if (options.camera.shutter > 0.0) return "--shutter";
   return {};
 }
 
@@ -323,7 +326,8 @@ bool lightsByEnvironment(const ShaderVariant& variant) {
 bool keepsWeights(const ShaderVariant& variant) {
   const TraitSet& traits = variant.traits;
   return has(traits, Trait::VertexNormals) || has(traits, Trait::Texcoords) || has(traits, Trait::Tangents) ||
-         has(traits, Trait::VertexColors) || has(traits, Trait::Creases);
+         has(traits, Trait::VertexColors) || has(traits, Trait::Creases) ||
+         has(traits, Trait::MovingSurfaces);
 }
 
 bool passesSurfaces(const ShaderVariant& variant) {

@@ -48,6 +48,7 @@ inline bool kThinScattering = false;
 inline bool kLightPaths = false;
 inline bool kRoughGlass = true;
 inline bool kShadowCatcher = false;
+inline bool kMoving = false;
 inline int kStackSize = 32;
 
 inline std::span<const uint32_t> nodes;

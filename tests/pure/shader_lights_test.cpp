@@ -33,7 +33,7 @@ TEST(ShaderLights, TrianglesAreChosenByPowerAndPointsUniformlyByArea) {
   Draw draw(173);
   for (int k = 0; k < kSamples; ++k) {
     const uint32_t first = draw.engine();
-    const auto s = glsl_float::emitterLight(1.0f, vec3(0.0f), uvec2(first, draw.engine()), false);
+    const auto s = glsl_float::emitterLight(1.0f, vec3(0.0f), uvec2(first, draw.engine()), false, 0.0f);
     ASSERT_GT(s.pdf, 0.0f);
     ASSERT_NEAR(glm::length(dvec3(s.direction)), 1.0, 1e-6);
     const auto place = lit.placeOf(dvec3(s.direction) * double(s.distance));
@@ -70,7 +70,7 @@ TEST(ShaderLights, DensityOfASampleIsThatOfTheRayThatFindsIt) {
     for (int k = 0; k < 20000; ++k) {
       const dvec3 point = draw.inCube(0.15);
       const uvec2 bits{uint32_t(draw.engine()), uint32_t(draw.engine())};
-      const auto s = glsl_double::emitterLight(share, point, bits, false);
+      const auto s = glsl_double::emitterLight(share, point, bits, false, 0.0f);
       ASSERT_GT(s.pdf, 0.0);
       const auto place = lit.placeOf(point + s.direction * s.distance);
       ASSERT_TRUE(place);
@@ -80,7 +80,7 @@ TEST(ShaderLights, DensityOfASampleIsThatOfTheRayThatFindsIt) {
       EXPECT_NEAR(glsl_double::emitterPdf(material, s.distance, cosine), s.pdf, 1e-6 * s.pdf);
       EXPECT_LE(glm::distance(s.irradiance * s.pdf, lit.radianceOf(place->triangle)),
                 1e-6 * glm::length(lit.radianceOf(place->triangle)));
-      const auto rounded = glsl_float::emitterLight(share, vec3(point), bits, false);
+      const auto rounded = glsl_float::emitterLight(share, vec3(point), bits, false, 0.0f);
       EXPECT_NEAR(rounded.pdf, s.pdf, 3e-5 * s.pdf);
       EXPECT_LE(glm::distance(dvec3(rounded.direction), s.direction), 2e-6);
     }
@@ -134,7 +134,7 @@ TEST(ShaderLights, OnlyDoubleSidedTrianglesShineBackwards) {
     const dvec3 behind = (a + b + c) / 3.0 - 2.0 * lit.normalOf(i);
     for (int k = 0; k < 100; ++k) {
       const double u = draw.unit();
-      const auto s = glsl_double::triangleLight(emitter, 0.5, behind, u, draw.unit());
+      const auto s = glsl_double::triangleLight(emitter, 0.5, behind, u, draw.unit(), 0.0);
       EXPECT_EQ(s.pdf > 0.0, lit.scene.triangles[i].material == 0);
       EXPECT_EQ(luminanceOf(s.irradiance) > 0.0, lit.scene.triangles[i].material == 0);
       lights[lit.scene.triangles[i].material] += 1.0;
@@ -155,7 +155,7 @@ TEST(ShaderLights, APointOnTheTriangleItselfGetsNothingThatIsNotFinite) {
     for (const vec3& point : {vec3(corners[0]), vec3((corners[0] + corners[1]) * 0.5)}) {
       for (float u : {0.0f, 0.5f, 0x1.fffffep-1f}) {
         for (float v : {0.0f, 0.5f, 0x1.fffffep-1f}) {
-          const auto s = glsl_float::triangleLight(emitter, 0.3f, point, u, v);
+          const auto s = glsl_float::triangleLight(emitter, 0.3f, point, u, v, 0.0f);
           EXPECT_TRUE(std::isfinite(s.irradiance.x + s.irradiance.y + s.irradiance.z + s.pdf));
         }
       }
@@ -250,8 +250,8 @@ TEST(ShaderLights, ASampleOfAnEmitterBringsOnAverageWhatAllDo) {
   Draw draw(191);
   for (int k = 0; k < kSamples; ++k) {
     const uvec2 bits{uint32_t(draw.engine()), uint32_t(draw.engine())};
-    all.add(luminanceOf(glsl_double::emitterLight(1.0, kOrigin, bits, false).irradiance));
-    triangles.add(luminanceOf(glsl_double::emitterLight(1.0, kOrigin, bits, true).irradiance));
+    all.add(luminanceOf(glsl_double::emitterLight(1.0, kOrigin, bits, false, 0.0f).irradiance));
+    triangles.add(luminanceOf(glsl_double::emitterLight(1.0, kOrigin, bits, true, 0.0f).irradiance));
   }
   const double exact = trianglesAtOrigin(lit);
   EXPECT_LE(all.error(), 0.01 * exact);

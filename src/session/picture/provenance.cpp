@@ -96,6 +96,11 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
   json["camera_forward"] = numbers(camera.forward);
   json["camera_up"] = numbers(camera.up);
   json["camera_view"] = camera.type == CameraType::Orthographic ? -camera.halfHeight : camera.fovY;
+  if (!loaded.motion.isNone()) {
+    json["camera_motion_axis"] = numbers(loaded.motion.axis);
+    json["camera_motion_angle"] = loaded.motion.angle;
+    json["camera_motion_slide"] = numbers(loaded.motion.slide);
+  }
   if (!isRectilinear(camera.type)) json["camera_type"] = kCameraTypeNames[size_t(camera.type)];
   if (camera.shift != glm::dvec2(0.0)) json["lens_shift"] = {camera.shift.x, camera.shift.y};
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);

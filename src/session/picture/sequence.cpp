@@ -65,12 +65,14 @@ SequenceFrame frameOf(const RenderOptions& options, int index) {
   if (sequence.turntable > 0) {
     frame.turn = 2.0 * glm::pi<double>() * frame.number / sequence.turntable;
     frame.options.camera.overrides.turns = true;
+    frame.sweep = 2.0 * glm::pi<double>() / sequence.turntable * options.camera.shutter / 360.0;
   } else {
     frame.options.selection.animationTime = frame.number / sequence.fps;
   }
   if (options.device.traversal == TraversalMethod::Auto)
     frame.options.device.traversal = TraversalMethod::FrontToBack;
   frame.options.output.sequence = {};
+  frame.options.output.sequence.fps = picturesPerSecond(sequence);
   return frame;
 }
 

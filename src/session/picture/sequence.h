@@ -14,6 +14,7 @@ struct SequenceFrame {
   int number = 0;
   RenderOptions options;  ///< with its own names and time
   double turn = 0.0;      ///< radians about the focal point
+  double sweep = 0.0;     ///< the part of the turn for which the shutter is open, radians
 };
 
 /// The name with the number in place of its last run of #, with at least as many digits.

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// The trees of a scene whose surfaces move (scene/motion/moving_scene.h).
+#pragma once
+
+#include "bvh/bvh.h"
+
+namespace fragtrace {
+
+/// One tree for each segment, one after the other: the same nodes and leaves, whose boxes hold where their
+/// primitives are when the segment begins and when it ends, and so in between. A node's child is of its
+/// segment. `depth` is that of each.
+Bvh buildMovingBvh(const Scene& scene);
+
+}  // namespace fragtrace
