@@ -45,12 +45,12 @@ Path guideAt(Path p, Surface s, uint flags, vec4 base) {
   bool blends = kAlpha && (flags & (kMaterialMask | kMaterialBlend)) != 0u;
   float share = blends ? guideRest(p) * alphaAt(s.material, flags, base.a) : 1.0;
   if (blends && guideRest(p) - share > kGuideRest) {
-    if (p.cameraRay) p.guide.depth += share * depthOf(s);
+    if (p.cameraRay) p.guide.depth += share * depthOf(s, p.time);
     p = addGuide(p, share, guideTint(p) * base.rgb, normal);
     p.phase = kPhaseExtend;
     return tracePast(p, kFarAway, p.hitT, p.hitSlot);
   }
-  p = takeGuide(p, depthOf(s), normal);
+  p = takeGuide(p, depthOf(s, p.time), normal);
   SurfaceMaterial m;
   if (kSmoothSurfaces) m = materialAt(s.material, base.rgb, s.texcoords);
   bool follows = kSmoothSurfaces && p.bounce < kGuideScatterings && m.roughness * m.roughness < kGuideAlpha;

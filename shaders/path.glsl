@@ -171,9 +171,9 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
 
 /// The depth of a point at a distance along the camera's ray of a path with this time, in metres.
 float depthAlong(vec3 direction, float t, float time) {
-  if (kMovingCamera && !kPanorama && !kFisheye)
-    return t * dot(direction, turnedBy(cameraMotionAt(time), frame.cameraForward)) * frame.metresPerUnit;
-  return (kPanorama || kFisheye ? t : t * dot(direction, frame.cameraForward)) * frame.metresPerUnit;
+  vec3 forward = frame.cameraForward;
+  if (kMovingCamera) forward = turnedBy(cameraMotionAt(time), forward);
+  return (kPanorama || kFisheye ? t : t * dot(direction, forward)) * frame.metresPerUnit;
 }
 
 /// Adds light, or the share of it that belongs to the AOV.

@@ -186,12 +186,13 @@ vec3 lightThrough(Surface s, vec3 baseColor, vec3 direction) {
 /// Metres along the view axis, or from a panorama or a fisheye; of a path with this time.
 float depthOf(Surface s, float time) {
   vec3 way = s.position - frame.cameraPosition;
+  vec3 forward = frame.cameraForward;
   if (kMovingCamera) {
     RigidMotion m = cameraMotionAt(time);
-    way = s.position - (frame.cameraPosition + m.shift);
-    if (!kPanorama && !kFisheye) return dot(way, turnedBy(m, frame.cameraForward)) * frame.metresPerUnit;
+    way -= m.shift;
+    forward = turnedBy(m, forward);
   }
-  return (kPanorama || kFisheye ? length(way) : dot(way, frame.cameraForward)) * frame.metresPerUnit;
+  return (kPanorama || kFisheye ? length(way) : dot(way, forward)) * frame.metresPerUnit;
 }
 
 /// The number of the glTF node that was hit, from 1 on.

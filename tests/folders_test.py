@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 # "." is what the build generates.
-LAYERS = (".", "base", "base/worker", "image", "image/display", "image/compare", "image/worker", "image/files", "image/denoise", "scene/volume", "scene/volume/worker", "scene/sky", "scene", "bvh", "gltf",
+LAYERS = (".", "base", "base/worker", "image", "image/display", "image/compare", "image/worker", "image/files", "image/denoise", "scene/volume", "scene/volume/worker", "scene/sky", "scene", "scene/motion", "bvh", "gltf",
           "gltf/codecs/worker", "gltf/read", "gltf/check", "gltf/codecs", "gltf/build", "gltf/edit", "shader", "options", "pack", "render/film", "gl", "render",
           "view/picture", "view/files", "view", "view/window/draw", "view/window/dialog", "view/window", "session", "session/picture", "python", "view/live", "cli",
           # The instruments see the product, which does not see them.

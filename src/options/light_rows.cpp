@@ -4,7 +4,7 @@
 #include "base/errors.h"
 #include "options/option_row.h"
 #include "options/row_makers.h"
-#include "scene/blurred_map.h"
+#include "scene/sky/blurred_map.h"
 
 namespace fragtrace {
 

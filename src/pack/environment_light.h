@@ -8,7 +8,7 @@
 
 #include "image/image.h"
 #include "pack/gpu_scene.h"
-#include "scene/map_filter.h"
+#include "scene/sky/map_filter.h"
 
 namespace fragtrace {
 

@@ -15,7 +15,7 @@
 
 #include "base/bounds.h"
 #include "scene/local_space.h"
-#include "scene/motion/shutter_motion.h"
+#include "scene/shutter_motion.h"
 #include "scene/volume/grid.h"
 
 namespace fragtrace {

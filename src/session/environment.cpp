@@ -6,7 +6,7 @@
 
 #include "base/errors.h"
 #include "base/text.h"
-#include "scene/blurred_map.h"
+#include "scene/sky/blurred_map.h"
 #include "scene/sky/sky.h"
 #include "scene/studio.h"
 #include "session/say.h"

@@ -36,6 +36,8 @@ ROWS = [
     F("surface.sphereSurface tangent", "vec3(-q.z, 0.0, q.x)", "vec3(-q.z, 0.02, q.x)", "tangents of spheres are 2 % askew"),
     F("surface.triangleSurface position", "uintBitsToFloat(place.x)", "1.02 * uintBitsToFloat(place.x)", "points of triangles lie 2 % too far from the origin"),
     F("surface.triangleSurface normal", "vec3 n = interpolate", "vec3 n = 0.02 * s.geometricNormal + interpolate", "interpolated normals are drawn 2 % to the flat one"),
+    F("surface.triangleSurface moving", "vec3(planeThrough(at.v0, at.v1, at.v2))", "vec3(planeThrough(at.v0, at.v1, at.v2 + vec3(0.1)))", "surfaces that move face elsewhere"),
+    F("surface.movingTriangle", "slot % 2 == 1", "slot % 2 == 0", "surfaces that move are taken for their neighbours"),
     F("surface.unitOrZero", "v * inversesqrt(squared)", "vec3(1.02, 1.0, 1.0) * v * inversesqrt(squared)", "directions of instances are 2 % too long in x"),
     F("surface.inLocalSpace", "s.position) + space.place", "1.02 * s.position) + space.place", "points of instances lie 2 % too far out"),
     F("surface.surfaceAt", "s.positionError = error", "s.positionError = 0.02 * error", "rays leave surfaces at a fiftieth of the height"),

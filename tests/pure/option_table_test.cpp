@@ -39,6 +39,7 @@ bool isOption(const OptionRow& row) { return row.name[0] == '-' && row.traits.gr
 /// Options without which that one is refused.
 Words companionsOf(const std::string& name) {
   static const std::map<std::string, Words> needed{{"--focus-distance", {"--f-stop=2.8"}},
+                                                   {"--shutter", {"--animation-time=1"}},
                                                    {"--aperture-blades", {"--f-stop=2.8"}},
                                                    {"--fog-color", {"--fog-density=0.5"}},
                                                    {"--fog-anisotropy", {"--fog-density=0.5"}},

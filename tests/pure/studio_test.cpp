@@ -9,7 +9,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/constants.hpp>
 
-#include "scene/blurred_map.h"
+#include "scene/sky/blurred_map.h"
 
 namespace fragtrace {
 namespace {

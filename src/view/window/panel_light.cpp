@@ -4,7 +4,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "image/display/tone_map.h"
-#include "scene/blurred_map.h"
+#include "scene/sky/blurred_map.h"
 #include "view/environments.h"
 #include "view/window/draw/text.h"
 #include "view/window/panel_parts.h"

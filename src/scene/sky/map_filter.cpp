@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/map_filter.h"
+#include "scene/sky/map_filter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/blurred_map.h"
+#include "scene/sky/blurred_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "base/parallel.h"
-#include "scene/map_filter.h"
+#include "scene/sky/map_filter.h"
 
 namespace fragtrace {
 

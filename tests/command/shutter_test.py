@@ -1,0 +1,172 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""--shutter against the mean of 64 exact times, which one sequence draws."""
+import json
+import struct
+
+from support import SCENES, Case, Exr, main, run
+
+WIDTH, HEIGHT = 64, 36
+SIZE = ["--resolution", f"{WIDTH},{HEIGHT}"]
+TIMES = 64
+TILE = 4
+
+
+def tiles(values):
+    """Means of square tiles."""
+    result = []
+    for y in range(0, HEIGHT, TILE):
+        for x in range(0, WIDTH, TILE):
+            result.append(sum(values[j * WIDTH + i] for j in range(y, y + TILE) for i in range(x, x + TILE)) / TILE ** 2)
+    return result
+
+
+def animated_sphere(path, **keys):
+    """scenes/sphere-plane.gltf whose sphere moves in a second from where it is, or turns."""
+    root = json.loads((SCENES / "sphere-plane.gltf").read_text())
+    node = next(i for i, n in enumerate(root["nodes"]) if "shape" in n.get("extras", {}))
+    data = struct.pack("<2f", 0, 1)
+    views, accessors = root.setdefault("bufferViews", []), root.setdefault("accessors", [])
+    samplers, channels = [], []
+    parts = [(data, 2, "SCALAR")]
+    for target, (first, last) in keys.items():
+        kind = "VEC4" if target == "rotation" else "VEC3"
+        parts.append((struct.pack(f"<{2 * len(first)}f", *first, *last), 2, kind))
+        channels.append({"sampler": len(samplers), "target": {"node": node, "path": target}})
+        samplers.append({"input": len(accessors), "output": len(accessors) + len(parts) - 1})
+    buffer = len(root.setdefault("buffers", []))
+    whole = b""
+    for part, count, kind in parts:
+        views.append({"buffer": buffer, "byteOffset": len(whole), "byteLength": len(part)})
+        accessors.append({"bufferView": len(views) - 1, "componentType": 5126, "count": count, "type": kind})
+        whole += part
+    accessors[-len(parts)].update(min=[0], max=[1])
+    name = path.with_suffix(".bin")
+    name.write_bytes(whole)
+    root["buffers"].append({"byteLength": len(whole), "uri": name.name})
+    root["animations"] = [{"samplers": samplers, "channels": channels}]
+    path.write_text(json.dumps(root))
+    return path
+
+
+class Shutter(Case):
+    def blurred(self, scene, time, seconds, *options):
+        path = self.folder / "blurred.exr"
+        self.renders(scene, "-o", path, "--quiet", *SIZE, "--animation-time", time, "--shutter", 360, "--fps", 1 / seconds, *options)
+        return Exr(path)
+
+    def exact(self, scene, time, seconds, *options):
+        """The mean of each layer over the middles of 64 equal parts of the time."""
+        fps = 2 * TIMES / seconds
+        middle = round(time * fps)
+        self.assertAlmostEqual(middle, time * fps, delta=1e-6)
+        self.renders(scene, "-o", self.folder / "exact.######.exr", "--quiet", *SIZE, "--fps", fps, "--frames",
+                     f"{middle - TIMES + 1}:{middle + TIMES - 1}:2", *options)
+        sums = {}
+        for path in self.folder.glob("exact.*.exr"):
+            exr = Exr(path)
+            for name in exr.layers:
+                values = exr.values(name)
+                sums[name] = [a + b for a, b in zip(sums.get(name, [0] * len(values)), values)]
+            path.unlink()
+        return {name: [v / TIMES for v in values] for name, values in sums.items()}
+
+    def assert_close(self, exr, exact, most, of, names="RGB"):
+        """Tiles differ by at most so much of the layer's size, which is its largest tile; and by a fourth of that on the whole."""
+        for name in names:
+            ours, wanted = tiles(exr.values(name)), tiles(exact[name])
+            size = 1 if name.startswith("normal") else max(wanted)
+            off = [(a - b) / size for a, b in zip(ours, wanted)]
+            self.assertLess(max(map(abs, off)), most, (of, name))
+            self.assertLess(abs(sum(off)) / len(off), most / 4, (of, name))
+
+    def test_surfaces_and_camera(self):
+        """The flat stage has no noise but that of edges. A segment may be half a pixel off its arc; here they are 0.04 and 0.16 off."""
+        wheel = SCENES / "wheel.gltf"
+        stats = self.folder / "stats.json"
+        layers = ["R", "G", "B", "depth.Z", "normal.X", "normal.Y", "normal.Z"]
+        for camera, fps, segments, most, names in (("camera", 64, 1, 0.012, "RGB"), ("camera", 14, 2, 0.04, "RGB"), ("follower", 64, 1, 0.025, layers)):
+            options = ["--camera", camera, "--stage", "flat", "--no-background", *(["--aov", "depth,normal"] if names == layers else [])]
+            blurred = self.blurred(wheel, 0.25, 1 / fps, *options, "--spp", 2048, "--stats", stats)
+            exact = self.exact(wheel, 0.25, 1 / fps, *options, "--spp", 32)
+            self.assert_close(blurred, exact, most, (camera, fps), names)
+            motion = json.loads(stats.read_text())["motion"]
+            self.assertLessEqual(motion["pixels_off"], 0.5)
+            self.assertEqual(motion["segments"], segments, fps)
+
+    def test_light_of_lamps_that_move(self):
+        """Light samples find a lamp where it is at the path's time, with all ways to choose it, and scattered rays find it as well."""
+        wheel = SCENES / "wheel.gltf"
+        options = ["--camera", "follower", "--bounces", 1]
+        exact = self.exact(wheel, 0.25, 1 / 32, *options, "--spp", 16)
+        for way in (["--light-selection", "tree"], ["--light-selection", "power", "--tune", "gpu"], ["--dispatch", "compute", "--light-reuse", "candidates"]):
+            self.assert_close(self.blurred(wheel, 0.25, 1 / 32, *options, "--spp", 512, *way), exact, 0.04, way)
+        self.assert_close(self.blurred(wheel, 0.25, 1 / 32, *options, "--spp", 1024, "--disable", "light-sampling"), exact, 0.06, "scattering")
+
+    def test_a_sphere(self):
+        scene = animated_sphere(self.folder / "moving.gltf", translation=((-0.4, 0.2, 0), (0.6, 0.5, 0.3)), scale=((1, 1, 1), (0.6, 0.6, 0.6)))
+        options = ["--stage", "shadows"]
+        self.assert_close(self.blurred(scene, 0.5, 0.5, *options, "--spp", 2048), self.exact(scene, 0.5, 0.5, *options, "--spp", 32), 0.012, "sphere")
+
+    def test_a_turn(self):
+        """The pictures of a whole turn with an open shutter have one mean, however many they are, which is that of many sharp ones."""
+        means = []
+        for pictures, shutter, spp in ((4, 360, 1024), (7, 360, 512), (64, 0, 32)):
+            self.renders(SCENES / "plastics.gltf", "-o", self.folder / "turn.##.exr", "--quiet", *SIZE, "--stage", "flat", "--turntable", pictures,
+                         "--shutter", shutter, "--spp", spp, "--aov", "depth", "--no-background")
+            layers = [Exr(path) for path in sorted(self.folder.glob("turn.*.exr"))]
+            self.assertEqual(len(layers), pictures)
+            means.append({name: [sum(v) / pictures for v in zip(*(e.values(name) for e in layers))] for name in ("R", "G", "B", "A", "depth.Z")})
+            for path in self.folder.glob("turn.*.exr"):
+                path.unlink()
+        for mean in means[:2]:
+            for name, values in mean.items():
+                ours, wanted = tiles(values), tiles(means[2][name])
+                self.assertLess(max(abs(a - b) for a, b in zip(ours, wanted)) / max(wanted), 0.02, name)
+
+    def test_what_stands_still(self):
+        """After its end an animation stands still: the picture is that without a shutter, and statistics say so."""
+        stats = self.folder / "stats.json"
+        still = self.picture("wheel", "still.pfm", *SIZE, "--spp", 4, "--animation-time", 2)
+        open_ = self.picture("wheel", "open.pfm", *SIZE, "--spp", 4, "--animation-time", 2, "--shutter", 180, "--stats", stats)
+        self.assertEqual(still, open_)
+        self.assertIn("shutter: nothing moves while it is open", json.loads(stats.read_text())["skipped"])
+
+    def test_a_picture_in_parts(self):
+        """Regions and ranges of samples have the bits of the whole."""
+        options = ["--animation-time", 0.25, "--shutter", 180, "--camera", "follower", *SIZE]
+        whole = self.picture("wheel", "whole.exr", *options, "--spp", 8)
+        region = self.picture("wheel", "region.exr", *options, "--spp", 8, "--region", "30,14,16,12")
+        for name in "RGB":
+            self.assertEqual([row[30:46] for row in whole.layers[name][14:26]], region.layers[name])
+        for first in (0, 4):
+            self.picture("wheel", f"part-{first}.exr", *options, "--spp", 4, "--sample-offset", first)
+        merged = self.folder / "merged.exr"
+        self.assertEqual(run("merge", self.folder / "part-0.exr", self.folder / "part-4.exr", "-o", merged).returncode, 0)
+        for name in "RGB":
+            for a, b in zip(Exr(merged).values(name), whole.values(name)):
+                self.assertAlmostEqual(a, b, delta=1e-5 * max(1, abs(b)))
+        other = self.folder / "other.exr"
+        options[options.index(180)] = 90
+        self.picture("wheel", other.name, *options, "--spp", 4, "--sample-offset", 4)
+        self.fails(3, "merge", self.folder / "part-0.exr", other, "-o", self.folder / "no.exr", says=["shutter"])
+
+    def test_goes_with(self):
+        """Layers, filters, lenses, media and the catcher are drawn at the times of the picture."""
+        options = ["--animation-time", 0.25, "--shutter", 180, "--resolution", "32,18", "--spp", 2]
+        for more in (["--denoise", "variance"], ["--shadow-catcher", "bottom", "--denoise", "variance"], ["--fog-density", 0.02, "--denoise", "variance"],
+                     ["--aov", "object,material,crypto-object,emission,diffuse"], ["--camera-type", "panorama", "--aov", "depth"], ["--f-stop", 1.4, "--camera", "follower"],
+                     ["--schedule", "wavefront", "--stage", "gi"], ["--disable", "watertight"], ["--aov", "light:glow", "--light-selection", "uniform"]):
+            self.picture("wheel", "x.exr", *options, *more)
+
+    def test_refusals(self):
+        wheel = SCENES / "wheel.gltf"
+        moving = ["render", wheel, "-o", self.folder / "x.png", "--animation-time", 0.1, "--shutter", 180]
+        self.fails(2, "render", wheel, "-o", self.folder / "x.png", "--shutter", 180, says=["--shutter: goes with --frames, --turntable or --animation-time"])
+        for option, words in (("--light-reuse", "spatial"), ("--caustics", "on"), ("--traversal", "iterative"), ("--traversal", "literals")):
+            self.fails(2, *moving, option, words, says=[f"--shutter: not with {option} {words}"])
+        self.fails(2, *moving[:-1], 400, says=["--shutter"])
+
+
+if __name__ == "__main__":
+    main()
