@@ -76,14 +76,6 @@ RigidMotion motionOver(vec4 turn, vec3 slide, float part) {
   return m;
 }
 
-/// A ray of a camera at `position` that has moved since.
-CameraRay carried(RigidMotion m, vec3 position, CameraRay ray) {
-  CameraRay r;
-  r.origin = position + turnedBy(m, ray.origin - position) + m.shift;
-  r.direction = normalize(turnedBy(m, ray.direction));
-  return r;
-}
-
 // An equirectangular panorama and an equidistant fisheye. Directions are in the camera's own axes: x to the right, y
 // up, z forward. Those that are returned are unit vectors; others have any length.
 

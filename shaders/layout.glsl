@@ -47,10 +47,11 @@ const uint kWaveLaneRows = kWaveSlots * kPathRows + 1u;
 // A draw of the compute entries has a multiple of so many work groups (work_group.glsl).
 const uint kWorkGroupHands = 8u;
 
-// The uniform block of one draw, and those of the scene's fog and of its grid.
+// The uniform block of one draw, and those of the scene's fog, of its grid, and of a camera that moves.
 const uint kFrameBinding = 0u;
 const uint kFogBinding = 1u;
 const uint kVolumeBinding = 2u;
+const uint kShutterBinding = 3u;
 
 // A program draws an AOV in place of radiance (kAov); as enum Aov of src/shader/aov.h.
 const int kAovNone = 0;
@@ -80,7 +81,7 @@ const uint kPixelTargetShift = 3u;  // above: the most samples this pixel is to 
 const int kTraversalDone = -2147483647 - 1;
 const uint kNodeRows = 2u;
 const uint kLeafRows = 5u;
-// Where surfaces move (kMoving), a leaf has these rows twice: when its segment begins and when it ends.
+// Where surfaces move (kMoving), nodes and leaves have these rows twice: when their segment begins and when it ends.
 const uint kLeafBlock = 4u;  // the iterative traversal tests this many leaves in one loop iteration
 
 // An instance is a leaf of the upper tree whose index is from here on: kInstanceLeaf + its number, which is that of its
@@ -272,11 +273,23 @@ struct Frame {
   float environmentScale;   // factor of the environment's radiance
   vec4 lens;                // of the camera, local space: radius, distance in focus along the view; blades
   vec4 lensShift;           // x, y: the middle of the picture, in halves of its width and height
-  // While the shutter is open (camera.glsl): the camera turns about an axis by radians, and moves.
-  vec4 cameraTurn;
-  vec4 cameraSlide;         // local space
   // Surfaces move in straight pieces: their number, and nodes and leaves of each; vertices of one pose.
   ivec4 segments;
+};
+
+// A camera that moves while the shutter is open (shutter/camera.glsl), in segments of equal time; std140. Of each: the
+// turn from the camera of Frame to that in the segment's middle, an axis and an angle; the position there, local space;
+// the turn over the whole segment; and the motion of the position meanwhile.
+struct CameraSegment {
+  vec4 turn;
+  vec4 position;
+  vec4 turnOver;
+  vec4 slide;
+};
+const int kMostCameraSegments = 32;
+struct Shutter {
+  ivec4 count;  // of the segments
+  CameraSegment camera[kMostCameraSegments];
 };
 
 // Fog in a ball round the scene (media/fog.glsl); std140.

@@ -118,9 +118,6 @@ Path pathAlong(vec3 origin, vec3 direction, Sampler sampler, int steps) {
   return extend(p);
 }
 
-/// How far the camera has moved from the middle of the shutter's time (kMovingCamera).
-RigidMotion cameraMotionAt(float time) { return motionOver(frame.cameraTurn, frame.cameraSlide.xyz, time - 0.5); }
-
 /// The ray of a panorama or a fisheye.
 CameraRay roundCameraRay(vec2 point) {
   vec2 angles = point * vec2(length(frame.cameraRight), length(frame.cameraUp));
@@ -161,7 +158,7 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
     vec2 lens = frame.lens.x * sampleAperture(uv.x, uv.y, int(frame.lens.z));
     ray = throughLens(ray, frame.cameraRight, frame.cameraUp, frame.cameraForward, lens, frame.lens.y);
   }
-  if (kMovingCamera && !kIdAov) ray = carried(cameraMotionAt(timeOf(sampler)), frame.cameraPosition, ray);
+  if (kMovingCamera && !kIdAov) ray = carried(cameraAt(timeOf(sampler)), ray);
   // Outside of the fisheye's circle the ray goes up from above all, and meetSurroundings() gives it no light.
   if (kFisheye && !withinFisheye(point)) ray = CameraRay(vec3(0.0, kAboveAll, 0.0), vec3(0.0, 1.0, 0.0));
   Path p = pathAlong(ray.origin, ray.direction, sampler, steps);
@@ -172,7 +169,7 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
 /// The depth of a point at a distance along the camera's ray of a path with this time, in metres.
 float depthAlong(vec3 direction, float t, float time) {
   vec3 forward = frame.cameraForward;
-  if (kMovingCamera) forward = turnedBy(cameraMotionAt(time), forward);
+  if (kMovingCamera) forward = turnedWith(cameraAt(time), forward);
   return (kPanorama || kFisheye ? t : t * dot(direction, forward)) * frame.metresPerUnit;
 }
 

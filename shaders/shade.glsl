@@ -188,9 +188,9 @@ float depthOf(Surface s, float time) {
   vec3 way = s.position - frame.cameraPosition;
   vec3 forward = frame.cameraForward;
   if (kMovingCamera) {
-    RigidMotion m = cameraMotionAt(time);
-    way -= m.shift;
-    forward = turnedBy(m, forward);
+    CameraPose pose = cameraAt(time);
+    way = s.position - pose.position;
+    forward = turnedWith(pose, forward);
   }
   return (kPanorama || kFisheye ? length(way) : dot(way, forward)) * frame.metresPerUnit;
 }

@@ -82,6 +82,7 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "media/fog_block.glsl"
 #include "media/volume.glsl"
 #include "media/volume_block.glsl"
+#include "shutter/camera.glsl"
 #include "path.glsl"
 #include "media/scatter.glsl"
 #include "reuse/candidates.glsl"

@@ -227,7 +227,9 @@ Traversal changeSpace(Traversal s) {
 /// only the ray's own limit discards. Boxes are padded when packed, so that rounding in the slab test cannot lose one
 /// that holds a hit (docs/design/numerics.md).
 Traversal stepNode(Traversal s, TreeRay ray, float rayLimit, TreeFrame tree, bool there) {
-  NodePair n = loadNode(there ? s.node : 0);
+  NodePair n;
+  if (kMoving) n = loadMovingNode(there ? s.node : 0, s.part);
+  if (!kMoving) n = loadNode(there ? s.node : 0);
   float limit = kFrontToBack ? s.t : rayLimit;
   // A surface that was passed must not end the ray before others at its distance.
   if (kPassing) limit += roundingOf(limit, tree);

@@ -72,6 +72,17 @@ vec3 onItsWay(vec3 from, vec3 to, float part) {
   return point;
 }
 
+/// The node at a part of its segment.
+NodePair loadMovingNode(int index, float part) {
+  NodePair n = loadNode(2 * index);
+  NodePair to = loadNode(2 * index + 1);
+  n.low0 += part * (to.low0 - n.low0);
+  n.high0 += part * (to.high0 - n.high0);
+  n.low1 += part * (to.low1 - n.low1);
+  n.high1 += part * (to.high1 - n.high1);
+  return n;
+}
+
 /// The leaf at a part of its segment.
 LeafPair loadMovingLeaf(int index, float part) {
   LeafPair l = loadLeaf(2 * index);

@@ -8,24 +8,20 @@ namespace fragtrace {
 
 namespace {
 
-/// Boxes of a segment's primitives: triangles first, then spheres.
-std::vector<Bounds> boundsIn(const Scene& scene, uint32_t segment) {
+/// Boxes of primitives in a pose: triangles first, then spheres.
+std::vector<Bounds> boundsInPose(const Scene& scene, uint32_t pose) {
   const ShutterMotion& motion = scene.motion;
   std::vector<Bounds> bounds;
   bounds.reserve(motion.triangles + motion.spheres);
   for (uint32_t i = 0; i < motion.triangles; ++i) {
-    const Triangle& t = scene.triangles[segment * motion.triangles + i];
+    Triangle t = scene.triangles[i];
+    t.vertex += pose * motion.vertices;
     Bounds box;
     for (const glm::vec3& corner : cornersOf(scene, t)) box.include(corner);
-    for (const glm::vec3& corner : cornersOf(scene, atEnd(scene, t))) box.include(corner);
     bounds.push_back(box);
   }
-  for (uint32_t i = 0; i < motion.spheres; ++i) {
-    const uint32_t sphere = segment * motion.spheres + i;
-    Bounds box = sphereBounds(scene.spheres[sphere]);
-    box.include(sphereBounds(atEnd(scene, sphere)));
-    bounds.push_back(box);
-  }
+  for (uint32_t i = 0; i < motion.spheres; ++i)
+    bounds.push_back(sphereBounds(scene.spheres[pose * motion.spheres + i]));
   return bounds;
 }
 
@@ -41,20 +37,27 @@ uint32_t primitiveIn(const Scene& scene, uint32_t segment, uint32_t primitive) {
 
 Bvh buildMovingBvh(const Scene& scene) {
   const ShutterMotion& motion = scene.motion;
-  const Bvh base = buildBvh(boundsIn(scene, motion.segments / 2), motion.triangles);
-  const auto nodes = uint32_t(base.nodes.size());
-  const auto leaves = uint32_t(base.leaves.size());
+  const uint32_t middle = motion.segments / 2;
+  std::vector<Bounds> whole = boundsInPose(scene, middle);
+  const std::vector<Bounds> next = boundsInPose(scene, middle + 1);
+  for (size_t i = 0; i < whole.size(); ++i) whole[i].include(next[i]);
+  Bvh begins = buildBvh(std::move(whole), motion.triangles);
+  Bvh ends = begins;
+  const auto nodes = uint32_t(begins.nodes.size());
+  const auto leaves = uint32_t(begins.leaves.size());
   Bvh all;
-  all.depth = base.depth;
+  all.depth = begins.depth;
   for (uint32_t segment = 0; segment < motion.segments; ++segment) {
-    Bvh tree = base;
-    refitTo(tree, boundsIn(scene, segment));
-    all.bounds.include(tree.bounds);
-    for (BvhNode node : tree.nodes) {
+    refitTo(begins, boundsInPose(scene, segment));
+    refitTo(ends, boundsInPose(scene, segment + 1));
+    all.bounds.include(begins.bounds);
+    all.bounds.include(ends.bounds);
+    for (BvhNode node : begins.nodes) {
       for (uint32_t& child : node.child) child += segment * ((child & kBvhLeafBit) != 0 ? leaves : nodes);
       all.nodes.push_back(node);
     }
-    for (BvhLeaf leaf : tree.leaves) {
+    for (const BvhNode& node : ends.nodes) all.endBounds.push_back(node.bounds);
+    for (BvhLeaf leaf : begins.leaves) {
       for (uint32_t& primitive : leaf.primitive) primitive = primitiveIn(scene, segment, primitive);
       all.leaves.push_back(leaf);
     }

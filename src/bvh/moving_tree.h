@@ -6,9 +6,9 @@
 
 namespace fragtrace {
 
-/// One tree for each segment, one after the other: the same nodes and leaves, whose boxes hold where their
-/// primitives are when the segment begins and when it ends, and so in between. A node's child is of its
-/// segment. `depth` is that of each.
+/// One tree for each segment, one after the other: the same nodes and leaves, with boxes of what they hold
+/// when the segment begins, and when it ends. What moves straight is in a box that moves straight from one to
+/// the other. A node's child is of its segment. `depth` is that of each.
 Bvh buildMovingBvh(const Scene& scene);
 
 }  // namespace fragtrace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <glm/gtc/constants.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -110,8 +111,11 @@ Outcome drawFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOp
     const glm::dvec3 focalPoint = turningPoint(camera, loaded.overrides, loaded.scene.bounds);
     const auto turned = [&](double angle) { return turnedCamera(camera, focalPoint, angle); };
     loaded.camera = turned(frame.turn);
-    loaded.motion =
-        motionBetween(turned(frame.turn - 0.5 * frame.sweep), turned(frame.turn + 0.5 * frame.sweep));
+    const int segments = int(std::ceil(frame.sweep / glm::half_pi<double>()));
+    std::vector<Camera> poses;
+    for (int i = 0; i <= segments && segments > 0; ++i)
+      poses.push_back(turned(frame.turn + (double(i) / segments - 0.5) * frame.sweep));
+    loaded.motion = segmentsThrough(poses);
     loaded.view = makeView(options, loaded, loaded.camera);
   }
   const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "image/limits.h"
 #include "scene/scene.h"
@@ -37,5 +38,8 @@ struct KeptDocument;
 /// origin. A call that throws may leave nothing there.
 Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options = {},
                std::shared_ptr<KeptDocument>* kept = nullptr);
+
+/// The times of the keys of the animation that the document was posed by last, in seconds, rising.
+std::vector<double> keyTimesOf(const KeptDocument& document);
 
 }  // namespace fragtrace

@@ -43,8 +43,9 @@ bool hasNoSky(const Options& o) { return !o.light.sky.on; }
 constexpr const char* kNoSky = "there is no --sky";
 
 constexpr VainRow kRows[] = {
-    {"--fps", [](const Options& o) { return !o.output.sequence.frames && !isVideo(o); },
-     "goes with --frames, or with a video"},
+    {"--fps",
+     [](const Options& o) { return !o.output.sequence.frames && !isVideo(o) && o.camera.shutter <= 0.0; },
+     "goes with --frames, --shutter, or with a video"},
     {"--background-blur", [](const Options& o) { return o.light.hdriFile.empty() && !o.light.sky.on; },
      "there is no --hdri-file and no --sky to blur"},
     {"--sun-elevation", hasNoSky, kNoSky},

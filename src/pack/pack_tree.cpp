@@ -39,13 +39,11 @@ uint32_t childWord(uint32_t child, uint32_t firstInstance) {
   return ~((child & ~(kBvhLeafBit | kBvhInstanceBit)) + firstInstance + layout::kInstanceLeaf);
 }
 
-void appendNodes(std::span<const BvhNode> nodes, const BoxGrid& grid, uint32_t firstInstance, Words& words) {
-  for (const BvhNode& node : nodes) {
-    for (int side = 0; side < 2; ++side) {
-      const GridBox q = quantise(node.bounds[side], grid);
-      for (int axis = 0; axis < 3; ++axis) words.push_back(q.low[axis] | q.high[axis] << 16);
-      words.push_back(childWord(node.child[side], firstInstance));
-    }
+void appendNode(const BvhNode& node, const BoxGrid& grid, uint32_t firstInstance, Words& words) {
+  for (int side = 0; side < 2; ++side) {
+    const GridBox q = quantise(node.bounds[side], grid);
+    for (int axis = 0; axis < 3; ++axis) words.push_back(q.low[axis] | q.high[axis] << 16);
+    words.push_back(childWord(node.child[side], firstInstance));
   }
 }
 
@@ -109,14 +107,22 @@ BoxGrid makeGrid(const Bounds& bounds) {
   return grid;
 }
 
-Words packNodes(const Bvh& bvh, const BoxGrid& grid) {
+Words packNodes(const Bvh& bvh, const BoxGrid& grid, bool moving) {
   Words words;
-  words.reserve(bvh.nodes.size() * layout::kNodeRows * 4);
+  words.reserve(bvh.nodes.size() * layout::kNodeRows * (moving ? 8u : 4u));
   const std::span<const BvhNode> nodes(bvh.nodes);
   const uint32_t firstInstance = firstInstanceBlock(bvh);
-  appendNodes(nodes.first(topNodeCount(bvh)), grid, firstInstance, words);
-  for (const BvhMesh& mesh : bvh.meshes)
-    appendNodes(nodes.subspan(mesh.root, mesh.nodeCount), makeGrid(mesh.bounds), firstInstance, words);
+  for (size_t i = 0; i < topNodeCount(bvh); ++i) {
+    appendNode(nodes[i], grid, firstInstance, words);
+    if (!moving) continue;
+    const BvhNode end{bvh.endBounds.empty() ? nodes[i].bounds : bvh.endBounds[i], nodes[i].child};
+    appendNode(end, grid, firstInstance, words);
+  }
+  for (const BvhMesh& mesh : bvh.meshes) {
+    const BoxGrid ofMesh = makeGrid(mesh.bounds);
+    for (const BvhNode& node : nodes.subspan(mesh.root, mesh.nodeCount))
+      appendNode(node, ofMesh, firstInstance, words);
+  }
   return words;
 }
 

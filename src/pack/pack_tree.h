@@ -10,8 +10,8 @@ BoxGrid makeGrid(const Bounds& bounds);
 
 /// Inner nodes with both children's boxes, 16 bits a coordinate, rounded outwards and padded by 1/8 of a cell
 /// against the rounding of the slab test (docs/design/numerics.md). Trees of shared meshes have grids of
-/// their own.
-Words packNodes(const Bvh& bvh, const BoxGrid& grid);
+/// their own. Moving ones come twice, as leaves do.
+Words packNodes(const Bvh& bvh, const BoxGrid& grid, bool moving = false);
 
 /// Leaves as structure of arrays, padded with empty ones to a multiple of kLeafBlock. Moving ones come twice,
 /// when their segment begins and when it ends.

@@ -39,6 +39,20 @@ layout::Fog packFog(const Fog& fog, const LocalSpace& space) {
           glm::vec4(fog.extinction * space.unit, falls, (fog.base - space.origin.y) / space.unit, 0.0)};
 }
 
+layout::Shutter packShutter(const View& view) {
+  layout::Shutter packed{};
+  std::vector<CameraSegment> segments = view.motion;
+  if (segments.empty()) segments.push_back({view.camera, {}});  // a program that is forced to have some
+  packed.count.x = int(std::min(segments.size(), size_t(layout::kMostCameraSegments)));
+  for (int i = 0; i < packed.count.x; ++i) {
+    const auto& [middle, motion] = segments[size_t(i)];
+    const CameraMotion turn = motionBetween(view.camera, middle);
+    packed.camera[i] = {glm::vec4(turn.axis, turn.angle), glm::vec4(view.space.localOf(middle.position), 0.0),
+                        glm::vec4(motion.axis, motion.angle), glm::vec4(motion.slide / view.space.unit, 0.0)};
+  }
+  return packed;
+}
+
 layout::Volume packVolume(const Volume& volume, const PackedGrid& grid, const LocalSpace& space) {
   glm::dmat4 local(space.unit);
   local[3] = glm::dvec4(space.origin, 1.0);
@@ -66,6 +80,7 @@ Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads, Pr
       buffers_(scene, reads),
       frameBuffer_(makeBuffer()),
       fogBuffer_(makeBuffer()),
+      shutterBuffer_(makeBuffer()),
       volumeBuffer_(makeBuffer()),
       progressBuffer_(makeBuffer()),
       progressRead_(makeBuffer()),
@@ -74,6 +89,7 @@ Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads, Pr
       inFlight_(context.software ? 1 : kMostInFlight) {
   glNamedBufferStorage(frameBuffer_.name(), sizeof(layout::Frame), nullptr, GL_DYNAMIC_STORAGE_BIT);
   glNamedBufferStorage(fogBuffer_.name(), sizeof(layout::Fog), nullptr, GL_DYNAMIC_STORAGE_BIT);
+  glNamedBufferStorage(shutterBuffer_.name(), sizeof(layout::Shutter), nullptr, GL_DYNAMIC_STORAGE_BIT);
   glNamedBufferStorage(volumeBuffer_.name(), sizeof(layout::Volume), nullptr, GL_DYNAMIC_STORAGE_BIT);
   glNamedBufferStorage(progressBuffer_.name(), sizeof(layout::Progress), nullptr, GL_DYNAMIC_STORAGE_BIT);
   constexpr GLbitfield kRead = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
@@ -138,8 +154,6 @@ void Renderer::setFrame(const Film& film, const View& view) {
   frame_.lens = glm::vec4(float(view.lens.radius / view.space.unit),
                           float(view.lens.focusDistance / view.space.unit), float(view.lens.blades), 0.0f);
   frame_.lensShift = glm::vec4(2.0 * camera.shift, 0.0, 0.0);
-  frame_.cameraTurn = glm::vec4(view.motion.axis, view.motion.angle);
-  frame_.cameraSlide = glm::vec4(view.motion.slide / view.space.unit, 0.0);
   frame_.environmentScale = float(view.hdriIntensity) * view.surroundings;
   frame_.environmentChance = environmentChance(lightShare_, view.hdriIntensity);
   frame_.pictureSize = placed.whole;
@@ -171,6 +185,12 @@ DrawTarget Renderer::begin(const RenderPass& pass) {
     movedBytes() += sizeof fog;
     glNamedBufferSubData(fogBuffer_.name(), 0, sizeof fog, &fog);
     glBindBufferBase(GL_UNIFORM_BUFFER, layout::kFogBinding, fogBuffer_.name());
+  }
+  if (has(pass.variant.traits, Trait::MovingCamera)) {
+    const layout::Shutter shutter = packShutter(pass.view);
+    movedBytes() += sizeof shutter;
+    glNamedBufferSubData(shutterBuffer_.name(), 0, sizeof shutter, &shutter);
+    glBindBufferBase(GL_UNIFORM_BUFFER, layout::kShutterBinding, shutterBuffer_.name());
   }
   if (has(pass.variant.traits, Trait::DensityGrid)) {
     const layout::Volume volume = packVolume(pass.view.volume, grid_, pass.view.space);

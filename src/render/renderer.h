@@ -47,12 +47,12 @@ bool canSplat();
 
 /// Settings that can change from picture to picture without touching program or buffers.
 struct View {
-  Camera camera;                ///< world space
-  CameraMotion motion;          ///< of the camera, when the variant has one
-  LocalSpace space;             ///< of the scene
-  Lens lens;                    ///< when the variant has one
-  double hdriRotation = 0.0;    ///< radians about +Y
-  double hdriIntensity = 1.0;   ///< factor of the environment's radiance
+  Camera camera;                      ///< world space
+  std::vector<CameraSegment> motion;  ///< of the camera, when the variant has one
+  LocalSpace space;                   ///< of the scene
+  Lens lens;                          ///< when the variant has one
+  double hdriRotation = 0.0;          ///< radians about +Y
+  double hdriIntensity = 1.0;         ///< factor of the environment's radiance
   float surroundings = 1.0f;    ///< factor of all light from outside the scene, as the camera sees it, too;
                                 ///< no light sample depends on it
   glm::vec3 background{0.0f};   ///< seen by camera rays that miss
@@ -226,6 +226,7 @@ class Renderer {
   std::optional<Film> reservoirs_;  ///< a reservoir a pixel, for this sample (shaders/reuse/neighbours.glsl)
   GlBuffer frameBuffer_;
   GlBuffer fogBuffer_;
+  GlBuffer shutterBuffer_;
   GlBuffer volumeBuffer_;
   GlBuffer progressBuffer_;
   GlBuffer progressRead_;                             ///< copies of it, a slot a flight

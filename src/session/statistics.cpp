@@ -103,7 +103,10 @@ std::string statisticsText(const Statistics& s) {
         {"rounds", s.adaptive->rounds}};
   }
   addLighting(json, s);
-  if (s.motionSegments > 0) json["motion"] = {{"segments", s.motionSegments}, {"pixels_off", s.motionPixels}};
+  if (s.motion.segments > 0)
+    json["motion"] = {{"segments", s.motion.segments}, {"pixels_off", s.motion.pixels}};
+  if (s.motion.cameraSegments > 0)
+    json["camera_motion"] = {{"segments", s.motion.cameraSegments}, {"pixels_off", s.motion.cameraPixels}};
   if (s.featureMs > 0.0) json["feature_ms"] = s.featureMs;
   if (s.denoise) json["denoise"] = denoiseJson(*s.denoise);
   json["width"] = s.size.x;

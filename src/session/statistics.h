@@ -34,6 +34,15 @@ struct DenoiseStatistics {
   double loadMs = 0.0;     ///< time to open the library
 };
 
+/// Statistics of a picture with --shutter: segments in which surfaces and the camera move, 0 where they stand
+/// still, and the most by which something is off its way then, pixels.
+struct MotionStatistics {
+  uint32_t segments = 0;
+  double pixels = 0.0;
+  uint32_t cameraSegments = 0;
+  double cameraPixels = 0.0;
+};
+
 /// The contents of `--stats` for one render; the JSON's keys are the names here.
 struct Statistics {
   SceneDescription scene;
@@ -57,8 +66,7 @@ struct Statistics {
   size_t geometryBytes = 0;  ///< bytes among these for tree, leaves, records and vertex attributes
   bool defaultLight = false;
   std::string defaultLightReason;
-  uint32_t motionSegments = 0;  ///< straight pieces in which surfaces move; 0: they stand still
-  double motionPixels = 0.0;    ///< the most by which a vertex is off its way then, pixels
+  MotionStatistics motion;
   std::optional<SunPlace> sun;  ///< of a sky
   double clampIndirect = 0.0;   ///< 0: not clamped
   std::string lightSelection;   ///< name of the choice of lights; empty: there is none to choose

@@ -108,6 +108,7 @@ struct Assembly {
     if (name == "read.glsl") return readsText(variant.reads);
     if (name == "frame.glsl")
       return fileText(variant.gpu ? "tune/frame_uniform.glsl" : "tune/frame_variable.glsl");
+    if (name == "shutter/camera.glsl" && !has(variant.traits, Trait::MovingCamera)) return "";
     if (name == "media/fog_block.glsl" && !has(variant.traits, Trait::Fog)) return "";
     if (name == "media/volume_block.glsl" && !has(variant.traits, Trait::DensityGrid)) return "";
     if (name == "stack.glsl") return shared ? fileText("tune/stack_shared.glsl") : stackText(vectors);

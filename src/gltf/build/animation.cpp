@@ -157,6 +157,7 @@ void applyChannel(Document& document, const Channel& channel, double seconds, js
     return;
   }
   Keyframes keys = readKeyframes(document, channel, rule->width, rule->width == 0, rule->isFlag);
+  document.keyTimes.insert(document.keyTimes.end(), keys.times.begin(), keys.times.end());
   keys.isRotation = channel.target.starts_with("/nodes/") && channel.target.ends_with("/rotation");
   if (keys.isRotation) checkRotations(keys, channel, document.diagnostics);
   const std::vector<double> values = valuesAt(keys, seconds);

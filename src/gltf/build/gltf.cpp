@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <set>
 
 #include "base/errors.h"
 #include "bvh/contacts.h"
@@ -149,6 +150,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
   ShownMeshes shown = showMeshes(document, scene.materials, nodes);
   if (keeps) {
     takeBack(document, *read);
+    read->keyTimes = std::move(document.keyTimes);
     // It outlives this load.
     read->document.progress = {};
     read->document.access.progress = {};
@@ -187,6 +189,11 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
 }
 
 }  // namespace
+
+std::vector<double> keyTimesOf(const KeptDocument& document) {
+  const std::set<double> times(document.keyTimes.begin(), document.keyTimes.end());
+  return {times.begin(), times.end()};
+}
 
 Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options,
                std::shared_ptr<KeptDocument>* kept) {

@@ -41,6 +41,7 @@ struct Document {
   std::vector<Skin> skins;
   std::vector<std::string> sceneNames, animationNames, materialVariants;
   std::vector<std::optional<double>> animationSeconds;  ///< as in Scene
+  std::vector<float> keyTimes;                          ///< of the animation that poses it
   Diagnostics diagnostics;
   int textureSide;             ///< larger pictures are scaled down
   bool drawMissingTextures;    ///< pictures that cannot be read are warned of

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/motion/camera_motion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
@@ -48,6 +49,30 @@ Camera movedBy(const CameraMotion& motion, double part, Camera middle) {
   middle.forward = turn * middle.forward;
   middle.up = turn * middle.up;
   return middle;
+}
+
+std::vector<CameraSegment> segmentsThrough(std::span<const Camera> poses) {
+  const auto same = [&](const Camera& c) {
+    return c.position == poses[0].position && c.forward == poses[0].forward && c.up == poses[0].up;
+  };
+  std::vector<CameraSegment> segments;
+  if (poses.empty() || std::ranges::all_of(poses, same)) return segments;
+  for (size_t i = 0; i + 1 < poses.size(); ++i) {
+    CameraSegment segment{poses[i], motionBetween(poses[i], poses[i + 1])};
+    // Half of the turn leads to the middle, from which half of the motion leads back to the first pose.
+    const glm::dquat half = glm::angleAxis(0.5 * segment.motion.angle, segment.motion.axis);
+    segment.middle.forward = half * poses[i].forward;
+    segment.middle.up = half * poses[i].up;
+    segment.middle.position -= movedBy(segment.motion, -0.5, segment.middle).position - poses[i].position;
+    segments.push_back(segment);
+  }
+  return segments;
+}
+
+Camera cameraAt(std::span<const CameraSegment> segments, double time) {
+  const double place = time * double(segments.size());
+  const size_t i = std::min(size_t(place), segments.size() - 1);
+  return movedBy(segments[i].motion, place - double(i) - 0.5, segments[i].middle);
 }
 
 }  // namespace fragtrace

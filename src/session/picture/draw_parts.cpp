@@ -62,7 +62,7 @@ std::vector<Share> sharesOf(std::span<const Region> parts, glm::ivec2 size) {
 }
 
 /// The worst of both parts, since a goal holds in each of them.
-AdaptiveStatistics joined(const AdaptiveStatistics& a, const AdaptiveStatistics& b) {
+AdaptiveStatistics bothAdaptive(const AdaptiveStatistics& a, const AdaptiveStatistics& b) {
   return {a.noise,
           a.seconds,
           std::max(a.error, b.error),
@@ -179,7 +179,7 @@ Drawing drawAdaptively(const PartRun& part, glm::ivec2 size) {
   const AdaptiveStatistics own{options.sampling.noise, options.sampling.seconds, picture.error,
                                picture.share,          picture.rounds,           picture.known,
                                picture.black};
-  part.stats.adaptive = part.stats.adaptive ? joined(*part.stats.adaptive, own) : own;
+  part.stats.adaptive = part.stats.adaptive ? bothAdaptive(*part.stats.adaptive, own) : own;
   return {std::move(picture.pixels), std::move(picture.variance), {}};
 }
 

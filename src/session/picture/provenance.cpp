@@ -12,6 +12,7 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "options/option_row.h"
+#include "session/shutter.h"
 
 namespace fragtrace {
 
@@ -96,10 +97,12 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
   json["camera_forward"] = numbers(camera.forward);
   json["camera_up"] = numbers(camera.up);
   json["camera_view"] = camera.type == CameraType::Orthographic ? -camera.halfHeight : camera.fovY;
-  if (!loaded.motion.isNone()) {
-    json["camera_motion_axis"] = numbers(loaded.motion.axis);
-    json["camera_motion_angle"] = loaded.motion.angle;
-    json["camera_motion_slide"] = numbers(loaded.motion.slide);
+  if (options.camera.shutter > 0.0) json["shutter_seconds"] = shutterSeconds(options);
+  for (const auto& [middle, motion] : loaded.motion) {
+    nlohmann::ordered_json& list = json["camera_motion"];
+    for (const glm::dvec3& v :
+         {middle.position, middle.forward, middle.up, motion.axis * motion.angle, motion.slide})
+      list.push_back(numbers(v));
   }
   if (!isRectilinear(camera.type)) json["camera_type"] = kCameraTypeNames[size_t(camera.type)];
   if (camera.shift != glm::dvec2(0.0)) json["lens_shift"] = {camera.shift.x, camera.shift.y};
