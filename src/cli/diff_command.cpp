@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <utility>
@@ -37,6 +38,9 @@ struct Comparison {
 std::string describe(const BiasTest& test, int side) {
   std::string text = std::to_string(test.noisy) + " of " + std::to_string(test.tiles) + " tiles of " +
                      std::to_string(side) + " x " + std::to_string(side) + " pixels have noise\n";
+  if (std::isnan(test.chance))
+    return text + "a value is not finite in the tile at " + std::to_string(test.place[0]) + "," +
+           std::to_string(test.place[1]) + "\n";
   if (test.noisy == 0) return text;
   std::array<char, 32> smallest{};
   std::snprintf(smallest.data(), smallest.size(), "%.3g", test.smallest);

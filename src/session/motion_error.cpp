@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "scene/camera.h"
 #include "scene/projection.h"
 
 namespace fragtrace {
@@ -173,7 +174,7 @@ double lampsOff(const Moments& moments, uint32_t segments, const Scene& scene) {
 double cameraOff(const Moments& moments, std::span<const CameraSegment> segments, const Scene& scene,
                  glm::ivec2 size) {
   constexpr size_t kMostPoints = 2000;
-  constexpr double kFar = 1e6;  // metres
+  constexpr double kFar = 1e6;
   double most = 0.0;
   for (const auto& [time, moment] : moments) {
     const Camera ours = segments.empty() ? moments.begin()->second.camera : cameraAt(segments, time);
@@ -182,11 +183,11 @@ double cameraOff(const Moments& moments, std::span<const CameraSegment> segments
     const auto check = [&](const glm::dvec3& point) {
       if (right.sees(point)) most = std::max(most, right.between(point, measure, point));
     };
-    // Two points far away tell every turn.
-    const glm::dvec3 aside = moment.camera.forward + 0.2 * moment.camera.up;
-    if (moment.camera.type != CameraType::Orthographic) {
-      check(moment.camera.position + kFar * moment.camera.forward);
-      check(moment.camera.position + kFar * aside);
+    // Points far away tell every turn; points as far away as the scene is, all else.
+    const double focal = glm::distance(moment.camera.position, focalPointOf(moment.camera, scene.bounds));
+    for (const double distance : {focal, kFar * focal}) {
+      check(moment.camera.position + distance * moment.camera.forward);
+      check(moment.camera.position + distance * (moment.camera.forward + 0.2 * moment.camera.up));
     }
     const std::vector<glm::vec3>& vertices = moment.pose.vertices.position;
     const size_t step = vertices.size() / kMostPoints + 1;

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """--shutter against the mean of 64 exact times, which one sequence draws."""
 import json
+import math
 import struct
 
 from support import SCENES, Case, Exr, main, run
@@ -49,6 +50,24 @@ def animated_sphere(path, **keys):
     return path
 
 
+def wheel_with(path, name, times, values):
+    """scenes/wheel.gltf with other keys of one node."""
+    root = json.loads((SCENES / "wheel.gltf").read_text())
+    path.with_name("wheel.bin").write_bytes((SCENES / "wheel.bin").read_bytes())
+    channel = next(c for c in root["animations"][0]["channels"] if root["nodes"][c["target"]["node"]]["name"] == name)
+    sampler = root["animations"][0]["samplers"][channel["sampler"]]
+    parts = [struct.pack(f"<{len(times)}f", *times), b"".join(struct.pack(f"<{len(v)}f", *v) for v in values)]
+    for part, kind, key in zip(parts, ("SCALAR", f"VEC{len(values[0])}"), ("input", "output")):
+        root["bufferViews"].append({"buffer": 1, "byteOffset": len(parts[0]) if key == "output" else 0, "byteLength": len(part)})
+        sampler[key] = len(root["accessors"])
+        root["accessors"].append({"bufferView": len(root["bufferViews"]) - 1, "componentType": 5126, "count": len(times), "type": kind})
+    root["accessors"][-2].update(min=[min(times)], max=[max(times)])
+    root["buffers"].append({"byteLength": sum(map(len, parts)), "uri": path.with_suffix(".bin").name})
+    path.with_suffix(".bin").write_bytes(b"".join(parts))
+    path.write_text(json.dumps(root))
+    return path
+
+
 class Shutter(Case):
     def blurred(self, scene, time, seconds, *options):
         path = self.folder / "blurred.exr"
@@ -81,11 +100,11 @@ class Shutter(Case):
             self.assertLess(abs(sum(off)) / len(off), most / 4, (of, name))
 
     def test_surfaces_and_camera(self):
-        """The flat stage has no noise but that of edges. A segment may be half a pixel off its arc; here they are 0.04 and 0.16 off."""
+        """The flat stage has no noise but that of edges. There are as many segments as the lamp needs, whose turn in each is at most 8 degrees."""
         wheel = SCENES / "wheel.gltf"
         stats = self.folder / "stats.json"
         layers = ["R", "G", "B", "depth.Z", "normal.X", "normal.Y", "normal.Z"]
-        for camera, fps, segments, most, names in (("camera", 64, 1, 0.012, "RGB"), ("camera", 14, 2, 0.04, "RGB"), ("follower", 64, 1, 0.025, layers)):
+        for camera, fps, segments, most, names in (("camera", 64, 2, 0.012, "RGB"), ("camera", 14, 8, 0.025, "RGB"), ("follower", 64, 2, 0.025, layers)):
             options = ["--camera", camera, "--stage", "flat", "--no-background", *(["--aov", "depth,normal"] if names == layers else [])]
             blurred = self.blurred(wheel, 0.25, 1 / fps, *options, "--spp", 2048, "--stats", stats)
             exact = self.exact(wheel, 0.25, 1 / fps, *options, "--spp", 32)
@@ -123,6 +142,41 @@ class Shutter(Case):
             for name, values in mean.items():
                 ours, wanted = tiles(values), tiles(means[2][name])
                 self.assertLess(max(abs(a - b) for a, b in zip(ours, wanted)) / max(wanted), 0.02, name)
+
+    def test_keys_while_it_is_open(self):
+        """Motion is measured at the keys: what comes back where it began, or stands as before at the quarters of the time, is no standing still."""
+        stats = self.folder / "stats.json"
+        shaken = wheel_with(self.folder / "shaken.gltf", "follower", [k / 8 for k in range(5)], [(-1 + 0.4 * (-1) ** k, 1.4, 5) for k in range(5)])
+        options = ["--camera", "follower", "--stage", "flat", "--hide", "roll"]
+        blurred = self.blurred(shaken, 0.25, 0.25, *options, "--spp", 1024, "--stats", stats)
+        self.assert_close(blurred, self.exact(shaken, 0.25, 0.25, *options, "--spp", 16), 0.03, "shaken")
+        written = json.loads(stats.read_text())
+        self.assertEqual((written["camera_motion"]["segments"], written.get("motion")), (2, None))
+        turns = [tuple(math.sin(math.radians(-22.5 * k)) * x for x in (0, 0, 1)) + (math.cos(math.radians(-22.5 * k)),) for k in range(33)]
+        spun = wheel_with(self.folder / "spun.gltf", "spin", [k / 64 for k in range(33)], turns)
+        said = self.renders(spun, "-o", self.folder / "x.pfm", *SIZE, "--spp", 1, "--animation-time", 0.25, "--shutter", 360, "--fps", 2, "--stats", stats, "--camera", "follower").stderr
+        self.assertEqual(json.loads(stats.read_text())["motion"]["segments"], 32)
+        self.assertIn("surfaces move straight in 32 pieces", said)
+
+    def test_a_lamp_keeps_its_light(self):
+        """Straight ways would make a lamp that turns smaller, however few pixels it has."""
+        stats = self.folder / "stats.json"
+        self.renders(SCENES / "wheel.gltf", "-o", self.folder / "x.pfm", "--quiet", "--resolution", "8,4", "--spp", 1, "--animation-time", 0.25, "--shutter", 360, "--fps", 8,
+                     "--stats", stats)
+        self.assertEqual(json.loads(stats.read_text())["motion"]["segments"], 16, "a sixteenth of a quarter turn loses 0.24 % of the area")
+
+    def test_what_reaches_beyond_the_picture(self):
+        """Of a blade whose ends are far beside the picture, the part within counts."""
+        stats = self.folder / "stats.json"
+        wheel_with(self.folder / "long.gltf", "spin", [0, 0.25], [(0, 0, 0, 1), (0, 0, math.sin(-0.4), math.cos(-0.4))])
+        root = json.loads((self.folder / "long.gltf").read_text())
+        next(n for n in root["nodes"] if n["name"] == "spoke-0")["scale"] = [400, 1, 1]
+        (self.folder / "long.gltf").write_text(json.dumps(root))
+        self.renders(self.folder / "long.gltf", "-o", self.folder / "x.pfm", "--quiet", *SIZE, "--spp", 1, "--animation-time", 0.125, "--shutter", 360, "--fps", 2, "--stats", stats,
+                     "--hide", "light", "--hide", "tyre", "--camera", "follower")
+        motion = json.loads(stats.read_text())["motion"]
+        self.assertEqual(motion["segments"], 4)
+        self.assertGreater(motion["pixels_off"], 0.1)
 
     def test_what_stands_still(self):
         """After its end an animation stands still: the picture is that without a shutter, and statistics say so."""

@@ -156,8 +156,15 @@ TEST(ImageBias, ConstantsAreEqualOrNot) {
   EXPECT_NEAR(testBias(twoPixels(1, 0, 4), twoPixels(1.001F, 0, 4)).smallest,
               studentTails(std::sqrt(14.0), 12), 1e-12);
   EXPECT_TRUE(std::isnan(testBias(twoPixels(NAN, 0, 4), twoPixels(1, 1, 4)).chance));
-  // Pixels outside a region have no sample.
-  EXPECT_EQ(testBias(twoPixels(0, 0, 0), twoPixels(1, 1, 4)).noisy, 0);
+}
+
+TEST(ImageBias, ATileThatIsNotFiniteIsNamed) {
+  Image picture = twoPixels(1, 1, 4);
+  picture.pixel(1, 0)[0] = NAN;
+  const BiasTest test = testBias(picture, twoPixels(1, 1, 4), 1);
+  EXPECT_TRUE(std::isnan(test.chance));
+  EXPECT_EQ(test.place, (std::array{1, 0}));
+  EXPECT_EQ(test.noisy, 1);
 }
 
 /// Returns the message.
@@ -168,6 +175,11 @@ std::string refused(const Image& picture) {
     return error.what();
   }
   return "";
+}
+
+TEST(ImageBias, PicturesWithoutCommonPixelsAreRefused) {
+  // Pixels outside a region have no sample.
+  EXPECT_NE(refused(twoPixels(0, 0, 0)).find("no pixel has samples in both"), std::string::npos);
 }
 
 TEST(ImageBias, LayersThatLackAreNamedWithTheirOption) {

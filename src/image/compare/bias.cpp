@@ -74,6 +74,7 @@ struct Tile {
 
 /// Sums over the pixels of a tile that both pictures have seen.
 struct Sums {
+  int pixels = 0;
   double a = 0;         ///< luminance of the picture
   double b = 0;         ///< luminance of the reference
   double variance = 0;  ///< of a - b
@@ -97,6 +98,7 @@ void add(Sums& sums, const Estimates& a, const Estimates& b, size_t pixel) {
     ofA += between / 2;
     ofB += between / 2;
   }
+  ++sums.pixels;
   sums.a += meanOfA;
   sums.b += meanOfB;
   sums.variance += ofA + ofB;
@@ -157,26 +159,32 @@ BiasTest testBias(const Image& picture, const Image& reference, int side) {
   BiasTest test;
   test.map = {picture.width, picture.height, {"R", "G", "B"}, std::vector<float>(pixelCount * 3), {}};
   std::vector<double> values;
-  bool finite = true;
+  bool anyPixel = false;
   for (int top = 0; top < picture.height; top += side) {
     for (int left = 0; left < picture.width; left += side) {
       const Tile tile{left, top, std::min(left + side, picture.width), std::min(top + side, picture.height)};
       const Sums sums = sumsOf(a, b, tile, picture.width);
+      anyPixel = anyPixel || sums.pixels > 0;
       const std::optional<double> p = welch(sums);
       paint(test.map, tile, p, sums.a > sums.b);
-      finite = finite && isFinite(sums);
       ++test.tiles;
-      if (!p) continue;
-      if (values.empty() || *p < test.smallest) {
-        test.smallest = *p;
-        test.place = {left, top};
+      if (!isFinite(sums)) {
+        if (!std::isnan(test.chance)) test.place = {left, top};
+        test.chance = test.smallest = std::numeric_limits<double>::quiet_NaN();
+      } else if (p) {
+        // Not where a tile before is not finite.
+        if (values.empty() ? !std::isnan(test.chance) : *p < test.smallest) {
+          test.smallest = *p;
+          test.place = {left, top};
+        }
+        ++test.histogram[size_t(std::min(9.0, *p * 10))];
+        values.push_back(*p);
       }
-      ++test.histogram[size_t(std::min(9.0, *p * 10))];
-      values.push_back(*p);
     }
   }
+  if (!anyPixel) throw RenderError("no pixel has samples in both pictures");
   test.noisy = int(values.size());
-  test.chance = finite ? chanceOf(std::move(values)) : std::numeric_limits<double>::quiet_NaN();
+  if (!std::isnan(test.chance)) test.chance = chanceOf(std::move(values));
   return test;
 }
 

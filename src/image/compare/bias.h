@@ -21,7 +21,7 @@ struct BiasTest {
   int tiles = 0;                    ///< of the whole picture
   int noisy = 0;                    ///< tiles with a p, which all but those of equal constants have
   double smallest = 1;              ///< p of the tile that differs most
-  std::array<int, 2> place{};       ///< its upper left pixel
+  std::array<int, 2> place{};       ///< its upper left pixel; of the first tile that is not finite, if one is
   std::array<int, 10> histogram{};  ///< tiles by p, in tenths from 0 to 1
   Image map;  ///< R, G, B: tiles from white (p = 1) to red where the picture is brighter, blue where darker
               ///< (p = 1e-6 and less); grey without a p
@@ -31,7 +31,7 @@ struct BiasTest {
 /// pixel (samples.Y, or the attributes of a render where all pixels have as many), in tiles of `side` x
 /// `side` pixels, at the right and lower edges perhaps fewer. Pixels without samples in either are left out.
 /// A value that is not finite makes the chance NaN. Throws RenderError when a layer is missing, a pixel has
-/// one sample, the sizes differ or a picture has no colour.
+/// one sample, the sizes differ, a picture has no colour, or no pixel has samples in both.
 BiasTest testBias(const Image& picture, const Image& reference, int side = kBiasTile);
 
 }  // namespace fragtrace
