@@ -319,10 +319,9 @@ void packGeometry(const Scene& scene, const Bvh& bvh, const TraitSet& traits, bo
     for (const uint32_t binding : kGeometryBindings) packed.unchanged[binding] = true;
     return;
   }
-  const bool moving = has(traits, Trait::MovingSurfaces);
-  packed.buffers[kNodesBinding] = packNodes(bvh, packed.grid, moving);
+  packed.buffers[kNodesBinding] = packNodes(bvh, packed.grid, has(traits, Trait::MovingSurfaces));
   if (!scene.instances.empty()) appendInstances(scene, bvh, packed.buffers[kNodesBinding]);
-  packed.buffers[kLeavesBinding] = packLeaves(scene, bvh, moving);
+  packed.buffers[kLeavesBinding] = packLeaves(scene, bvh, has(traits, Trait::MovingSurfaces));
   packed.buffers[kFacesBinding] = packFaces(scene, bvh, has(traits, Trait::Creases));
   packAttributes(scene.vertices, traits, packed);
 }
