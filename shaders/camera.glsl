@@ -58,7 +58,7 @@ vec3 turnedBy(RigidMotion m, vec3 v) {
 }
 
 /// The motion of a camera over a part of the time that the shutter is open, which may be negative. turn: axis and
-/// angle over all of it. slide: the motion of its position, along the axis and, at the start, along the arc. The
+/// angle over all of it. slide: the motion of its position over all of it, at the speed that it has in the middle. The
 /// position runs along a helix, and so along a circle or a straight line, too (Chasles' theorem).
 RigidMotion motionOver(vec4 turn, vec3 slide, float part) {
   RigidMotion m;

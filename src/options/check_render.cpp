@@ -94,7 +94,7 @@ void checkLens(const LensOptions& lens) {
   if (!lens.fStop && lens.blades > 0) throw UsageError("--aperture-blades: goes with --f-stop");
 }
 
-/// What moves while the shutter is open cannot be drawn in every way.
+/// Refuses ways to draw that know one moment alone.
 void checkShutter(const RenderOptions& o) {
   if (o.camera.shutter <= 0.0) return;
   if (!isSequence(o) && !o.selection.animationTime)

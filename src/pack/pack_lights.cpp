@@ -42,7 +42,7 @@ void appendEmissive(std::vector<Emitter>& emitters, const Scene& scene,
                     std::span<const glm::vec3> materialRadiance, std::span<const uint32_t> slots) {
   // A smaller triangle is far below what a ray can be aimed at; the shader divides by the area.
   constexpr double kLeastArea = 1e-30;
-  // Of surfaces that move, a light sample finds the place at its time.
+  // A light sample itself finds the place of a surface that moves, at its time.
   const size_t count = scene.motion.segments > 0 ? scene.motion.triangles : scene.triangles.size();
   for (size_t i = 0; i < count; ++i) {
     const Triangle& t = scene.triangles[i];

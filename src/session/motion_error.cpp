@@ -60,7 +60,7 @@ class PixelMeasure {
   glm::dvec2 half_;
 };
 
-/// Where a moment lies in its segment.
+/// A moment within its segment, and the poses between which that moves straight.
 struct Between {
   const Pose& from;
   const Pose& there;

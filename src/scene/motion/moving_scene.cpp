@@ -21,7 +21,7 @@ void repeat(std::vector<T>& array, size_t poses) {
   for (size_t i = count; i < count * poses; ++i) array.push_back(array[i - count]);
 }
 
-/// Of each of the six codes the one that stands for the larger inset: code k > 0 stands for 2^-k.
+/// Takes the larger inset for each of the six codes: code k > 0 stands for 2^-k.
 uint32_t largerInsets(uint32_t a, uint32_t b) {
   uint32_t result = 0;
   for (int shift = 0; shift < 30; shift += 5) {
