@@ -53,22 +53,27 @@ class ImageProcess(Case):
         self.assertIn("fragtrace_worker is not in", result.stderr)
 
     def test_it_does_not_outlive_the_program(self):
-        before = self.processes()
-        run("diff", PICTURE, PICTURE)
+        environment = {**os.environ, "FRAGTRACE_TEST_MARK": str(self.folder)}  # other tests have workers at the same time
+        run("diff", PICTURE, PICTURE, env=environment)
         with subprocess.Popen([FRAGTRACE, "render", SCENES / "sphere-textured.gltf", "-o", self.folder / "x.png",
-                               "--spp", "100000", "--quiet"]) as process:
-            time.sleep(0.5)
+                               "--spp", "100000", "--quiet"], env=environment) as process:
+            started = time.monotonic()
+            while not (seen := self.workers()) and time.monotonic() < started + 10:
+                pass
             process.kill()
+        self.assertTrue(seen)
         deadline = time.monotonic() + 60  # one that is still starting sees that nobody is there when it has started
-        while self.processes() - before and time.monotonic() < deadline:
+        while (left := self.workers()) and time.monotonic() < deadline:
             time.sleep(0.1)
-        self.assertEqual(self.processes() - before, set())
+        self.assertEqual(left, set())
 
-    def processes(self):
+    def workers(self):
+        """Workers of this test alone, known by their environment."""
         mine = set()
         for entry in Path("/proc").glob("[0-9]*"):
             try:
-                if (entry / "exe").readlink() == FRAGTRACE.parent / "fragtrace_worker":
+                if ((entry / "exe").readlink() == FRAGTRACE.parent / "fragtrace_worker"
+                        and f"FRAGTRACE_TEST_MARK={self.folder}".encode() in (entry / "environ").read_bytes().split(b"\0")):
                     mine.add(entry.name)
             except OSError:
                 pass
