@@ -22,6 +22,7 @@ struct StressOptions {
   RenderOptions render;           ///< device
   std::vector<std::string> rows;  ///< those whose name holds one of these; empty: all
   bool quick = false;
+  uint32_t seed = 0;
   ResultFiles files;
 };
 
@@ -30,6 +31,9 @@ void declareStress(CLI::App& app, StressOptions& o) {
   app.add_option("--rows", o.rows,
                  "run only the rows whose name contains one of these strings, separated by commas")
       ->delimiter(',');
+  app.add_option("--seed", o.seed,
+                 "seed of rays, random scenes and samples, 0 to 1000; others are other cases")
+      ->check(CLI::Range(0u, 1000u));
   addJsonOption(app, o.files, "write all results to this file, one JSON line per row");
   addDeviceOptions(app, o.raw);
   addOption(app, "--schedule", o.raw,
@@ -71,11 +75,13 @@ StressReport measure(const StressOptions& options, const std::vector<StressRow>&
   report.backend = context.backend;
   report.renderer = context.renderer;
   report.quick = options.quick;
+  report.seed = options.seed;
   ProgressBar bar("trying", options.render.output.quiet);
   const auto goOn = [&] { bar.show(double(report.rows.size()) / double(rows.size())); };
   for (const StressRow& row : rows) {
     StressSetting setting{context, options.render.device.shaderFolder, options.quick,
-                          true,    options.render.device.schedule,     goOn};
+                          true,    options.render.device.schedule,     options.seed,
+                          goOn};
     StressResult result{row.name, row.sentence, row.limit, timed(row, setting), {}};
     setting.watertight = false;
     if (row.fastToo) result.fast = timed(row, setting);

@@ -116,6 +116,11 @@ FRAMES = (
                           ("array-stack", "stack in an array"), ("128-lanes", "groups of 128 lanes"), ("256-lanes", "groups of 256 lanes"), ("film-and-128-lanes", "film in registers, groups of 128 lanes"))),
 )
 
+# Cases that break ray tracers, each seed with others.
+STRESS_SEEDS = (0, 1, 2)
+STRESS_ROWS = ("rays", "shell", "strips", "boxes", "skins", "bad", "glass,contact", "scenes", "hits", "tree,film", "no numbers")  # one call each
+STRESS_SECONDS = 150  # of all seeds together
+
 SCALE = ["--from", "10000000", "--to", "10000000", "--traversals", "front-to-back,bvh"]
 SCALE_SECONDS = 80
 RAYS = ["scenes/room-ball.gltf"]
@@ -150,4 +155,4 @@ PICTURES = (
     ("room-ball.png", ["scenes/room-ball.gltf", *SIZE, "--spp", "64"], []),
     ("helmet.png", [HELMET[0], *SIZE, "--spp", "64", "--hdri-file", HELMET[1]], HELMET),
 )
-PARTS = ("correctness", "report", *dict.fromkeys(frame.part for frame in FRAMES), "scale", "rays", "motion", "pace", "start", "pictures")
+PARTS = ("correctness", "stress", "report", *dict.fromkeys(frame.part for frame in FRAMES), "scale", "rays", "motion", "pace", "start", "pictures")

@@ -79,6 +79,16 @@ def report_rows(lines):
         yield name, measured, ", ".join(beside), wrong[0] if wrong else "right"
 
 
+def stress_cells(seed, lines):
+    """Of the rows of `bench stress` with this seed."""
+    over = [f"{line['row']} ({line['failures']} of {line['cases']})" for line in lines if line["over"]]
+    wrong = [f"{line['row']} ({line['failures']}, limit {line['limit']:g})" for line in lines if line["failures"] and not line["over"]]
+    fast = sum(line.get("fast_failures", 0) for line in lines)
+    measured = f"{len(lines)} rows of {sum(line['cases'] for line in lines):,} cases; with the fast test {fast:,} wrong"
+    return (f"cases that break ray tracers, seed {seed}", measured, "",
+            "WRONG: " + "; ".join(over) if over else "within the limits" + (": " + "; ".join(wrong) if wrong else ""))
+
+
 def motion_rows(name, lines):
     """A row for each mode of `bench motion`."""
     for line in lines:

@@ -13,8 +13,8 @@ size_t StressReport::rowsOver() const {
 }
 
 std::string stressTable(const StressReport& report) {
-  std::string text = formatted("%s, %s%s\n\n", report.backend.c_str(), report.renderer.c_str(),
-                               report.quick ? ", quick" : "");
+  std::string text = formatted("%s, %s%s, seed %u\n\n", report.backend.c_str(), report.renderer.c_str(),
+                               report.quick ? ", quick" : "", report.seed);
   text += formatted("%-24s %12s %10s %10s %8s %12s %8s  %s\n", "row", "cases", "wrong", "limit", "s",
                     "wrong, fast", "s, fast", "what");
   for (const StressResult& row : report.rows) {
@@ -37,6 +37,7 @@ std::string stressJson(const StressReport& report) {
     json["backend"] = report.backend;
     json["gl_renderer"] = report.renderer;
     json["quick"] = report.quick;
+    json["seed"] = report.seed;
     json["row"] = row.row;
     json["what"] = row.sentence;
     json["cases"] = row.robust.cases;

@@ -2,6 +2,7 @@
 // What `bench stress` found.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,6 +35,7 @@ struct StressReport {
   std::string backend;
   std::string renderer;  ///< of OpenGL
   bool quick = false;
+  uint32_t seed = 0;
   std::vector<StressResult> rows;
 
   size_t rowsOver() const;

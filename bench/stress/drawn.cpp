@@ -38,7 +38,7 @@ void countLight(const FilmPixels& film, StressOutcome& outcome) {
   outcome.worst = formatted("light in %zu pixels", outcome.failures);
 }
 
-std::vector<View> viewsAround(const glm::dvec3& position) {
+std::vector<View> viewsAround(const glm::dvec3& position, uint32_t seed) {
   std::vector<View> views;
   for (int axis = 0; axis < 3; ++axis) {
     for (const double sign : {-1.0, 1.0}) {
@@ -49,6 +49,7 @@ std::vector<View> viewsAround(const glm::dvec3& position) {
       view.camera.up = glm::dvec3(0.0);
       view.camera.up[(axis + 1) % 3] = 1.0;
       view.camera.fovY = glm::half_pi<double>();
+      view.seed = seed;
       views.push_back(view);
     }
   }

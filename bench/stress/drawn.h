@@ -10,6 +10,9 @@ namespace fragtrace {
 /// A radiance that comes from everywhere, as an environment map.
 Environment whiteWorld(float radiance);
 
+/// Between the dice of one seed of the setting and those of the next.
+constexpr uint32_t kSeedStride = 1000;
+
 /// The options of a stage with the setting's triangle test.
 RenderOptions optionsOf(const StressSetting& setting, Stage stage);
 
@@ -21,6 +24,6 @@ SceneDrawing drawingOf(const StressSetting& setting, Scene scene, const Environm
 void countLight(const FilmPixels& film, StressOutcome& outcome);
 
 /// Looks out of a point along the six axes, 90 degrees each: every direction is in one of the pictures.
-std::vector<View> viewsAround(const glm::dvec3& position);
+std::vector<View> viewsAround(const glm::dvec3& position, uint32_t seed);
 
 }  // namespace fragtrace

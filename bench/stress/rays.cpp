@@ -96,7 +96,7 @@ StressOutcome attackByRays(const StressSetting& setting, const RayAttack& attack
   constexpr uint32_t kSeed = 20260;
   const glm::ivec2 size = setting.quick ? glm::ivec2(128) : glm::ivec2(1024);
   const Scene scene = attack.scene();
-  const auto [rays, leaves] = attack.rays(scene, size_t(size.x) * size_t(size.y), kSeed);
+  const auto [rays, leaves] = attack.rays(scene, size_t(size.x) * size_t(size.y), kSeed + setting.seed);
   const Bvh bvh = buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));
   const ExactTracer tracer(scene, bvh);
   proveTree(tracer, scene.triangles.size() + scene.spheres.size(), rays);

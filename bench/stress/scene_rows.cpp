@@ -28,15 +28,19 @@ RenderOptions flatOptions(const StressSetting& setting, glm::ivec2 size, int spp
   return options;
 }
 
-/// The first of the seeds of a row; every kind of scene is among kSketchKinds that follow on one another.
-uint32_t firstSeed(Form form) { return 1000 * (uint32_t(form) + 1); }
+/// The first of the seeds of a row of so many scenes; every kind of scene is among kSketchKinds that follow
+/// on one another.
+uint32_t firstSeed(const StressSetting& setting, Form form, uint32_t scenes) {
+  return 1000 * (uint32_t(form) + 1) + setting.seed * scenes;
+}
 
 }  // namespace
 
 StressOutcome drawForms(const StressSetting& setting, Form form) {
   const uint32_t scenes = setting.quick ? kSketchKinds : 84;
   StressOutcome outcome;
-  for (uint32_t seed = firstSeed(form); seed < firstSeed(form) + scenes; ++seed) {
+  const uint32_t first = firstSeed(setting, form, scenes);
+  for (uint32_t seed = first; seed < first + scenes; ++seed) {
     const Likeness likeness = likenessOf(setting.context, seed, form, setting.schedule, setting.goOn);
     ++outcome.cases;
     if (likeness.wrong.empty()) continue;
@@ -50,7 +54,8 @@ StressOutcome hitForms(const StressSetting& setting, Form form) {
   const uint32_t scenes = setting.quick ? kSketchKinds : 84;
   StressOutcome outcome;
   size_t most = 0;
-  for (uint32_t seed = firstSeed(form); seed < firstSeed(form) + scenes; ++seed) {
+  const uint32_t first = firstSeed(setting, form, scenes);
+  for (uint32_t seed = first; seed < first + scenes; ++seed) {
     const Likeness likeness = hitsOf(setting.context, seed, form, setting.goOn);
     outcome.cases += likeness.pixels;
     outcome.failures += likeness.otherHits;
@@ -110,7 +115,7 @@ StressOutcome drawNoNumbers(const StressSetting& setting) {
   options.device.traversal = TraversalMethod::FrontToBack;
   options.device.shaderFolder = setting.shaderFolder;
   StressOutcome outcome;
-  for (uint32_t seed = 0; seed < scenes; ++seed) {
+  for (uint32_t seed = setting.seed * scenes; seed < (setting.seed + 1) * scenes; ++seed) {
     Dice dice(seed);
     SceneSketch sketch = randomSketch(seed);
     SketchMesh& mesh = sketch.meshes[dice.below(sketch.meshes.size())];

@@ -35,7 +35,7 @@ StressOutcome lookOut(const StressSetting& setting, const glm::dvec3& place, dou
   const Scene scene = shellAt(place, size, 0.0f);
   SceneDrawing picture = drawingOf(setting, scene, {}, optionsOf(setting, Stage::Flat));
   StressOutcome outcome;
-  for (View view : viewsAround(place)) {
+  for (View view : viewsAround(place, setting.seed)) {
     view.background = glm::vec3(1.0f);
     view.showEnvironment = false;
     const FilmPixels film = picture.draw(setting.goOn, view, pixels, samples);
@@ -71,7 +71,7 @@ Scene spikyMesh(Dice& dice) {
 /// Counts light in the six views around a place.
 void scatterInside(const StressSetting& setting, SceneDrawing& picture, const glm::dvec3& place,
                    glm::ivec2 pixels, int samples, StressOutcome& outcome) {
-  for (View view : viewsAround(place)) {
+  for (View view : viewsAround(place, setting.seed)) {
     view.bounces = 4;
     countLight(picture.draw(setting.goOn, view, pixels, samples), outcome);
   }
@@ -103,7 +103,7 @@ StressOutcome scatterInWhiteShell(const StressSetting& setting) {
 StressOutcome scatterInSharedShells(const StressSetting& setting) {
   constexpr size_t kShells = 8;
   const glm::ivec2 pixels = setting.quick ? glm::ivec2(32) : glm::ivec2(128);
-  Dice dice(71);
+  Dice dice(71 + setting.seed * kSeedStride);
   Scene scene = spikyMesh(dice);
   for (size_t i = 0; i < kShells; ++i) {
     // Half of them near the origin, half far from it, and none within another.

@@ -3,6 +3,7 @@
 // could.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -21,6 +22,7 @@ struct StressSetting {
   bool quick = false;                  ///< about a hundredth of the cases
   bool watertight = true;              ///< else with the fast triangle test
   Schedule schedule = Schedule::Auto;  ///< of what is path traced
+  uint32_t seed = 0;                   ///< of rays, random scenes and samples
   std::function<void()> goOn;          ///< to be called now and then, so that progress shows
 };
 

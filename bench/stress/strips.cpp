@@ -177,6 +177,7 @@ void scatterIn(const StressSetting& setting, const Prism& prism, bool literals, 
   view.camera.up = prism.turn * dvec3(0.0, 0.0, 1.0);
   view.camera.fovY = glm::radians(100.0);
   view.bounces = 4;
+  view.seed = setting.seed;
   const int side = setting.quick ? 64 : 128;
   countLight(picture.draw(setting.goOn, view, glm::ivec2(side), setting.quick ? 4 : 16), outcome);
 }
@@ -186,7 +187,7 @@ void scatterIn(const StressSetting& setting, const Prism& prism, bool literals, 
 StressOutcome scatterInStrips(const StressSetting& setting) {
   constexpr std::array kDegrees{5.0, 20.0, 1.0, 2.0, 60.0};
   const size_t angles = setting.quick ? 2 : kDegrees.size();
-  Dice dice(60);
+  Dice dice(60 + setting.seed * kSeedStride);
   StressOutcome outcome;
   for (const bool flipping : {false, true}) {
     for (const double degrees : std::span(kDegrees).first(angles)) {
@@ -203,7 +204,7 @@ StressOutcome scatterInStrips(const StressSetting& setting) {
 }
 
 StressOutcome scatterInBoxes(const StressSetting& setting) {
-  Dice dice(90);
+  Dice dice(90 + setting.seed * kSeedStride);
   StressOutcome outcome;
   for (const double degrees : {90.0, 89.0, 91.0}) {
     for (const double length : {1.0, 30.0, 1000.0}) {
@@ -227,7 +228,7 @@ StressOutcome scatterInSkinnedBoxes(const StressSetting& setting) {
                                   Skin{AlphaMode::Mask, 0.0f, 0.0},
                                   {AlphaMode::Mask, 0.0f, 1e-6},
                                   Skin{AlphaMode::Mask, 0.0f, 4e-6}};
-  Dice dice(120);
+  Dice dice(120 + setting.seed * kSeedStride);
   StressOutcome outcome;
   for (const Skin& skin : skins) {
     for (const bool first : {false, true}) {

@@ -262,6 +262,9 @@ void Renderer::adaptBudget(double ms) {
 Renderer::Flight Renderer::submit(const ShaderVariant& variant, const Work& tile, bool goesOn) {
   Flight flight{tile, flights_++ % kMostInFlight, software_ ? GlQuery() : makeQuery(GL_TIME_ELAPSED), nullptr,
                 Clock::now()};
+  // Light paths and samples of lights have draws of their own.
+  const bool camera = pace_ && &variant == &pace_->drawn;
+  flight.timeKnown = !software_ && camera && !variant.wavefront && !variant.resumable;
   frame_.tile = {tile.corner, tile.size};
   frame_.samplesWanted = tile.to;
   frame_.tileGoesOn = goesOn ? 1 : 0;
@@ -293,9 +296,9 @@ Renderer::Flight Renderer::submit(const ShaderVariant& variant, const Work& tile
 layout::Progress Renderer::land(Flight& flight) {
   layout::Progress progress{};
   movedBytes() += sizeof progress;
-  const double expectedMs = software_ || !pace_ ? 0.0
-                                                : pace_->msPerSample * pixelSamples(flight.tile) -
-                                                      millisecondsBetween(flight.start, Clock::now());
+  const double expectedMs = flight.timeKnown ? pace_->msPerSample * pixelSamples(flight.tile) -
+                                                   millisecondsBetween(flight.start, Clock::now())
+                                             : 0.0;
   finishFence(std::exchange(flight.done, nullptr), expectedMs);
   if (software_) {
     drawnMs_ += millisecondsBetween(flight.start, Clock::now());

@@ -176,6 +176,9 @@ class Renderer {
     GlQuery timer;    ///< none: the wall's clock
     void* done = nullptr;
     std::chrono::steady_clock::time_point start;
+    /// The tile takes about the time of Pace. A part of it does not: a wait that sleeps for half of the
+    /// whole's time would double that time with every two parts.
+    bool timeKnown = false;
   };
   static constexpr size_t kMostInFlight = 2;
   /// Draws a tile. `goesOn`: the tile was drawn before and is not finished.

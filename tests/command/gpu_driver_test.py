@@ -27,6 +27,14 @@ class GpuDriver(Case):
             self.assertEqual(stats["gl_renderer"], "a GPU that is not there")
             self.assertEqual(found, right, scene)
 
+    def test_a_tile_of_many_draws_takes_the_time_of_its_draws(self):
+        """Each wait once slept for half the time of the whole tile: 64 samples took 95 s, and did nothing."""
+        options = ["--resolution", "32,32", "--spp", "64", "--schedule", "wavefront"]
+        _, software = self.render("software", "cornell-box.gltf", "--tune", "gpu", *options)
+        _, stats = self.render("gpu", "cornell-box.gltf", *options, env=self.gpu)
+        self.assertEqual(stats["schedule"], "wavefront")
+        self.assertLess(stats["render_ms"], 1000 + 10 * software["render_ms"])
+
 
 if __name__ == "__main__":
     main()

@@ -10,7 +10,7 @@ namespace fragtrace {
 namespace {
 
 StressReport report() {
-  StressReport r{"egl", "a \"driver\"", true, {}};
+  StressReport r{"egl", "a \"driver\"", true, 7, {}};
   r.rows.push_back(
       {"right", "nothing is wrong", 0.0, {1000, 0, 0.5, ""}, StressOutcome{1000, 3, 0.25, "seen"}});
   r.rows.push_back({"allowed", "a thousandth may be", 1e-3, {1000, 1, 0.5, "there"}, {}});
