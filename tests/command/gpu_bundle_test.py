@@ -32,6 +32,13 @@ elif words[1] == "motion":
     assert "--rounds" not in words
     row = {"pictures": 4, "seconds": 2, "pixels": 4e6, "latency_ms": [3, 5, 4], "trace_cpu_ms": 6, "moved_bytes": 8000, "gap_ms": [15, 40, 17, 16], "flip": 0.05, "relmse": 0.1}
     write("--json", {"rows": [{"mode": "filtered", **row}, {"mode": "raw", **row}]})
+elif words[1] == "stress":
+    assert after("--seed") in ("0", "1", "2")
+    if "hits" in words and after("--seed") == "1":
+        sys.exit("fragtrace: no place")
+    line = {"row": after("--rows"), "cases": 1000, "failures": int("skins" in words), "limit": 0, "over": "skins" in words, "fast_failures": 2}
+    write("--json", line)
+    sys.exit(int(line["over"]))
 elif words[1] == "traversal":
     open("process", "w").write(str(os.getpid()))
     time.sleep(60)
@@ -83,6 +90,15 @@ class GpuTable(Case):
                                                "aim 60 pictures/s, none after more than 50 ms", " |"])
         self.assertIn("39 rows failed or are wrong", text.splitlines()[-1])
         self.assertEqual(len((self.out / "figures.jsonl").read_text().splitlines()), 29)
+
+    def test_cases_that_break_ray_tracers(self):
+        process = self.begin("--seconds", "60", "--only", "stress")
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 1, errors)
+        rows = self.rows()
+        self.assertEqual(rows["cases that break ray tracers, seed 0"], ["12 rows of 12,000 cases; with the fast test 24 wrong", "", "WRONG: skins (1 of 1000) |"])
+        self.assertTrue(rows["cases that break ray tracers, seed 1"][0].startswith("11 rows"))
+        self.assertEqual(rows["seed 1, hits"], ["-", "", "FAILED: status 1: fragtrace: no place |"])
 
     def test_an_interrupted_run_keeps_its_table(self):
         process = self.begin("--only", "mesh,rays")
