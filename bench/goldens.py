@@ -19,7 +19,7 @@ FIDELITY = Path(__file__).resolve().parent / "fidelity"
 
 
 def render(shot, assets, folder, spp):
-    """The picture that the generator would get for it."""
+    """Draws a shot as Khronos' generator would. Returns the path of the picture."""
     path = folder / (shot["name"] + ".ours.png")
     scenario = {"model": str(assets / shot["model"]), "lighting": str(assets / shot["env"]), "dimensions": {"width": shot["w"], "height": shot["h"]},
                 "target": dict(zip("xyz", shot["target"])), "orbit": {name: shot[name] for name in ("theta", "phi", "radius")},
@@ -40,7 +40,7 @@ def psnr(a, b):
 
 
 def srgb(values):
-    """The sRGB curve in place of gamma 2.2."""
+    """Values with the sRGB curve in place of gamma 2.2."""
     linear = values ** 2.2
     return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
 

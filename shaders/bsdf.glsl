@@ -279,8 +279,8 @@ BsdfValue evaluateThrough(Bsdf b, vec3 wo, vec3 wi, float chance) {
   return r;
 }
 
-/// Light that the base scatters without reflecting it, for `wi` above the surface; oh: cosine between `wo`
-/// and the half vector.
+/// Diffuse reflection of the base, times the cosine, for `wi` above the surface; oh: cosine between `wo` and
+/// the half vector.
 vec3 diffuseValue(Bsdf b, vec3 wi, float oh) {
   float lit = b.opaque * throughLayer(b, oh) * kInversePi * wi.z;
   if (kDiffuseTransmission) lit *= 1.0f - b.diffuseThrough;
@@ -387,7 +387,8 @@ BsdfSample drawBase(Bsdf b, vec3 wo, float choice, float u, float v) {
       s.wi = b.solid ? refractThrough(wo, h, b.eta) : vec3(s.wi.x, s.wi.y, -s.wi.z);
       s.transmitted = true;
     }
-    // Facets can send light to the wrong side of the surface; that share is lost (single scattering), but for glass.
+    // Light that a facet sends to the wrong side is lost (single scattering). Compensated glass draws it
+    // again.
     lost = s.transmitted == (s.wi.z > 0.0f);
     if (kCompensation && drawnAgain) {
       vec3 mirrored = vec3(s.wi.x, s.wi.y, abs(s.wi.z));

@@ -156,8 +156,8 @@ vec3 offsetOrigin(vec3 point, float error, vec3 normal, vec3 direction) {
   return point + (dot(direction, normal) < 0.0f ? -error : error) * normal;
 }
 
-/// The share of the way to a triangle's middle, where a weight is `middle`, that raises the weight to times * 2^-code,
-/// at most a quarter. A code of 0 asks for nothing.
+/// The fraction of the way to a triangle's centroid, where the weight is `middle`, that raises the weight to
+/// times * 2^-code, or to a quarter if that is less. A code of 0 asks for nothing.
 float insetPart(float weight, float middle, uint code, float times) {
   float least = code == 0u ? 0.0f : min(times * uintBitsToFloat((127u - code) << 23), 0.25f);
   return weight < least ? (least - weight) / (middle - weight) : 0.0f;

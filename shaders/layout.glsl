@@ -202,8 +202,8 @@ const float kLimbBlue = 0.605f;
 // itself, probability (float); of an emissive triangle its first vertex and material, its edges from there with 1 /
 // area (float) and, of every emitter, what it is.
 const uint kEmitterRows = 4u;
-const uint kEmitterPunctual = 0x80000000u;     // else the leaf slot of an emissive triangle; below it the light's index
-const uint kEmitterDoubleSided = 0x80000000u;  // beside the material
+const uint kEmitterPunctual = 0x80000000u;     // flag of a light's index; without it a triangle's leaf slot
+const uint kEmitterDoubleSided = 0x80000000u;  // flag of the material's index
 
 // Behind the emitters, where they are chosen by a tree (src/pack/light_tree.h): its nodes, the root first; their
 // parents, four a row; the leaves of emissive triangles, four a row, one a leaf slot of the scene. Node rows: middle,
@@ -244,7 +244,7 @@ struct Frame {
   vec3 cameraForward;   // unit
   float metresPerUnit;  // of local space
   vec4 gridOrigin;      // of the quantised boxes, local space
-  vec4 gridCell;        // local space, a step
+  vec4 gridCell;        // size of a grid step, local space
   vec3 background;      // radiance that camera rays see
   float backgroundShows;    // 1 when they see the environment instead; -1 when they see nothing
   vec2 environmentSize;     // width, height of the map
@@ -253,7 +253,7 @@ struct Frame {
   float emitterCount;
   float energyRow;      // of the energy table among the materials
   float punctualCount;  // lights
-  ivec2 pictureSize;    // of the whole, where the film is a part of it
+  ivec2 pictureSize;    // of the whole picture; the film may be a part of it
   int samplesWanted;
   int seed;
   ivec4 tile;           // x, y (from the bottom), width, height
@@ -277,9 +277,9 @@ struct Frame {
   ivec4 segments;
 };
 
-// A camera that moves while the shutter is open (shutter/camera.glsl), in segments of equal time; std140. Of each: the
-// turn from the camera of Frame to that in the segment's middle, an axis and an angle; the position there, local space;
-// the turn over the whole segment; and the motion of the position meanwhile.
+// A camera that moves while the shutter is open (shutter/camera.glsl), in segments of equal time; std140. A
+// segment holds the turn from the camera of Frame to that in its middle (axis and angle), the position there
+// (local space), and the turn and the motion over the whole segment.
 struct CameraSegment {
   vec4 turn;
   vec4 position;

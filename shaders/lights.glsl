@@ -275,8 +275,8 @@ LightSample lightFrom(LightNumbers n, vec3 point, uint normal) {
   return lightOfChoice(chooseLight(n, point, normal), point);
 }
 
-/// One of the lightSampleCount() samples; uses four dimensions from `dimension` on. normal: of the surface, where it
-/// takes light from one side alone (Receiver).
+/// One of the lightSampleCount() samples; uses four dimensions from `dimension` on. normal: that of a surface
+/// which takes light from one side only (Receiver), else kNoNormal.
 LightSample sampleLight(int index, vec3 point, uint normal, Sampler sampler, uint dimension) {
   if (kGi) return lightFrom(lightNumbers(sampler, dimension), point, normal);
   int punctual = kPunctualLights ? int(frame.punctualCount) : 0;

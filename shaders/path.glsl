@@ -179,7 +179,7 @@ Path addLight(Path p, vec3 light) {
   return p;
 }
 
-/// Light that came over so many scatterings: one is direct light, more may be clamped, which is biased.
+/// Clamps light that came over more than one scattering (one is direct light). The result is biased.
 vec3 clampIndirect(vec3 light, int scatterings) {
   if (!kClampIndirect || scatterings < 2) return light;
   return light * min(1.0, intBitsToFloat(frame.clampBits) / max(maxComponent(light), 1e-30));
@@ -300,7 +300,7 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
   }
   p.bounce += 1;
   p.freeBounces += deltaGlass ? 1 : 0;
-  // Roulette begins in time even where it is not wanted: nothing else ends a ray that glass keeps inside.
+  // At smooth glass roulette begins by kLatestRoulette in any stage: nothing else ends a ray trapped inside.
   bool roulette = (kGi || deltaGlass) && kDrawsLight &&
                   p.bounce >= (deltaGlass ? min(frame.rouletteDepth, kLatestRoulette) : frame.rouletteDepth);
   float survival = min(maxComponent(p.throughput) * p.etaScale, deltaGlass ? kGlassSurvival : 0.95);

@@ -39,7 +39,7 @@ struct Guide {
 /// A light path until the camera sees it (kLightPaths).
 struct LightPath {
   vec3 flux;
-  float range;       // of its punctual light, or 0
+  float range;       // of its punctual light; 0: unlimited
   float travelled;   // distance since the light, up to the surface that was passed last
   bool glassFirst;   // it has met smooth glass first
   vec2 splatPixel;   // the place in the picture at which the camera sees its end
@@ -71,11 +71,11 @@ struct Path {
   uint medium;          // material of the solid the ray is inside of, or kPrimitiveNone
   vec3 origin;
   vec3 direction;
-  float tie;          // of the traversal that the ray begins (kCreases)
+  float tie;          // part by which hits on fronts count as nearer: 0, kTie or -kTie (kCreases)
   vec3 shadowOrigin;
   vec3 shadowDirection;
   float shadowLimit;
-  uint shadowMedium;  // that the shadow ray is inside of, as `medium` (kMedia)
+  uint shadowMedium;  // material of the solid that the shadow ray is inside of, as `medium` (kMedia)
   vec3 aovWeight;       // the share of the light still to come that belongs to the AOV (kPathAov)
   Guide guide;
   LightPath fromLight;

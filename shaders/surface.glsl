@@ -61,7 +61,7 @@ struct MovingTriangle {
   float part;  // 0..1 of the segment
 };
 
-/// Slots before the segment of a time of the path.
+/// The number of leaf slots in the segments before the one of a path's time.
 int slotsBefore(float time) { return 2 * frame.segments.z * momentAt(time, frame.segments.x).segment; }
 
 /// The slot of a triangle in the segment of a time of the path, from that in the first segment.

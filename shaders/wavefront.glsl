@@ -22,8 +22,8 @@ struct Wave {
   ivec2 corner;  // the first, in the film
   uint hits;     // the ray has hit a surface, which is to be shaded
   uint misses;   // it has not; or the path has ended; or none has begun
-  uint waiting;  // for the shadow ray as well
-  uint blocked;  // that ray is
+  uint waiting;  // the path also waits for its shadow ray
+  uint blocked;  // the shadow ray has hit something
   uint rays;     // to be traced
   uint shadows;
   int steps;
@@ -215,7 +215,7 @@ Wave beginSamples(Wave v, uint left, TreeFrame tree) {
   return v;
 }
 
-/// A ray has come to its end: what it met is kept.
+/// Keeps what a ray has hit once its traversal is done.
 Wave settleRay(Wave v, Traversal t, int current, bool isShadow) {
   uint bit = 1u << current;
   int row = rowOf(v, current);

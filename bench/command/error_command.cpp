@@ -244,7 +244,7 @@ Image readGivenReference(const ErrorOptions& options, glm::ivec2 size) {
   return reference;
 }
 
-/// All pictures are compared with one reference.
+/// Throws UsageError if a picture has another size than the first: all are compared with one reference.
 void checkSize(const ErrorOptions& options, glm::ivec2 first, const BenchConfiguration& configuration,
                glm::ivec2 own) {
   if (own == first) return;

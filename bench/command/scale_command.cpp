@@ -115,7 +115,7 @@ struct Runner {
   double compileMs = 0.0;
   std::vector<double> frameMs;  ///< one a round
   FlatPictureCheck seen;
-  size_t differing = 0;  ///< pixels that are not those of the first traversal
+  size_t differing = 0;  ///< pixels that differ from those of the first traversal
 };
 
 /// What all measurements of one run share; the camera is that of the size.

@@ -11,7 +11,7 @@
 
 namespace fragtrace {
 
-/// A picture that settings are to show.
+/// The right picture, with which those of the settings are compared.
 struct ReferencePicture {
   std::filesystem::path path;
   FilmPixels film;

@@ -16,7 +16,7 @@ namespace fragtrace {
 
 namespace {
 
-/// As parsed, and what follows from it.
+/// The options as parsed, and the values that follow from them.
 struct StressOptions {
   RawRender raw;
   RenderOptions render;           ///< device

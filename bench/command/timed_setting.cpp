@@ -56,7 +56,7 @@ void warmUp(TimedSetting& s) {
     const double missing = std::max(1.0, (roundMs - spent) / frameMs);
     frames = int(std::min({2.0 * frames, std::ceil(missing), double(kMost)}));
   }
-  // Step: what a draw costs once must not weigh differently in settings that are compared.
+  // Step: choose enough frames that the fixed cost of a draw weighs alike in all settings compared.
   const double affordable = kMostOverTime * roundMs / frameMs;
   const double least = std::min(double(s.timing.leastFrames), affordable);
   const double wanted = std::clamp(std::max(roundMs / frameMs, least), 1.0, double(kMost));

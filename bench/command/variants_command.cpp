@@ -21,7 +21,7 @@ namespace {
 struct VariantsOptions {
   std::vector<std::string> sceneNames;
   RawConfigurations raw;
-  std::vector<BenchConfiguration> scenes;  ///< one each
+  std::vector<BenchConfiguration> scenes;  ///< one per scene
   std::vector<std::string> only;           ///< what is turned on; empty: everything
   FrameTiming timing;
   ResultFiles files;

@@ -24,7 +24,7 @@ def lanes(groups):
 
 KEPT_FILM = {"trace.glsl": [("if (kGpu) film = loadFilm(pixel);", ""), ("if (kGpu) storeFilm(pixel, film);", "")]}
 
-# By name: for each file, texts and what takes their place, everywhere.
+# The edits of each file, by name: the file that replaces it, or texts and their replacements, everywhere.
 EDITS = {
     "copied-frame": {"tune/frame_uniform.glsl": "tune/frame_variable.glsl"},
     "kept-film": KEPT_FILM,

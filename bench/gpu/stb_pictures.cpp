@@ -179,7 +179,7 @@ Image readExr(Bytes bytes) {
   }
   checkImageSize(image.width, image.height, int64_t(stored.size()));
 
-  // As OpenImageIO has it: colour first.
+  // Colour channels come first, as in OpenImageIO.
   image.channels = stored;
   const auto rank = [](const std::string& name) {
     return std::min(name.size() == 1 ? std::string("RGBA").find(name) : 4, size_t(4));

@@ -24,8 +24,8 @@ import pictures
 SCENES = ("cornell-box", "room-ball", "matt-ball", "many-lights", "asset")
 PEERS = ("mitsuba-llvm", "mitsuba-scalar", "cycles", "cycles-roulette")
 MEAN_LEVEL, BLOCK_LEVEL = 0.005, 0.01  # relative; of the blocks' root mean square beyond the noise
-# Where Cycles' adaptive sampling, which its defaults turn on, gets to a relative MSE of 1e-3: its threshold of 0.01 ends it at 0.0024 in the box, at 0.0031
-# in the room with the ball and at 0.0020 under many lights.
+# The scenes in which Cycles' adaptive sampling (on by default) reaches a relative MSE of 1e-3. Its threshold
+# of 0.01 stops it at 0.0024 in the box, at 0.0031 in the room with the ball and at 0.0020 under many lights.
 ADAPTIVE_REACHES = ("matt-ball",)
 ERROR_SEEDS, ERROR_RESOLUTION = 4, 64  # of the pictures that tell how many samples an error takes
 

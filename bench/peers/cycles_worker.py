@@ -80,7 +80,7 @@ def add_mesh(mesh):
 
 
 def add_light(light):
-    """KHR_lights_punctual: watts per steradian of a point, watts per square metre of a sun; both hard."""
+    """KHR_lights_punctual: points in W/sr, suns in W/m^2, both with hard shadows."""
     data = bpy.data.lights.new(light["name"], "POINT" if "position" in light else "SUN")
     data.color = light["color"]
     item = add_object(light["name"], data)

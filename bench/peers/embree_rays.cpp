@@ -94,7 +94,7 @@ void fill(RTCRay& ray, const FileRay& from) {
   ray.flags = 0;
 }
 
-/// Distance of the hit; for occlusion 0; -1: nothing.
+/// The distance of the hit; 0 for an occlusion ray that is blocked; -1 if nothing is hit.
 float traceOne(RTCScene scene, const FileRay& from, bool anyHit) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);

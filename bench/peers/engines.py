@@ -14,8 +14,8 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 
 
-# Mitsuba's. The dimensions of ldsampler are correlated: its pictures of scenes/many-lights.gltf are 0.85 % too dark (8 seeds of 256 samples, the other four
-# within 0.07 %), so it does not tell the mean.
+# Mitsuba's samplers. The dimensions of ldsampler are correlated: its pictures of scenes/many-lights.gltf are
+# 0.85 % too dark (8 seeds of 256 samples, the other four within 0.07 %), so its mean is not used.
 SAMPLERS = ("independent", "stratified", "multijitter", "orthogonal", "ldsampler")
 BIASED = "ldsampler"
 

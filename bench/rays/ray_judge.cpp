@@ -60,10 +60,10 @@ class Shape {
     return over ? heightOver(p) : rim;
   }
 
-  /// How the line of a ray passes a shape.
+  /// Distances at which the line of a ray passes a shape.
   struct Passage {
-    double rim = HUGE_VAL;  ///< from where rays begin to miss: the edges, or the sphere's outline
-    double beside = 0.0;    ///< from the shape itself; 0: through it
+    double rim = HUGE_VAL;  ///< from the edges, or the sphere's outline, beyond which rays miss
+    double beside = 0.0;    ///< from the shape; 0: the line goes through it
     double spread =
         1.0;  ///< square of the farthest corner's distance over the area that the ray sees, times two
   };

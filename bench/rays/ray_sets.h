@@ -24,9 +24,9 @@ std::vector<Ray> primaryRays(const Camera& camera, const LocalSpace& space, glm:
 std::vector<Ray> diffuseRays(const ExactTracer& tracer, std::span<const Ray> primary,
                              std::span<const ExactHit> hits, uint32_t seed);
 
-/// One ray from each such point towards a point on an emissive triangle, uniform over their area, or, in a
-/// scene without any, to a point of the scene's box; it ends just before that point. Where the point is
-/// behind the surface there is no ray.
+/// One ray from each point that the primary rays hit to a point on an emissive triangle, uniform over their
+/// area; in a scene without any, to a point of its box. The ray ends just before that point. There is no ray
+/// to a point behind the surface.
 std::vector<Ray> shadowRays(const ExactTracer& tracer, const Scene& scene, std::span<const Ray> primary,
                             std::span<const ExactHit> hits, uint32_t seed);
 

@@ -100,7 +100,7 @@ Json gainJson(const Gain& gain) {
   return {{"times_sooner", gain.time}, {"times_fewer_samples", gain.samples}};
 }
 
-/// Of the pictures filtered, in the entry of those as drawn.
+/// The figures of the filtered pictures, for the entry of the unfiltered ones.
 Json filteredJson(const ErrorReport& report, const ErrorCurve& drawn, const ErrorCurve& curve) {
   Json entry = {{"filter", curve.filter}};
   entry.update(measuredJson(report, curve));

@@ -46,7 +46,7 @@ Growth growthOf(std::span<const Json> sizes, const std::string& name, const std:
   return growth;
 }
 
-/// That of a traversal at a size; null where there is none.
+/// The frames of a traversal at a size; null if there are none.
 Json framesOf(const Json& size, const std::string& traversal) {
   for (const Json& frames : size.at("traversals")) {
     if (frames.at("traversal") == traversal) return frames;

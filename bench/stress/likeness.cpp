@@ -81,7 +81,7 @@ RenderOptions optionsOf(int side) {
   options.sampling.seed = 1;
   options.camera.resolution = glm::ivec2(side);
   options.device.traversal = TraversalMethod::FrontToBack;
-  // Independent samples tell their noise.
+  // The variance of samples tells their noise only if they are independent.
   options.stages.reset(size_t(Stage::Sobol));
   return options;
 }

@@ -16,7 +16,7 @@ struct Likeness {
   double meanErrors = 0.0;  ///< the same in standard errors
   double worstBlock = 0.0;  ///< of the blocks of 8 x 8 pixels, in standard errors
   size_t pixels = 0;
-  size_t otherHits = 0;  ///< of these: depths of one sample are more than a thousandth apart
+  size_t otherHits = 0;  ///< of these, pixels whose depths in one sample differ by over 0.1 %
   std::string wrong;     ///< why they do not show the same; empty: they do
 };
 

@@ -68,7 +68,7 @@ void cutAcross(Prism& w, double height, uint32_t count, Dice& dice) {
   w.face(rows.back()[0], rows.back()[1], rows.back()[2]);
 }
 
-/// The two sides at the crease, and the ends, are cut at distances from it.
+/// Cuts the two sides at the crease, and the ends, at distances from the crease.
 void cutAlong(Prism& w, double height, uint32_t count, Dice& dice) {
   struct Row {
     std::array<uint32_t, 2> low;  // at both ends

@@ -12,7 +12,7 @@ struct Emission {
   vec3 origin;
   vec3 direction;
   vec3 flux;
-  float range;  // of a punctual light; 0: none
+  float range;  // of a punctual light; 0: unlimited
 };
 
 Emission noEmission() {

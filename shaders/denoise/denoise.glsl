@@ -31,7 +31,7 @@ struct Guide {
   vec4 albedo;  // and coverage
   vec3 normal;
   float depth;  // logarithm to base 2
-  vec2 slope;   // of that, a pixel
+  vec2 slope;   // change of `depth` per pixel
 };
 
 /// All guides fit into one texel, since a tap costs as much as it fetches. 8 bits are finer than the differences that

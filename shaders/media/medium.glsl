@@ -40,7 +40,8 @@ Path standInside(Path p, uint medium) {
   return p;
 }
 
-/// The distance at which the flight that begins at `from` along the path's ray ends; kFarAway where it need not.
+/// Samples the distance along the path's ray of the next scattering after `from`; kFarAway without a medium
+/// that scatters.
 float flightEnd(Path p, float from, float u) {
   float end = kFarAway;
   if (kFog && p.medium == kPrimitiveNone) end = fogFlight(fog, p.origin, p.direction, from, u);

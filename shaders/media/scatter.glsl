@@ -12,8 +12,8 @@ Path sampleLdInMedium(Path p, vec3 point, float g) {
   return spawnShadowRayFrom(p, point, point, light, p.throughput * light.irradiance * (value * weight));
 }
 
-/// Roulette decides if a path goes on after a scattering in a medium, which --bounces does not limit: in one that is
-/// white and dense, paths are long.
+/// Decides by roulette if a path continues after a scattering in a medium. --bounces does not limit these
+/// scatterings, because paths in a white, dense medium are long.
 Path decideInMedium(Path p) {
   p.after = kPhaseEnd;
   if (maxComponent(p.throughput) <= 0.0) return p;

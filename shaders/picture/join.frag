@@ -13,8 +13,8 @@ layout(location = 1) out vec2 count;
 
 const int kReach = 2;  // pixels each way that tell whether the past still holds
 
-/// The square of the past's error, and the variance of one pixel's difference, over the pixels around: from the mean
-/// difference beyond its own noise, and from the squares of differences beyond theirs.
+/// x: the square of the past's error around the pixel, which is the larger of the squared mean difference and
+/// the mean squared difference, each less its noise. y: the variance of one pixel's difference.
 vec2 wrongness(ivec2 pixel) {
   vec2 sums = vec2(0.0);
   float pixels = 0.0;

@@ -70,7 +70,7 @@ bool showsTheSame(Surface now, float depth, Surface before) {
          max(max(apart.r, apart.g), apart.b) <= kAlbedoApart;
 }
 
-/// The values of the past at a point.
+/// The history (`past`), interpolated at a point.
 struct Known {
   vec3 light;  // without albedo
   float variance;

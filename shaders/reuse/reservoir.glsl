@@ -63,8 +63,8 @@ struct Reuse {
   LightChoice light;
   float target;  // on the pixel's own surface
   float sum;     // of the weights so far
-  float share;   // sum over the neighbours of the own sample's shares against each of them
-  float left;    // number that chooses
+  float share;   // sum over the neighbours of the own sample's MIS weight against each
+  float left;    // random number that chooses; rescaled after each choice
 };
 
 Reuse beginReuse(float left) {

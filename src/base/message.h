@@ -29,7 +29,7 @@ struct WorkRequest {
 
 struct WorkReply {
   uint64_t done = 0;         ///< 1, or 0 with a reason
-  uint64_t outputBytes = 0;  ///< used of the room
+  uint64_t outputBytes = 0;  ///< bytes of the output
   char reason[1000] = {};
 };
 

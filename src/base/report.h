@@ -10,7 +10,7 @@ namespace fragtrace {
 
 /// From now on all messages are JSON; quiet: errors alone.
 void reportAsJson(bool quiet);
-/// Any thread or signal handler may call it.
+/// Returns true after reportAsJson(). Any thread or signal handler may call it.
 bool reportsAsJson();
 
 /// "warning: ...", "note: ..." or another message. As JSON its type is that word, or "message".

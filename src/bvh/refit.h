@@ -26,9 +26,9 @@ void refitTo(Bvh& bvh, std::span<const Bounds> primitives);
 
 RefittableTree refittable(Bvh bvh, const Scene& scene);
 
-/// The tree with the boxes that the scene's primitives have now; their numbers are the same. Nothing if their
-/// number has changed, if the scene has instances, or if the cost is more than kMostRefitCost times that of
-/// the tree when it was built.
+/// The tree with the boxes that the scene's primitives have now. The primitives keep their indices. Nothing
+/// if their count has changed, if the scene has instances, or if the cost is more than kMostRefitCost times
+/// that of the tree when it was built.
 std::optional<Bvh> refitted(const RefittableTree& tree, const Scene& scene);
 
 }  // namespace fragtrace

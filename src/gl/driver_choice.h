@@ -24,7 +24,7 @@ bool isForGpu(Tune wanted, const Context& context);
 bool keepsCompiled(const Context& context);
 
 /// Tells Mesa's software driver the width, for all contexts of the process. It must be called before the
-/// first one is made. Auto leaves the width as it is. Pictures are the same bits.
+/// first one is made. Auto leaves the width as it is. Pictures do not depend on it.
 void setVectorWidth(VectorWidth width);
 
 /// The width with which the driver computes, by GL_RENDERER; 0 if it does not say.

@@ -168,7 +168,7 @@ void checkSky(const RenderOptions& o) {
   }
 }
 
-/// Light paths cannot do all that paths from the camera can, which auto leaves to these.
+/// Refuses --caustics on with options that light paths do not support; auto then uses camera paths alone.
 void checkLightPaths(const RenderOptions& o) {
   if (o.light.caustics != Caustics::On) return;
   if (o.sampling.clampIndirect > 0.0)

@@ -12,8 +12,8 @@ namespace fragtrace {
 
 void addConfigOption(CLI::App& app, std::string& file);
 
-/// Runs a parsed command with its settled options (finishRender()), with all options of the file (none: an
-/// empty path) that its command line has not given, nor one that excludes them. Names of files in it mean
+/// Runs a parsed command with its settled options (finishRender()). An option of the file (none: an empty
+/// path) counts unless the command line has given it, or one that excludes it. Names of files in it mean
 /// what they mean on the command line. Returns the command's status. Throws InputError that names the file
 /// and the line, or the member as a JSON pointer, also where `run` throws UsageError about an option of the
 /// file; and what else `run` throws.

@@ -149,7 +149,7 @@ MapRows lobesOf(const MapRows& map, int level) {
   const auto lobe = [&](double cosine) {
     return cosine > 0.0 ? std::pow(0.5 + 0.5 * cosine, 0.5 * exponent) * cosine - kLeast : -1.0;
   };
-  // cos(a / 2)^n < exp(-n a^2 / 8)
+  // The lobe is below kLeast beyond `reach`, since cos(a / 2)^n < exp(-n a^2 / 8).
   const double reach = std::sqrt(-8.0 * std::log(kLeast) / std::max(exponent, 1.0));
   std::vector<double> polar;
   for (int y = 0; y <= map.height(); ++y) polar.push_back(glm::pi<double>() * y / map.height());

@@ -26,7 +26,7 @@ struct PlacedTexels {
 using PlacedTextures = std::map<std::pair<uint32_t, TransferCurve>, PlacedTexels>;
 
 struct KeptArrays {
-  std::vector<std::pair<std::string, size_t>> images;  ///< names and bytes of the scene's, when it was packed
+  std::vector<std::pair<std::string, size_t>> images;  ///< names and sizes of the images packed
   PlacedTextures textures;
   const VolumeGrid* grid = nullptr;  ///< grid behind the arrays; it is only compared
   PackedGrid densities;

@@ -129,7 +129,7 @@ class TraversalText {
     return a.empty() || b.empty() ? a + b : a + " + " + b;
   }
 
-  /// The coordinate of a point in a row.
+  /// The expression for the coordinate of a point along a row of the ray's shear.
   std::string place(const std::string& row, uint32_t point) {
     const glm::vec3& p = mesh_.points[point];
     const int a = (single_ + 1) % 3;

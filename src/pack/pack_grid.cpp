@@ -70,7 +70,7 @@ PackedGrid appendGrid(const VolumeGrid& grid, Words& texels) {
   for (int z = -1; z < grid.bricks.z; ++z) {
     for (int y = -1; y < grid.bricks.y; ++y) {
       for (int x = -1; x < grid.bricks.x; ++x) {
-        // Values between voxels reach to the lower sides of the next bricks.
+        // Interpolation at a brick's upper sides also reads the lower sides of the next bricks.
         uint16_t most = 0;
         for (uint32_t s = 0; s < 8; ++s) {
           const uint32_t number = grid.entryOf(glm::ivec3(x, y, z) + glm::ivec3(s & 1, (s >> 1) & 1, s >> 2));

@@ -53,9 +53,9 @@ struct View {
   Lens lens;                          ///< when the variant has one
   double hdriRotation = 0.0;          ///< radians about +Y
   double hdriIntensity = 1.0;         ///< factor of the environment's radiance
-  float surroundings = 1.0f;    ///< factor of all light from outside the scene, as the camera sees it, too;
-                                ///< no light sample depends on it
-  glm::vec3 background{0.0f};   ///< seen by camera rays that miss
+  float surroundings = 1.0f;          ///< factor of all light from outside the scene, also where the camera
+                                      ///< sees it; it does not change which samples are drawn
+  glm::vec3 background{0.0f};         ///< seen by camera rays that miss
   bool showEnvironment = true;  ///< camera rays that miss see the environment map instead, or its backdrop
   bool seesNothing = false;     ///< they see nothing: the picture is to be laid over another one
   Fog fog;                      ///< when the variant has one

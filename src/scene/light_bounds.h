@@ -35,7 +35,7 @@ LightBounds unite(const LightBounds& a, const LightBounds& b);
 /// there. It is the same as lightNodeFrom of shaders/lights/light_tree.glsl.
 double importanceOf(const LightBounds& lights, const glm::dvec3& point);
 
-/// Luminous power. Lights that shine everywhere do so through the cross-section of a scene of that radius.
+/// Luminous power. That of an `everywhere` light is what crosses a disc of that radius, the scene's.
 double powerOf(const LightBounds& lights, double radius);
 
 LightBounds boundsOfTriangle(const std::array<glm::dvec3, 3>& corners, double radiance, bool bothSides);

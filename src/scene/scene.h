@@ -165,7 +165,7 @@ struct Material {
   bool mirrorLike() const { return roughnessFactor * roughnessFactor < 0.001f; }
   bool clearcoated() const { return clearcoatFactor > 0.0f; }
   bool hasSheen() const { return sheenColorFactor != glm::vec3(0.0f); }
-  /// Layers lie over the base of the surface.
+  /// Returns true if clearcoat or sheen lies over the base.
   bool layered() const { return clearcoated() || hasSheen(); }
   bool anisotropic() const { return anisotropyStrength > 0.0f; }
   bool iridescent() const { return iridescenceFactor > 0.0f; }

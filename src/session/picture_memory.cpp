@@ -14,8 +14,8 @@ namespace fragtrace {
 
 namespace {
 
-/// A pixel of the film. Three images of the device, a copy of these, and the pixels made of it: what 16384 x
-/// 2000 were seen to take. Layers are drawn on one more film, adaptive pictures on two, which are joined.
+/// The bytes per pixel of the film: three images on the device, a copy of them, and the pixels made from it,
+/// as measured at 16384 x 2000. Layers need one more film, adaptive pictures two, which are joined.
 uint64_t bytesOfFilm(const RenderOptions& options) {
   constexpr uint64_t kOne = 48 + 48 + sizeof(FilmPixel);
   constexpr uint64_t kWithLayers = kOne + 48 + sizeof(FilmPixel);

@@ -11,7 +11,7 @@ namespace fragtrace {
 /// nothing when quiet; events of the type "progress" where JSON is told (base/report.h).
 class ProgressBar {
  public:
-  /// `samples` per pixel are the whole of the work, as far as that is known.
+  /// `samples`: the samples per pixel of the whole work, if they are known.
   ProgressBar(std::string label, bool quiet, std::optional<int> samples = std::nullopt);
   /// The time left is that of this work, by the fraction done, and of what follows it.
   void show(double fraction, double secondsAfter = 0.0);

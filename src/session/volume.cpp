@@ -19,7 +19,7 @@ bool sameGrid(const VolumeSource& a, const VolumeSource& b) {
   return a.file == b.file && a.grid == b.grid && a.emits() == b.emits();
 }
 
-/// Takes over what the other names.
+/// Replaces the members that the other sets.
 void takeOver(VolumeSource& source, const VolumeSource& other) {
   const auto take = [](auto& value, const auto& from) {
     if (from) value = from;

@@ -25,9 +25,8 @@ struct CameraPose {
 /// The pose of a camera; the bounds say where on its axis the focal point lies (focalPointOf).
 CameraPose poseOf(const Camera& camera, const BoundsDouble& bounds);
 
-/// The pose as the options that make a camera of it, whichever it replaces: all but the angle or the height
-/// that its projection has no use for. What is drawn is always withOverrides() of these, which is why
-/// `render` draws the same.
+/// The options that give any camera this pose: all but the angle or the height that its projection does not
+/// use. The viewer always draws withOverrides() of these, so `render` draws the same.
 CameraOverrides overridesOf(const CameraPose& pose);
 
 /// Turns about the focal point, radians: positive `azimuth` turns the picture to the right about the world's

@@ -45,10 +45,10 @@ void record(History& history, const ViewState& state);
 bool undo(History& history, ViewState& state);
 bool redo(History& history, ViewState& state);
 
-/// The scene of the latest step cannot be had: the step is taken back, and what is shown counts.
+/// Takes back the latest undo() or redo(), since the scene that it needs cannot be loaded.
 void giveUp(History& history, ViewState& state);
 
-/// Takes what has changed since the last call, which the user did not do, as if it had been so.
+/// Accepts changes since the last call that the user did not make; they become no step.
 void overlook(History& history, const ViewState& state);
 
 /// A number of the scene's file that is another one by now.

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Real glTF files, written by others, against pictures of them that are kept in tests/assets. Skipped where the files are absent.
+"""Compares pictures of real glTF files by others with those in tests/assets. Skipped without the files.
 
 FRAGTRACE_ASSETS=FOLDER: another folder of assets than /work/shared/assets.
 assets_test.py FRAGTRACE SOURCE_FOLDER --remake [NAME...] makes the pictures again; each is to be looked at before it is kept."""

@@ -107,7 +107,7 @@ class QuickCompilation(Case):
 
 
 class VectorWidth(Case):
-    """Of Mesa's software driver."""
+    """The width of vectors in Mesa's software driver."""
 
     def setUp(self):
         super().setUp()

@@ -178,7 +178,7 @@ class Caustics(Case):
             columns[caustics] = [[statistics.fmean(row[x][0] for row in picture) for picture in pictures] for x in range(len(pictures[0][0]))]
         squares = [(statistics.fmean(a) - statistics.fmean(b))**2 * len(SEEDS) / (statistics.variance(a) + statistics.variance(b))
                    for a, b in zip(columns["on"], columns["off"])]
-        # 10 / 8 on average, of t's distribution; the standard error of the mean is about 0.4.
+        # The mean of t^2 with 10 degrees of freedom is 10 / 8; its standard error here is about 0.4.
         print(f"columns: {statistics.fmean(squares):.2f}")
         self.assertLess(statistics.fmean(squares), 10 / 8 + 4 * 0.4)
 

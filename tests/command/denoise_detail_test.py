@@ -166,7 +166,7 @@ class DenoisedEnergy(DenoisedCase):
         _, body = self.both(SCENES / "furnace.gltf", 16, "--default-light", "white")
         for value in (body[y * SIDE + x] for y in range(24, 40) for x in range(24, 40)):
             self.assertAlmostEqual(value, 0.8, delta=0.004)
-        # Single pixels of this one are noisy by 5 %, and filtered by 1.4 %.
+        # Single pixels of this room have 5 % noise, and 1.4 % after the filter.
         _, room = self.both(SCENES / "closed-furnace.gltf", 64, "--bounces", 1000)
         for top in range(0, SIDE, 8):
             for left in range(0, SIDE, 8):

@@ -45,7 +45,7 @@ class OptionReference(Case):
 
 
 class HelpFiles(Case):
-    """What scripts/help_files writes."""
+    """The files that scripts/help_files writes."""
 
     @classmethod
     def setUpClass(cls):

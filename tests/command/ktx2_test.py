@@ -35,7 +35,7 @@ class Ktx2(Case):
         return path
 
     def run_without_codec(self, *arguments):
-        """By a copy of the program that has its worker and the module for pictures alone."""
+        """Runs a copy of the program that has only its worker and the module for pictures."""
         folder = self.folder / "program"
         if not folder.exists():
             folder.mkdir()

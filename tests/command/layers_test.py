@@ -87,7 +87,7 @@ class FirstHits(Case):
             self.close(exr.pixel(x, y, "depth.Z"), (view.mean(x, y, hit),), 2e-3)
             normal = [view.mean(x, y, lambda d: view.eye[i] + hit(d) * d[i] - (i == 1)) for i in range(3)]
             self.close(exr.pixel(x, y, *NAMES["normal"]), normal, 2e-3)
-        # The sky.
+        # The sky, at the top, has no hit.
         for x in range(width):
             self.assertEqual(exr.pixel(x, 0, *sum(NAMES.values(), [])), (0,) * 7)
 

@@ -112,7 +112,7 @@ FEATURES = {
                          "/nodes/0/extensions": {"KHR_lights_punctual": {"light": 0}}}),
 }
 
-# Name: attributes, what is put where, status, what is said. All are invalid.
+# Invalid files. Name: attributes, values by JSON pointer, exit status, part of the message.
 ERRORS = {
     "missing buffer view": ((), {"/accessors/0/bufferView": 9}, 3, "/accessors/0/bufferView"),
     "missing accessor": ((), {"/meshes/0/primitives/0/attributes/POSITION": 9}, 3, "/meshes/0/primitives/0/attributes/POSITION"),

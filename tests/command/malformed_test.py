@@ -14,7 +14,7 @@ from support import Case, main, run
 
 FOLDER = Path(os.environ.get("FRAGTRACE_ASSETS", "/work/shared/assets")) / "malformed/gltf-validator-test"
 
-# Codes whose errors are in what the program does not read.
+# Codes of errors in data that the program does not read.
 NOT_READ = {
     "ACCESSOR_ELEMENT_OUT_OF_MAX_BOUND": "min and max are not read: bounds are taken from the elements",
     "ACCESSOR_ELEMENT_OUT_OF_MIN_BOUND": "as above",

@@ -105,7 +105,7 @@ class Materials(Case):
             "roughnessFactor": 1 - 0.6 * 51 / 255}}
         expected = self.picture_of(quad(rough), "--spp", "4")
         self.assertGreater(expected[16][16][0], 0.1)
-        # The texture's alpha is kept as a half float.
+        # The tolerance is for the texture's alpha, a half float.
         self.assert_same(self.picture_of(quad(glossy, images=[white(51)]), "--spp", "4"), expected, 1e-3)
 
     def spheres(self, materials):

@@ -54,7 +54,7 @@ class Encodings(Case):
             self.assertEqual(path.read_bytes()[24], depth)
 
     def test_noise_before_8_bits(self):
-        """Within a step of the exact value; without it, the nearest level."""
+        """The noise moves a level by at most one step; without it, the level is the nearest."""
         linear = self.folder / "x.exr"
         self.renders(BOX, "-o", linear, *SMALL)
         exact = [255 * encoded(max(0, min(1, value))) for pixel in zip(*map(Exr(linear).values, "RGB")) for value in pixel]

@@ -99,7 +99,7 @@ BELOW = {"box": lambda x: min(max(x + 0.5, 0), 1),
 
 class Filters(Case):
     def half_plane(self, edge):
-        """White where x > edge, seen by a camera that shows a metre a pixel in a picture of 16 x 16; edges left and right, or below and above."""
+        """A scene that is white where x > edge. Its camera shows 1 m per pixel in a picture of 16 x 16."""
         corners = struct.pack("<12f", edge, -100, 0, 100, -100, 0, 100, 100, 0, edge, 100, 0)
         data = corners + struct.pack("<6H", 0, 1, 2, 0, 2, 3)
         scene = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],

@@ -67,7 +67,7 @@ class Volumes(Case):
         luminance = 0.2126 * thick[0] + 0.7152 * thick[1] + 0.0722 * thick[2]
         self.assertAlmostEqual(luminance / 6, 1, delta=0.03)
 
-        # As hot as its surroundings, it is not seen.
+        # A cube as hot as its surroundings is invisible.
         equal = self.seen(self.camera_alone(), *WHITE, "--volume", self.grid("ember"), "--volume-density", 4, "--volume-color", "0.5,0.5,0.5",
                           "--volume-emission", 1e-5 / thick[0], spp=256)
         self.assertAlmostEqual(mean(equal), 1, delta=0.01)

@@ -29,7 +29,7 @@ TEST_F(FileWatchTest, SeesWhatIsWrittenOnceAndWhatIsGoneForLong) {
   write(scene, "other");
   EXPECT_TRUE(watch.changed());
   std::filesystem::remove(scene);
-  for (int look = 1; look <= 6; ++look) EXPECT_EQ(watch.changed(), look == 4) << look;  // now it is gone
+  for (int look = 1; look <= 6; ++look) EXPECT_EQ(watch.changed(), look == 4) << look;  // gone for four looks
   write(scene, "other");
   EXPECT_TRUE(watch.changed());
   write(missing, "there");

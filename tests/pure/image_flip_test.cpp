@@ -97,7 +97,7 @@ TEST(ImageFlip, OfFlatColoursEqualsNvidias) {
   const auto square = [](double r, double g, double b) { return picture(8, 8, flat(r, g, b)); };
   EXPECT_NEAR(flipError(square(0.5, 0.5, 0.5), square(0.5625, 0.5, 0.4375)).mean, 0.229244, 5e-5);
   EXPECT_NEAR(flipError(square(0, 0, 0), square(1, 1, 1)).mean, 0.967388, 5e-5);
-  EXPECT_NEAR(flipError(square(0, 1, 0), square(0, 0, 1)).mean, 1, 1e-12);  // the farthest that there is
+  EXPECT_NEAR(flipError(square(0, 1, 0), square(0, 0, 1)).mean, 1, 1e-12);  // the largest error possible
 }
 
 TEST(ImageFlip, EqualPicturesDifferByNothingAndTheOrderDoesNotMatter) {

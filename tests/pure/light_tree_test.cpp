@@ -81,7 +81,7 @@ TEST(LightTree, ANodeShinesWhereverALightBelowItDoes) {
     for (const LightNode& node : nodes)
       dark += node.light == kMissIndex && importanceOf(node.bounds, point) <= 0.0 ? 1 : 0;
   }
-  EXPECT_GT(dark, 100);  // what bounds cannot tell is never left out
+  EXPECT_GT(dark, 100);  // bounds that are too loose would leave out no node
 }
 
 /// 120 triangles in a row before the origin, and the punctual lights.

@@ -11,8 +11,8 @@ namespace fragtrace {
 namespace {
 
 /// Draws directions in float and compares their histogram with the density in double. Facets that send light
-/// to the wrong side lose their samples (weight 0): these are counted in a bin of their own, where the
-/// density's integral must leave just that much.
+/// to the wrong side lose their samples (weight 0). These go to one more bin, which is to hold 1 minus the
+/// integral of the density.
 void expectSamplesFollowTheDensity(const Case& c, double elevation, size_t tests) {
   constexpr int kSamples = 1 << 17;
   const dvec3 wo = atElevation(elevation);

@@ -12,7 +12,7 @@
 namespace fragtrace {
 namespace {
 
-/// The distance in 32-bit floats, of slivers that to their plane unless `planes` is false; not above 0: none.
+/// The hit distance in 32-bit floats, at most 0 for none; of slivers, that to their plane if `planes`.
 inline float distanceTo(const std::array<glm::vec3, 3>& v, const glm::vec3& origin,
                         const glm::vec3& direction, bool planes = true) {
   const glm::vec4 plane = planeOf(v[0], v[1], v[2]);

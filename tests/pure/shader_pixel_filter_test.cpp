@@ -133,7 +133,7 @@ Moments momentsOf(int filter, int across, int up) {
 }
 
 TEST(ShaderPixelFilter, MeanIsTheMiddleAndVarianceThatOfTheFilter) {
-  // Fine where the tails are: along u, and along v too where that alone decides y.
+  // The tails need fine steps along u, and along v too for filters in which v alone decides y.
   constexpr int kFine = 1 << 14;
   for (int filter : kFilters) {
     const Moments wide = momentsOf(filter, kFine, 8);

@@ -12,7 +12,7 @@
 namespace fragtrace {
 namespace {
 
-/// Two faces that meet in an edge from their first vertex to the second's third, fronts inwards.
+/// Two faces that meet at an angle in the edge of their first two vertices, fronts inwards.
 std::vector<Corners> wedge(Draw& draw, double degrees) {
   const dvec3 x = draw.direction();
   const dvec3 y = glm::normalize(glm::cross(x, draw.direction()));

@@ -71,7 +71,7 @@ TEST(ShaderSlivers, AreMetByRaysThatStartRightBesideThem) {
     const glm::vec2 w = glsl_float::sampleTriangle(0.98f * draw.unit() + 0.01f, 0.98f * draw.unit() + 0.01f);
     const dvec3 aim =
         dvec3(v[0]) + double(w.x) * (dvec3(v[1]) - dvec3(v[0])) + double(w.y) * (dvec3(v[2]) - dvec3(v[0]));
-    // As high as what is told apart at all: 12 of the offset's 32 units.
+    // The least height with a reliable sign: 12 of the offset's 32 eps m (docs/design/ray-origins.md).
     const double height = 12.0 / 32.0 * hitPointError(v);
     dvec3 direction = draw.direction();
     if (glm::dot(direction, normal) > 0.0) direction = -direction;

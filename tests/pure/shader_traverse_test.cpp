@@ -217,7 +217,7 @@ TEST(ShaderTraverse, FrontToBackMeetsTheNearestWallFirstFromEitherSide) {
   const PackedTree p = packTree(walls);
   for (float side : {-1.0f, 1.0f}) {
     const Ray ray{vec3(side < 0.0f ? -5.0f : kWalls + 5.0f, 0.1f, 0.1f), vec3(-side, 0.0f, 0.0f)};
-    // Down to one leaf, and what was put aside on the way.
+    // The way down to one leaf, then the nodes pushed on the way.
     EXPECT_LE(traceFloat(p, Method::FrontToBack, ray).visits, 2 * int(p.bvh.depth) + 2);
     EXPECT_GE(traceFloat(p, Method::Bvh, ray).visits, kWalls / 2);
   }

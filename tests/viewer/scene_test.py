@@ -181,7 +181,7 @@ class Reference(Case):
         apart = pixels_of(viewer.press_for_file("F12", ".png"))
         self.assertNotEqual(apart, composite)
         viewer.key("i")
-        # What is dropped while two sides are shown takes its place.
+        # A picture dropped while two sides are shown replaces the reference.
         drop(self.screen, viewer.id, self.reference("other.pfm", "--exposure", 0))
         viewer.rest(lambda s: s["reference"].endswith("other.pfm"), "the other one")
         self.assertEqual(viewer.status()["environment"], "")

@@ -106,7 +106,8 @@ class Viewer:
         self.screen, self.folder = screen, Path(folder)
         self.status_file = self.folder / "status.json"
         scenes = [] if scene is None else [scene if isinstance(scene, Path) else SCENES / (scene + ".gltf")]
-        # Most tests compare what was drawn with `render`, to the last bit; what the viewer has by default has tests of its own.
+        # Most tests compare pictures with those of `render`, to the last bit. The viewer's own defaults are
+        # tested separately.
         for option, value in (("--denoise", "none"), ("--default-light", "white")):
             if option not in options and f"no{option[1:]}" not in options:
                 options += (option, value)
@@ -170,7 +171,7 @@ class Viewer:
         self.xdotool("mousemove", "--window", self.id, x, y)
 
     def click(self, name):
-        """On what the status file gives a place by that name, once that stands still."""
+        """Clicks the middle of the place with that name in the status file."""
         place = self.until(lambda s: s.get("places", {}).get(name), f"a place of {name}")["places"][name]
         time.sleep(0.1)
         self.at(round(place[0] + place[2] / 2), round(place[1] + place[3] / 2))
@@ -213,7 +214,7 @@ class Viewer:
         display.flush()
 
     def close(self):
-        """As the close button does."""
+        """Closes the window as its close button does."""
         display = self.screen.display
         self.message("WM_PROTOCOLS", [display.intern_atom("WM_DELETE_WINDOW"), X.CurrentTime, 0, 0, 0])
         return self.end()

@@ -24,8 +24,8 @@ struct ShownMeshes {
   std::vector<PrimitiveInstance> instances;
 };
 
-/// A node with EXT_mesh_gpu_instancing shows its mesh at each of its places. Left out with a warning is what
-/// is too small for double precision. Throws InputError, also for what is farther away than kFarthest.
+/// A node with EXT_mesh_gpu_instancing shows its mesh at each of its places. Meshes too small for double
+/// precision are left out with a warning. Throws InputError, also if one is farther away than kFarthest.
 ShownMeshes showMeshes(Document& document, const std::vector<Material>& materials,
                        const std::vector<PlacedNode>& nodes);
 

@@ -30,7 +30,7 @@ json& arrayIn(json& root, const char* name) {
   return array;
 }
 
-/// Warns of a data URI that says it is something else.
+/// Warns of a data URI whose media type is not one of those expected.
 void warnMediaType(std::string_view uri, const std::string& place,
                    std::initializer_list<std::string_view> expected, Diagnostics& diagnostics) {
   if (!isDataUri(uri)) return;

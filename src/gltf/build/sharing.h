@@ -26,8 +26,8 @@ struct PlacedMeshes {
   std::string copies;  ///< repeated meshes that cannot be shared; may be empty
 };
 
-/// Decides which meshes are copied and which are shared. Copied are meshes that shine, since their triangles
-/// are lights, and meshes so flat or scaled so unevenly that rounding would show (docs/design/numerics.md).
+/// Decides which meshes are copied and which are shared. Meshes that shine are copied, since their triangles
+/// are lights. So are meshes so flat or so unevenly scaled that rounding shows (docs/design/numerics.md).
 PlacedMeshes chooseSharing(std::vector<PrimitiveInstance> instances, Instancing wanted,
                            const std::vector<Material>& materials, uint64_t limit);
 

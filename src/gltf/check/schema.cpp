@@ -272,7 +272,7 @@ const std::vector<Rule>& rules() {
   return all;
 }
 
-/// The rest of the pattern behind the part that matches the whole pointer; none if it does not begin so.
+/// The part of the pattern after a prefix that matches the whole pointer; none without such a prefix.
 std::optional<std::string_view> restOf(std::string_view pattern, std::string_view pointer) {
   if (pattern.ends_with('!')) pattern.remove_suffix(1);
   while (pattern.starts_with('/') && pointer.starts_with('/')) {

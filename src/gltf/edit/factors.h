@@ -50,15 +50,15 @@ bool setsEmission(std::span<const SetNumber> set);
 /// The shortest number in decimal digits that is this one as a float, so that the same is read from a file.
 double shortest(float value);
 
-/// Sets what of this is a factor of the material, within the range that the loader takes.
+/// Sets those numbers that are factors of the material, within the range that the loader takes.
 void setFactors(Material& material, std::span<const SetNumber> set);
 
-/// Sets what of this is of the light, at its index among the file's.
+/// Sets those numbers that belong to the light with this index in the file.
 void setLight(LightSource& light, size_t index, std::span<const SetNumber> set);
 
-/// Makes the scene's materials and lights those of the file, which these are, with these numbers in their
-/// place. Returns false, and changes nothing, if more may have to change than these: another number is among
-/// them, or a material becomes one of another kind, for which meshes are built otherwise.
+/// Gives the scene the file's materials and lights (`materials`, `lights`) with the numbers of `set`. Returns
+/// false, and changes nothing, if more may have to change: `set` has another number, or a material becomes
+/// one of another kind, for which meshes are built otherwise.
 bool setByEye(Scene& scene, std::span<const Material> materials, std::span<const LightSource> lights,
               std::span<const SetNumber> set);
 

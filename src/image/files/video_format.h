@@ -29,7 +29,7 @@ std::optional<PixelForm> pixelFormOf(const std::filesystem::path& path);
 
 struct VideoFormat {
   std::string_view extension;  ///< with its dot
-  PixelForm pixels;            ///< that the encoder is given
+  PixelForm pixels;            ///< form of the pixels that the encoder gets
   bool evenSize;               ///< width and height are even: chroma has half of each
   bool yuv;                    ///< it holds luma and chroma
   std::string_view encoding;   ///< arguments of ffmpeg, with spaces between

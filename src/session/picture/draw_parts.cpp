@@ -193,7 +193,7 @@ Drawing drawEvenly(const PartRun& part, Film film) {
     const int spp = part.job.options.sampling.spp;
     const FilmTotals totals = totalsOf(sampled.film.read());
     sampled.fewest = int(std::min<uint32_t>(totals.fewestSamples, uint32_t(spp)));
-    // Each pixel goes on from its own.
+    // Each pixel continues from its own number of samples.
     const std::string mean = formatted("%.4g", double(totals.samples) / areaOf(sampled.film.size()));
     say(part.job.options, "--resume: goes on after " + mean + " of " + countText(size_t(spp), "sample") +
                               " per pixel" + placeOfPart(part.share));

@@ -52,7 +52,7 @@ void checkPair(const Part& first, const Part& second) {
   }
 }
 
-/// FilmPixel::luminance(), up to a constant. `alpha`: that of a picture that will lie over white.
+/// FilmPixel::luminance(), up to a constant. `alpha`: the channel, if the picture will be laid over white.
 double luminanceOf(const float* pixel, std::optional<size_t> alpha) {
   return luminance({pixel[0], pixel[1], pixel[2]}) - (alpha ? double(pixel[*alpha]) : 0.0);
 }

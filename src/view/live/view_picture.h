@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: MIT Makes the picture of a side on the device from its film. While samples are
-// few, it joins the picture of the view before, and filters.
+// SPDX-License-Identifier: MIT
+// Makes the picture of a side on the device from its film. While samples are few, it joins the picture of the
+// view before, and filters.
 #pragma once
 
 #include <functional>
@@ -17,7 +18,7 @@ namespace fragtrace {
 /// The share of the filtered picture that shows at that many samples: all up to 64, none from 256 on.
 double filteredShare(double samples);
 
-/// Samples per pixel from which on nothing of the past is left.
+/// From this number of samples per pixel on, the past is not used.
 inline constexpr int kNoPastFrom = 16;
 
 /// The memory that a side keeps on the device from picture to picture.

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: MIT The viewer's programs, each with its scene on the device. They are made by the
-// same steps as for `render`, so they draw the same, and are kept for later.
+// SPDX-License-Identifier: MIT
+// The viewer's programs, each with its scene on the device. They are made by the same steps as for `render`,
+// so they draw the same, and are kept for later.
 #pragma once
 
 #include <functional>
@@ -41,7 +42,7 @@ class ViewPrograms {
   bool has(const RenderOptions& options) const;
   /// Compiles it if it is not there; what failed stays failed until forget().
   std::shared_ptr<ViewProgram> of(const RenderOptions& options);
-  /// The same, but null where it is compiled aside, which begins now unless another one is being compiled.
+  /// As of(), but null if the program compiles in the background. That begins now unless another one does.
   std::shared_ptr<ViewProgram> soon(const RenderOptions& options);
   /// Returns true if a program that was compiled aside has come since the last call.
   bool takeNews();

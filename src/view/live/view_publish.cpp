@@ -26,11 +26,11 @@ constexpr int kLeastForError = 32;
 constexpr double kErrorStep = 1.2;  ///< samples grow by this factor between estimates of the error
 constexpr double kCountMs = 200.0;  ///< time between looks at the film's counts
 
-/// The bytes a pixel of films, and of pictures on their way to the window.
+/// The bytes per pixel of films, and of pictures on their way to the window.
 size_t bytesPerPixel(const SideMemory& memory) {
   constexpr size_t kFilm = 48;
   constexpr size_t kShown = kSlots * 16;
-  // Bytes a pixel: guides; past, present and fresh pictures; their differences; the picture; the filter.
+  // Bytes per pixel: guides; past, present and fresh pictures; their differences; the picture; the filter.
   constexpr size_t kFiltered = kFilm + 3 * 56 + 32 + 16 + 80;
   return kFilm + kShown + (memory.guides ? kFiltered : 0);
 }

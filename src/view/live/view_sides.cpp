@@ -81,7 +81,7 @@ View ViewTracer::viewOf(const RenderOptions& options) {
   return makeView(options, *loaded_, camera);
 }
 
-/// Shows what compiles soonest, so that the window is not empty while what the side draws is compiled.
+/// Shows the stage that compiles soonest, so that the window is not empty while the side's program compiles.
 void ViewTracer::preview(Side& side, const RenderOptions& wanted) {
   const bool quick = !has(wanted.stages, Stage::Shadows) && !has(wanted.stages, Stage::Gi);
   if (quick || loaded_->scene.triangles.size() > kMostPreviewed) return;

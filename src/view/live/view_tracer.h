@@ -78,19 +78,19 @@ class ViewTracer {
   void watchFiles();
   void rebuildPrograms();
   void adopt(const TraceRequest& request);
-  /// The options as such a scene is drawn that is posed anew.
+  /// The options, with front-to-back in place of an automatic traversal if the scene is posed anew.
   RenderOptions asPosed(RenderOptions options) const;
   /// Returns true if the scene has the pose that the request wants.
   bool isPosed(const TraceRequest& request) const;
-  /// Makes it so: at that time of its animation, with lines as wide as that camera wants. Why it cannot be,
-  /// the window is told.
+  /// Gives the scene that pose: the time of its animation, and lines as wide as that camera needs. Tells the
+  /// window why if it cannot.
   void pose(const TraceRequest& request);
   /// The scene gets the numbers that the request sets for surfaces and lights. Returns false if more than
   /// these may have to change: the scene is then to be posed.
   bool setSurfaces(const TraceRequest& request);
   /// Makes the sky that is asked for, where it is another one. Returns true if it was.
   bool relight(const TraceRequest& request);
-  /// With the filter that can be had; why not, the window is told.
+  /// The options with a filter that is available. Tells the window why if it is not the one asked for.
   RenderOptions withFilter(RenderOptions options);
   void adoptSide(Side& side, const RenderOptions& options);
   void preview(Side& side, const RenderOptions& wanted);
@@ -109,7 +109,7 @@ class ViewTracer {
   bool resting(const Side& side) const;
   /// Nothing moves, and the resolution is the full one.
   bool settled() const;
-  /// Some samples for the side that has the fewest, or a frame of each while something moves; false when all
+  /// Draws samples of the side that has the fewest, or a frame of each while something moves; false when all
   /// rest.
   bool work();
   /// Adds samples to the side's film; false when there is something else to do.

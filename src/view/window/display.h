@@ -70,8 +70,8 @@ class Display {
     GlFramebuffer framebuffer;  ///< framebuffer of the latter
     glm::ivec2 size{0};
     bool asItIs = false;
-    bool fresh = false;    ///< the display shows the traced picture,
-    DisplaySide settings;  ///< shown like this
+    bool fresh = false;    ///< `displayed` holds the traced picture
+    DisplaySide settings;  ///< the settings with which it was drawn
   };
   bool allReady() const;
   void adopt();

@@ -36,7 +36,7 @@ struct ViewFacts {
   std::array<PictureValues, kMostSides>
       values;  ///< values under the cursor, of the enlarged area, of the whole
   ShownHistogram histogram;
-  std::map<std::filesystem::path, unsigned> thumbnails;  ///< textures, of environments; empty: the studio
+  std::map<std::filesystem::path, unsigned> thumbnails;  ///< textures by environment; empty path: studio
   std::optional<glm::dvec2> cursor;  ///< over the picture: parts of its width and height, from the top left
   LoadStatus load;
   std::string note;

@@ -9,7 +9,7 @@ namespace fragtrace {
 
 namespace {
 
-constexpr double kLeastStop = 0.001;  // what the panel offers
+constexpr double kLeastStop = 0.001;  // the range that the panel offers
 constexpr double kMostStop = 32.0;
 
 /// A line for a new name, then one a view: go there, or forget it.

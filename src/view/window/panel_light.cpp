@@ -21,7 +21,7 @@ constexpr float kMostFogHeight = 1000.0f;  // metres
 constexpr float kLowestSun = -18.0f;       // degrees; the command line takes less
 constexpr float kMostBlur = 30.0f;         // degrees; the command line takes more
 
-/// Twice as wide as high; room for it where there is none, or not yet.
+/// Draws a thumbnail twice as wide as high, or leaves room if there is none, or none yet.
 void drawThumbnail(const ViewFacts& facts, const EnvironmentChoice& choice, float height) {
   const ImVec2 size(2.0f * height, height);
   const bool map = choice.studio || !choice.file.empty();
@@ -153,7 +153,7 @@ Task drawLight(ViewState& state, ViewFacts& facts) {
   label(places, "Rotation");
   ImGui::BeginDisabled(!map);
   auto degrees = float(std::remainder(o.light.hdriRotationDegrees, 360.0));
-  // Typed values beyond the ends go round.
+  // Typed values beyond the ends wrap around.
   if (ImGui::SliderFloat("##rotation", &degrees, -180.0f, 180.0f,
                          map ? "%.0f degrees" : "no environment map"))
     for (RenderOptions& side : state.sides)

@@ -7,8 +7,8 @@ namespace fragtrace {
 
 namespace {
 
-/// A list of parts of the file, after what stands for none of them. The one that was chosen, as the command
-/// line names it.
+/// Draws a list of `none` and the parts of the file. Returns the one that was chosen, as the command line
+/// names it; "" is `none`.
 std::optional<std::string> choosePart(const char* id, const char* none, const std::vector<std::string>& names,
                                       const std::string& current) {
   const auto nameOf = [&](size_t i) { return partText(i, names[i]); };

@@ -94,7 +94,7 @@ Task drawEndButtons(ViewState& state, ViewFacts& facts, float left, float right)
   return task;
 }
 
-/// Names count for more than most of what stands behind them.
+/// Stages get labels if all buttons at the end still fit, names if the first two ranks do, else numbers.
 Naming namingFor(float room) {
   if (widthOf(Naming::Label) + widthOf(int(kEndButtons.size())) <= room) return Naming::Label;
   return widthOf(Naming::Name) + widthOf(2) <= room ? Naming::Name : Naming::Number;

@@ -11,7 +11,7 @@
 
 namespace fragtrace {
 
-/// Times of what a person would feel, milliseconds.
+/// Delays that a user would notice, in milliseconds.
 struct Responsiveness {
   std::deque<double> loopMs;    ///< the event loop's latest turns, without waiting
   std::deque<double> answerMs;  ///< latest times from a change to its first picture

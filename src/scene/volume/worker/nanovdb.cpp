@@ -176,7 +176,7 @@ int brickOf(int voxel) { return voxel >> 3; }
 void measure(const Grid& grid, size_t room, GridHeader& header) {
   constexpr int64_t kMostSide = 1 << 15;
   constexpr int64_t kMostBricks = int64_t(1) << 28;
-  constexpr int64_t kTileBricks = 512;  // a side of a tile
+  constexpr int64_t kTileBricks = 512;  // along a side of a tile at the root
   constexpr int64_t kFewTiles = 64;
   const pnanovdb_coord_t low = grid.minimum();
   const pnanovdb_coord_t high = grid.maximum();

@@ -56,7 +56,7 @@ class FileDialog {
   double asked_ = 0.0;    ///< when the desktop was, in seconds; infinite: and the user knows
   bool popup_ = false;    ///< Dear ImGui has one open for the list
   bool scrolls_ = false;  ///< the next frame scrolls to the chosen entry
-  int field_ = 0;         ///< a new number makes Dear ImGui take the text that it edits from the list
+  int field_ = 0;         ///< a new value makes Dear ImGui reload the text that is edited
 };
 
 }  // namespace fragtrace
