@@ -387,8 +387,7 @@ BsdfSample drawBase(Bsdf b, vec3 wo, float choice, float u, float v) {
       s.wi = b.solid ? refractThrough(wo, h, b.eta) : vec3(s.wi.x, s.wi.y, -s.wi.z);
       s.transmitted = true;
     }
-    // Light that a facet sends to the wrong side is lost (single scattering). Compensated glass draws it
-    // again.
+    // Light that a facet sends to the wrong side is lost (single scattering). Compensated glass draws it again.
     lost = s.transmitted == (s.wi.z > 0.0f);
     if (kCompensation && drawnAgain) {
       vec3 mirrored = vec3(s.wi.x, s.wi.y, abs(s.wi.z));

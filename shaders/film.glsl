@@ -20,11 +20,14 @@ void storeFilm(ivec2 pixel, FilmPixel f) {
   imageStore(filmCounts, pixel, uvec4(f.samples, f.rays, f.nonfinite, f.flags));
 }
 
-/// For light paths the film holds records, a texel a path. A pixel's records are its part of a column of texels.
+/// For light paths the film holds records, two texels a path: the light that the camera sees at its first rough
+/// surface, and, in the upper half of the film, light that it sees later. A pixel's records are its part of a column of
+/// texels.
 ivec2 recordOf(ivec2 pixel, uint path) { return ivec2(pixel.x, pixel.y * frame.samplesWanted + int(path)); }
 
 /// Stores the light that a light path sends to the camera, and the place in the picture where it is seen.
-void storeRecord(ivec2 texel, vec3 light, vec2 place) {
+void storeRecord(ivec2 record, bool later, vec3 light, vec2 place) {
+  ivec2 texel = record + ivec2(0, later ? imageSize(filmSum).y / 2 : 0);
   bool whole = !isNonfinite(light.x) && !isNonfinite(light.y) && !isNonfinite(light.z);
   imageStore(filmSum, texel, vec4(whole ? light : vec3(0.0), place.x));
   imageStore(filmCompensation, texel, vec4(place.y, 0.0, 0.0, 0.0));

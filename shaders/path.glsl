@@ -40,6 +40,7 @@ const uint kEmitterDimension = 6u;
 const uint kCasterDimension = 7u;
 const uint kSplatDimension = 8u;    // of a bounce
 const uint kSplatLensDimensions = 9u;  // of a bounce, to 10
+const uint kSurvivalDimension = 11u;   // of a bounce
 
 TreeFrame treeFrame() { return TreeFrame(frame.gridOrigin.xyz, frame.gridCell.xyz, frame.leafCount); }
 
@@ -273,14 +274,6 @@ uint normalOfLight(Surface s, SurfaceMaterial m) {
   return kNoNormal;
 }
 
-/// The prefix after a scattering; straight: it went straight through a thin wall.
-int nextPrefix(Path p, uint material, bool delta, bool straight) {
-  if (p.bounce == 1) return delta ? kPrefixNone : kPrefixDiffuse;
-  if (straight) return p.prefix;
-  bool goesOn = delta && p.prefix != kPrefixNone && (materialFlags(material) & kMaterialCaster) != 0u;
-  return goesOn ? kPrefixCaustic : kPrefixNone;
-}
-
 /// Settles where the path goes on from the surface, once its shadow ray is done; weight multiplies the throughput, and
 /// zero ends the path.
 Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool transmitted, SurfaceMaterial m) {
@@ -310,7 +303,11 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
   p.cameraRay = false;
   bool straight = kThinGlass && deltaGlass && transmitted && !m.solid && p.medium == kPrimitiveNone;
   if (kMatchedGlass) straight = deltaGlass && transmitted && open && (!m.solid || isMatched(s.material));
-  if (kCaustics) p.prefix = nextPrefix(p, s.material, pdf == 0.0, straight);
+  if (kCaustics && kLightPaths) p.prefix = lightPrefix(p.prefix, pdf == 0.0, straight);
+  if (kCaustics && !kLightPaths) {
+    bool caster = (materialFlags(s.material) & kMaterialCaster) != 0u;
+    p.prefix = cameraPrefix(p.prefix, p.bounce == 1, pdf == 0.0, straight, caster);
+  }
   // Straight through a thin wall the path keeps its ray, and the pdf that light sampling shares with it.
   if (straight) {
     p.straightBounces += 1;

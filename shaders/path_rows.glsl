@@ -21,15 +21,14 @@ const int kRowCrossings = 11;
 // kResumable:
 const int kRowSuspended = 12;       // node of the traversal, light sample, more flags, visits
 const int kRowStack = 13;
-const int kRowAov = kRowStack + kStackSize / 4;  // kAovRow: aovWeight, or splatPixel
+const int kRowAov = kRowStack + kStackSize / 4;  // kPathAov: aovWeight
+const int kRowLight = kRowStack + kStackSize / 4;  // kLightPaths: flux, waiting; splatPixel, range, travelled
 
 const bool kShadowRows = kShadows || kPassesLight || kInstances || kResumable;
 const bool kPassingRows = kPassing || kResumable || kMedia;
 
-const bool kAovRow = kPathAov || kLightPaths;
-
 /// Rows of a path of the megakernel.
-const int kSuspendedRows = kRowAov + (kAovRow ? 1 : 0);
+const int kSuspendedRows = kRowAov + (kPathAov ? 1 : 0) + (kLightPaths ? 2 : 0);
 
 /// The count of scatterings and, above it, the prefix.
 uint scatteringsOf(Path p) { return uint(p.bounce) | (kCaustics ? uint(p.prefix) << 30 : 0u); }
@@ -129,7 +128,7 @@ Path loadShadow(Path p, int row) {
   return p;
 }
 
-/// Guides, and light paths until the camera sees them, trace no shadow ray: their own state is stored in its rows.
+/// Guides trace no shadow ray: their own state is stored in its rows.
 Path packOwnState(Path p) {
   if (kAov == kAovGuides) {
     p.radiance = p.guide.albedo;
@@ -138,23 +137,12 @@ Path packOwnState(Path p) {
     p.shadowOrigin.x = p.guide.share;
     p.shadowDirection = p.guide.lastNormal;
   }
-  if (kLightPaths && p.phase != kPhaseShadow) {
-    p.contribution = p.fromLight.flux;
-    p.shadowLimit = p.fromLight.range;
-    p.pdf = p.fromLight.travelled;
-  }
   return p;
 }
 
 Path unpackOwnState(Path p) {
   if (kAov == kAovGuides) {
     p.guide = Guide(p.radiance, p.contribution, p.shadowLimit, p.shadowOrigin.x, p.shadowDirection);
-  }
-  if (kLightPaths && p.phase != kPhaseShadow) {
-    p.fromLight.flux = p.contribution;
-    p.fromLight.range = p.shadowLimit;
-    p.fromLight.travelled = p.pdf;
-    p.pdf = 0.0;
   }
   return p;
 }
@@ -168,8 +156,12 @@ void suspendPath(Path p, int row) {
   pathStates[row + kRowShadowHit] = metBy(t);
   pathStates[row + kRowSuspended] = uvec4(uint(t.node), uint(p.lightSampleIndex), flags, uint(t.visits));
   if (!kIterative && !kLiterals) saveStack(t.stack, row + kRowStack);
-  vec3 kept = kLightPaths ? vec3(p.fromLight.splatPixel, 0.0) : p.aovWeight;
-  if (kAovRow) pathStates[row + kRowAov] = uvec4(floatBitsToUint(kept), 0u);
+  if (kPathAov) pathStates[row + kRowAov] = uvec4(floatBitsToUint(p.aovWeight), 0u);
+  if (kLightPaths) {
+    LightPath l = p.fromLight;
+    pathStates[row + kRowLight] = floatBitsToUint(vec4(l.flux, l.waiting));
+    pathStates[row + kRowLight + 1] = floatBitsToUint(vec4(l.splatPixel, l.range, l.travelled));
+  }
 }
 
 Path resumePath(int row, uint key) {
@@ -178,8 +170,11 @@ Path resumePath(int row, uint key) {
   p.lightSampleIndex = int(a.y);
   p.after = int(a.z & 15u);
   p.caught = (a.z & 16u) != 0u;
-  if (kLightPaths) p.fromLight.glassFirst = (a.z & 32u) != 0u;
-  if (kLightPaths) p.fromLight.splatPixel = uintBitsToFloat(readPathStates(row + kRowAov).xy);
+  if (kLightPaths) {
+    vec4 l = uintBitsToFloat(readPathStates(row + kRowLight));
+    vec4 m = uintBitsToFloat(readPathStates(row + kRowLight + 1));
+    p.fromLight = LightPath(l.xyz, m.z, m.w, (a.z & 32u) != 0u, m.xy, l.w);
+  }
   if (kPathAov) p.aovWeight = uintBitsToFloat(readPathStates(row + kRowAov).xyz);
   if (kMoving) p.traversal.part = momentAt(p.time, frame.segments.x).part;
   p.traversal.node = int(a.x);

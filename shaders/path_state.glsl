@@ -11,12 +11,6 @@ const int kPhasePass = 6;    // a value of `after` alone: the ray goes on behind
 
 const float kTie = 9.5367431640625e-7;  // 2^-20: 16 roundings of a distance
 
-// Light paths (shaders/caustics/) bring the light of the camera paths E D S+ L, in Heckbert's notation. A camera path
-// begins like one of them, or not; straight passages through thin walls do not count.
-const int kPrefixNone = 0;
-const int kPrefixDiffuse = 1;  // E D: a rough surface
-const int kPrefixCaustic = 2;  // E D S+: delta lobes of casters of caustics since
-
 /// An AOV that is a part of the radiance: paths are traced to their ends.
 const bool kPathAov = kAov == kAovEmission || kAov == kAovDiffuse || kAov == kAovSpecular;
 const bool kDrawsLight = kAov == kAovNone || kPathAov;
@@ -42,7 +36,8 @@ struct LightPath {
   float range;       // of its punctual light; 0: unlimited
   float travelled;   // distance since the light, up to the surface that was passed last
   bool glassFirst;   // it has met smooth glass first
-  vec2 splatPixel;   // the place in the picture at which the camera sees its end
+  vec2 splatPixel;   // the place in the picture at which the camera sees the point of the shadow ray
+  float waiting;     // sum of the light that the camera may see later; one part waits as the shadow ray (reservoir)
 };
 
 struct Path {
@@ -54,14 +49,14 @@ struct Path {
   int straightBounces;  // of these, straight through glass (kThroughGlass)
   int crossings;   // meetings with surfaces, where there is alpha; see nextCrossing
   int rays;        // traced so far
-  ivec2 pixel;     // of the film (kLightRecords, kNeighbours)
+  ivec2 pixel;     // of the film (kLightRecords, kNeighbours), or the record of a light path
   Sampler sampler;
   float time;      // 0..1 while the shutter is open (kTimed)
   bool oneChannel; // dispersion has left one of red, green and blue (kDispersion)
   bool cameraRay;  // nothing but alpha has touched the path yet
   bool caught;     // it has met the shadow catcher (kShadowCatcher)
   bool throughGlass;  // the shadow ray passes glass that does not bend it (kThroughGlass)
-  int prefix;         // kPrefix* (kCaustics)
+  int prefix;         // kPrefix* of caustics/form.glsl (kCaustics)
   bool covered;    // a camera ray has hit a surface
   vec3 radiance;
   vec3 throughput;
@@ -119,7 +114,7 @@ Path newPath() {
   p.shadowMedium = kPrimitiveNone;
   p.aovWeight = vec3(kAov == kAovDiffuse || kAov == kAovSpecular ? 0.0 : 1.0);
   if (kAov == kAovGuides) p.guide = Guide(vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(0.0, 0.0, 1.0));
-  if (kLightPaths) p.fromLight = LightPath(vec3(0.0), 0.0, 0.0, false, vec2(0.0));
+  if (kLightPaths) p.fromLight = LightPath(vec3(0.0), 0.0, 0.0, false, vec2(0.0), 0.0);
   p.contribution = vec3(0.0);
   p.hitSlot = -1;
   p.hitT = 0.0;

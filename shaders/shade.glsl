@@ -297,6 +297,7 @@ Path settleShadow(Path p) {
   }
   if (kPassing && passes) return tracePast(p, p.shadowLimit, p.traversal.t, slot);
   if (kMedia && slot < 0) p = dimShadow(p, p.shadowMedium, p.shadowLimit);
-  if (slot < 0) p.radiance += p.contribution;
+  if (kLightPaths && slot < 0) storeSplat(p);
+  if (!kLightPaths && slot < 0) p.radiance += p.contribution;
   return proceed(p);
 }

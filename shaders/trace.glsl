@@ -74,6 +74,7 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "lights.glsl"
 #include "film_pixel.glsl"
 #include "film.glsl"
+#include "caustics/form.glsl"
 #include "path_state.glsl"
 #include "path_rows.glsl"
 #include "media/phase.glsl"
@@ -104,7 +105,12 @@ uint samplesWanted(FilmPixel film) {
 
 /// The next sample of a pixel.
 Path beginSample(FilmPixel film, ivec2 pixel, uint key, int steps) {
-  if (kLightPaths) return startLightPath(recordOf(pixel, film.samples), key, steps);
+  if (kLightPaths) {
+    ivec2 record = recordOf(pixel, film.samples);
+    storeRecord(record, false, vec3(0.0), vec2(0.0));
+    storeRecord(record, true, vec3(0.0), vec2(0.0));
+    return startLightPath(record, key, steps);
+  }
   return startPath(pixel, key, film.samples + uint(frame.firstSample), steps);
 }
 
@@ -114,10 +120,7 @@ FilmPixel endSample(FilmPixel film, Path p, ivec2 pixel) {
   if (kCountVisits) p.radiance = vec3(float(p.traversal.visits));
   float alpha = coverageOf(p);
   if (kShadowCatcher) p = showShadow(p);
-  if (kLightPaths) {
-    storeRecord(recordOf(pixel, film.samples), p.radiance, p.fromLight.splatPixel);
-    film.samples += 1u;
-  } else if (kLightRecords) {
+  if (kLightPaths || kLightRecords) {
     film.samples += 1u;
   } else if (kAov == kAovGuides) {
     p = endGuide(p);
@@ -210,7 +213,7 @@ void tracePixel(ivec2 pixel) {
   p.phase = kPhaseEnd;
   p.traversal.steps = 0;
   if (kResumable && (film.flags & kPixelSuspended) != 0u) p = resumePath(row, keyOfLane(pixel));
-  p.pixel = pixel;
+  p.pixel = kLightPaths ? recordOf(pixel, film.samples) : pixel;
 
   bool tracing = p.phase != kPhaseEnd;
   while (p.traversal.steps < budget) {
@@ -221,6 +224,7 @@ void tracePixel(ivec2 pixel) {
       tracing = true;
     }
     p = advance(p, budget, tree);
+    if (kLightPaths) p = endLightPath(p);
     if (p.phase >= kPhaseEnd) {
       cut += cutThroughput(p);
       if (kGpu) film = loadFilm(pixel);

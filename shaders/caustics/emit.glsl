@@ -95,6 +95,7 @@ Path startLightPath(ivec2 record, uint key, int steps) {
   Sampler sampler = makeSampler(key, index);
   Emission e = drawEmission(sampler);
   Path p = pathAlong(e.origin, e.direction, sampler, steps);
+  p.pixel = record;
   p.cameraRay = false;
   p.fromLight.flux = e.flux;
   p.fromLight.range = e.range;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Light paths (kLightPaths): a lamp, one or more scatterings at casters, each by a delta lobe, a rough surface,
-// the camera. Camera paths leave out exactly these (Path.prefix). Particles carry flux, so glass and shading normals
-// weigh them in another way than camera paths (Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997,
-// section 5.3).
+// Light paths (kLightPaths): a lamp, delta lobes of casters, a rough surface, then any surfaces, the last of which is
+// rough and is seen by the camera. Camera paths leave out exactly these (form.glsl). Particles carry flux, so glass and
+// shading normals weigh them in another way than camera paths (Veach, Robust Monte Carlo Methods for Light Transport
+// Simulation, 1997, section 5.3).
 
 /// The camera as seen from a point.
 struct SeenFrom {
@@ -73,11 +73,19 @@ bool withinBounces(Path p) {
   return 1 + limitedScatterings(p) <= most;
 }
 
-/// Sends the light that the camera sees of the path at a rough surface, `times` as much, on its way. With wi towards
-/// the path and wo towards the camera it is flux * throughput * f(wo, wi) |wi.Ns| * |wo.Ng| / |wi.Ng| * etaScale *
-/// importance. The quotient of cosines is there because particles carry flux (Veach, section 5.3).
-Path splat(Path p, Surface s, SurfaceMaterial m, float times) {
-  p.phase = kPhaseEnd;
+/// Traces the shadow ray, and then ends the path unless it is said otherwise.
+Path traceSplat(Path p) {
+  p.after = kPhaseEnd;
+  p.phase = kPhaseShadow;
+  return traceAnew(p, p.shadowLimit);
+}
+
+/// Sets the shadow ray for the light that the camera sees of the path at a rough surface. With wi towards the path and
+/// wo towards the camera it is flux * throughput * f(wo, wi) |wi.Ns| * |wo.Ng| / |wi.Ng| * etaScale * importance. The
+/// quotient of cosines is there because particles carry flux (Veach, section 5.3). At the first rough surface the ray
+/// is traced at once. Later ones share one ray: each takes it with a probability in proportion to its light (reservoir
+/// sampling; Chao, A general purpose unequal probability sampling plan, 1982), and the ray then carries the sum.
+Path splat(Path p, Surface s, SurfaceMaterial m, bool first) {
   vec2 lens = vec2(0.0);
   if (kLens && frame.lens.x > 0.0) {
     vec2 uv = drawPair(p.sampler, kBounceDimensions * uint(p.bounce + 1) + kSplatLensDimensions);
@@ -100,12 +108,16 @@ Path splat(Path p, Surface s, SurfaceMaterial m, float times) {
   vec3 value = evaluateBsdf(at.b, at.wo, wi).value;
   float arriving = max(abs(dot(p.direction, s.geometricNormal)), 1e-9);
   float leaving = abs(dot(camera.direction, s.geometricNormal));
-  vec3 light = p.fromLight.flux * p.throughput * value * (times * p.etaScale * camera.importance * leaving / arriving);
+  vec3 light = p.fromLight.flux * p.throughput * value * (p.etaScale * camera.importance * leaving / arriving);
   if (kAbsorption && medium != kPrimitiveNone) {
     light *= exp(-camera.distance * materialFloats(medium, kMaterialVolume).rgb);
   }
-  if (!(maxComponent(light) > 0.0)) return p;
-  p.contribution = light;
+  float size = maxComponent(light);
+  if (!(size > 0.0) || isNonfinite(size)) return p;
+  p.fromLight.waiting += first ? 0.0 : size;
+  bool taken = first || pathRandom(p, kSplatDimension) * p.fromLight.waiting < size;
+  if (!taken) return p;
+  p.contribution = first ? light : light / size;
   p.fromLight.splatPixel = camera.place;
   // The shadow ray starts at the camera, since single-sided surfaces stop light from one side only.
   vec3 target = offsetOrigin(s.position, s.positionError, s.geometricNormal, camera.direction);
@@ -115,9 +127,18 @@ Path splat(Path p, Surface s, SurfaceMaterial m, float times) {
   p.shadowDirection = distance > 0.0 ? towards / distance : -camera.direction;
   p.shadowLimit = distance * float(0.99999);
   p.throughGlass = false;
-  p.after = kPhaseEnd;
-  p.phase = kPhaseShadow;
-  return traceAnew(p, p.shadowLimit);
+  return first ? traceSplat(p) : p;
+}
+
+/// Stores the light of the shadow ray, which nothing blocks.
+void storeSplat(Path p) { storeRecord(p.pixel, p.fromLight.waiting < 0.0, p.contribution, p.fromLight.splatPixel); }
+
+/// At the end of a light path, traces the shadow ray that waits.
+Path endLightPath(Path p) {
+  if (p.phase != kPhaseEnd || p.fromLight.waiting <= 0.0) return p;
+  p.contribution *= p.fromLight.waiting;
+  p.fromLight.waiting = -1.0;
+  return traceSplat(p);
 }
 
 /// Returns true if rays do not see the back of the surface.
@@ -146,7 +167,7 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   p.phase = kPhaseEnd;
   if (kUnlit && (flags & kMaterialUnlit) != 0u) return p;
   bool caster = (flags & kMaterialCaster) != 0u;
-  bool scattered = p.bounce > p.straightBounces;
+  bool scattered = p.prefix != kPrefixNone;
   bool singleSided = isSingleSided(s.material, flags);
   if (singleSided && !s.front) return p;
   bool mayScatter = caster || scattered;
@@ -165,26 +186,35 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   }
   Scattering at = scatteringAt(s, m, normalFacing(s, -p.direction), -p.direction);
 
-  // Step: find what the surface may do to the path. Where it may scatter both ways, chance decides.
+  // Step: find what the surface may do to the path.
   bool glass = kTransmission && at.b.glass > 0.0;
   bool thin = kThinGlass && glass && !m.solid && isSmoothGlass(at.b) && p.medium == kPrimitiveNone;
   vec4 chances = lobeChances(at.b, at.wo.z);
   bool rough = !(caster || thin) || !at.b.mirrorLike || chances.z + chances.w > 0.0;
-  float splats = !rough || !scattered ? 0.0 : caster || thin ? 0.5 : 1.0;
-  if (splats > 0.0 && pathRandom(p, kSplatDimension) < splats) return splat(p, s, m, 1.0 / splats);
-  if (!caster && !thin) return p;
 
-  // Step: continue along a delta lobe.
+  // Step: let the camera see it. The first surface that is all rough has a ray and a record of its own.
+  bool first = p.prefix == kPrefixCaustic && !caster && !thin && p.fromLight.waiting == 0.0;
+  if (rough && scattered) p = splat(p, s, m, first);
+  if (!caster && !thin && !scattered) return p;
+
+  // Step: continue. Until a rough surface is met, it scatters at casters alone.
   float choice = pathRandom(p, kLobeDimension);
   vec2 uv = drawPair(p.sampler, kBounceDimensions * uint(p.bounce + 1) + kDirectionDimension);
   BsdfSample next = sampleBsdf(at.b, at.wo, choice, uv.x, uv.y);
+  bool delta = next.pdf == 0.0;
   bool straight = thin && next.transmitted;
-  if (next.pdf != 0.0 || !(caster || straight)) return p;
-  vec3 direction = ontoSide(normalize(toWorld(at.around, next.wi)), s.geometricNormal, next.transmitted);
+  vec3 direction = normalize(toWorld(at.around, next.wi));
+  if (delta) direction = ontoSide(direction, s.geometricNormal, next.transmitted);
+  bool wrongSide = (dot(direction, s.geometricNormal) < 0.0) != next.transmitted;
+  if (wrongSide || !lightScatters(p.prefix, delta, straight, caster)) return p;
+  float survival = delta ? 1.0 : min(1.0, maxComponent(next.weight));
+  if (!delta && pathRandom(p, kSurvivalDimension) >= survival) return p;
   // Bent normals weigh flux in another way than radiance (Veach, section 5.3).
   float before = abs(dot(p.direction, s.geometricNormal)) * abs(next.wi.z);
   float after = abs(dot(direction, s.geometricNormal)) * abs(at.wo.z);
-  vec3 weight = next.weight * (after / max(before, 1e-9) / (1.0 - splats));
+  vec3 weight = next.weight * (after / max(before, 1e-9) / survival);
   if (p.bounce == 0) p.fromLight.glassFirst = glass;
-  return proceed(spawnRay(p, s, direction, weight, 0.0, next.transmitted, m));
+  p = spawnRay(p, s, direction, weight, next.pdf, next.transmitted, m);
+  if (!withinBounces(p)) p.after = kPhaseEnd;
+  return p.phase == kPhaseShadow ? p : proceed(p);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A point for each light path, over the pixels that its pixel filter reaches.
+// Two points for each light path, as its records are (storeRecord of film.glsl), over the pixels that the pixel filter
+// reaches.
 #include "sampling.glsl"
 #include "pixel_filter.glsl"
 
@@ -8,13 +9,14 @@ layout(binding = 1) uniform sampler2D places;  // y
 layout(location = 0) uniform vec2 corner;  // of the film's first pixel, in the picture
 layout(location = 1) uniform vec2 size;    // of the viewport, whose margin of so many pixels keeps points that lie
 layout(location = 2) uniform float margin;  // beside the film
-layout(location = 3) uniform int width;     // of the tile of light paths
+layout(location = 3) uniform ivec2 tile;    // size of that of light paths
 
 layout(location = 0) flat out vec3 light;
 layout(location = 1) flat out vec2 place;  // in the film, pixels
 
 void main() {
-  ivec2 texel = ivec2(gl_VertexID % width, gl_VertexID / width);
+  ivec2 texel = ivec2(gl_VertexID % tile.x, gl_VertexID / tile.x);
+  if (texel.y >= tile.y) texel.y += textureSize(lights, 0).y / 2 - tile.y;
   vec4 first = texelFetch(lights, texel, 0);
   light = first.rgb;
   place = vec2(first.a, texelFetch(places, texel, 0).r) - corner;

@@ -36,7 +36,7 @@ bool canSplat() {
 void Renderer::compileLightPaths(Film& film, const View& view) {
   const std::optional<ShaderVariant> light = lightPathVariant(pace_->drawn);
   if (!light) return;
-  if (!lightPathFilm_) lightPathFilm_.emplace(glm::ivec2(kRecordSide));
+  if (!lightPathFilm_) lightPathFilm_.emplace(glm::ivec2(kRecordSide, 2 * kRecordSide));
   const Work tiny{{0, 0}, glm::ivec2(8), 0, 1};
   ShaderVariant& variant = drawn(*light);
   drawPass({variant, *lightPathFilm_, view, {tiny}}, toTheEnd);
@@ -68,7 +68,7 @@ bool Renderer::addLightTile(const RenderPass& pass, glm::ivec2 whole, int index,
   View seen = pass.view;
   seen.sampleOffset += index;
   // The film of records holds the part of the paths that begins at the tile.
-  seen.placement = Placement{{tile.corner.x, whole.y - tile.corner.y - kRecordSide}, whole};
+  seen.placement = Placement{{tile.corner.x, whole.y - tile.corner.y - 2 * kRecordSide}, whole};
   lightPathFilm_->clearCounts();
   const int rows = software_ ? 2 * partsOf(tile.size.y, 2 * kSoftwarePathsPerLane) : tile.size.y;
   const Work records{{0, 0}, {tile.size.x, rows}, 0, partsOf(tile.size.y, rows)};
@@ -93,13 +93,13 @@ void Renderer::splat(const RenderPass& pass, glm::ivec2 tile) {
   glProgramUniform2f(program, 0, float(placed.corner.x), float(placed.whole.y - placed.corner.y - size.y));
   glProgramUniform2f(program, 1, float(viewport.x), float(viewport.y));
   glProgramUniform1f(program, 2, float(margin));
-  glProgramUniform1i(program, 3, tile.x);
+  glProgramUniform2i(program, 3, tile.x, tile.y);
   lightPathFilm_->bindTextures(0);
   glUseProgram(program);
   glEnable(GL_PROGRAM_POINT_SIZE);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE);
-  glDrawArrays(GL_POINTS, 0, tile.x * tile.y);
+  glDrawArrays(GL_POINTS, 0, 2 * tile.x * tile.y);
   glDisable(GL_BLEND);
   glDisable(GL_PROGRAM_POINT_SIZE);
   waitForDevice();

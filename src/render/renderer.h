@@ -225,7 +225,7 @@ class Renderer {
   LightShare lightShare_;
   PackedGrid grid_;
   std::vector<glm::vec4> casters_;     ///< as in GpuScene
-  std::optional<Film> lightPathFilm_;  ///< a texel a light path (storeRecord of film.glsl)
+  std::optional<Film> lightPathFilm_;  ///< two texels per light path (storeRecord of film.glsl)
   std::optional<Film> reservoirs_;  ///< a reservoir a pixel, for this sample (shaders/reuse/neighbours.glsl)
   GlBuffer frameBuffer_;
   GlBuffer fogBuffer_;

@@ -327,6 +327,12 @@ class Caustics(Case):
                  for x, way in ((UP[0][0], -1), (0, 1))]
         self.assert_alike(self.scene("periscope", *walls, self.lamp_above()), "periscope", 256, 256, bounces=3, known=0.01)
 
+    def test_no_bright_dots_where_light_has_scattered_before(self):
+        """A small lamp, a mirror over it, the ground: camera paths that find the lamp after a second rough surface would leave dots."""
+        scene = self.scene("dots", self.above(0.6, 1.2), self.lamp(((1.5, 0.0, 0.3), 0.02, 6000.0), [0, 0, 0, 1]))
+        pixels = sorted(luminances(self.picture(scene, "x.pfm", *SMALL, "--spp", 1024)))
+        self.assertLess(pixels[-1], 4 * pixels[len(pixels) // 2])
+
     def test_the_noise_is_what_the_variance_says(self):
         """Of independent numbers, over pixels and 24 seeds; a standard error of about 2 %."""
         scene = self.scene("lamp", self.mirror(), self.lamp())

@@ -39,4 +39,5 @@ inline MovingTriangle movingTriangle(int /*slot*/, float /*time*/) { return {}; 
 #include "reuse/candidates.glsl"
 #include "reuse/reservoir.glsl"
 #include "caustics/aim.glsl"
+#include "caustics/form.glsl"
 // clang-format on

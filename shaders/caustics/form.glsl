@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// The form of a path decides if it is found from the camera or from the lamp. In Heckbert's notation (E the camera,
+// D a rough surface, S a delta lobe, L a lamp) light paths bring the light of E D S+ L and of E D (D|S)* D S+ L, where
+// all of the S+ beside the lamp are casters. Camera paths leave out exactly these. Straight passages through thin walls
+// may lie anywhere but beside the camera.
+
+const int kPrefixNone = 0;     // from the camera: another form; from the lamp: no caster yet
+const int kPrefixDiffuse = 1;  // the last surface was rough (from the lamp: one of them since the caster)
+const int kPrefixCaustic = 2;  // delta lobes of casters since (from the lamp: since the start)
+const int kPrefixSmooth = 3;   // delta lobes since, not all of casters (from the camera)
+
+/// The prefix of a camera path after a scattering. straight: it went straight through a thin wall.
+int cameraPrefix(int prefix, bool first, bool delta, bool straight, bool caster) {
+  if (first) return delta ? kPrefixNone : kPrefixDiffuse;
+  if (straight || prefix == kPrefixNone) return prefix;
+  if (!delta) return kPrefixDiffuse;
+  return caster && prefix != kPrefixSmooth ? kPrefixCaustic : kPrefixSmooth;
+}
+
+/// The prefix of a light path after a scattering.
+int lightPrefix(int prefix, bool delta, bool straight) {
+  if (straight) return prefix;
+  if (!delta) return kPrefixDiffuse;
+  return prefix == kPrefixNone ? kPrefixCaustic : prefix;
+}
+
+/// Returns true if a light path may scatter so: at casters alone until a rough surface follows them.
+bool lightScatters(int prefix, bool delta, bool straight, bool caster) {
+  if (delta) return caster || straight || prefix == kPrefixDiffuse;
+  return prefix != kPrefixNone;
+}
