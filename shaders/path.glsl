@@ -176,7 +176,7 @@ float depthAlong(vec3 direction, float t, float time) {
 
 /// Adds light, or the share of it that belongs to the AOV.
 Path addLight(Path p, vec3 light) {
-  p.radiance += kPathAov ? p.aovWeight * light : light;
+  p.radiance += kLightPart ? p.aovWeight * light : light;
   return p;
 }
 
@@ -359,7 +359,7 @@ Path spawnShadowRayFrom(Path p, vec3 point, vec3 origin, LightSample light, vec3
   if (maxComponent(value) <= 0.0) return p;
   value = clampIndirect(value, countedScatterings(p) + 1);
   if (!kMedia && !kShadows) return addLight(p, value);
-  p.contribution = kPathAov ? p.aovWeight * value : value;
+  p.contribution = kLightPart ? p.aovWeight * value : value;
   p.shadowOrigin = origin;
   p.shadowDirection = light.direction;
   p.shadowLimit = kShadows ? kFarAway : light.distance;

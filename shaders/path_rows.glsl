@@ -21,14 +21,14 @@ const int kRowCrossings = 11;
 // kResumable:
 const int kRowSuspended = 12;       // node of the traversal, light sample, more flags, visits
 const int kRowStack = 13;
-const int kRowAov = kRowStack + kStackSize / 4;  // kPathAov: aovWeight
+const int kRowAov = kRowStack + kStackSize / 4;  // kLightPart: aovWeight
 const int kRowLight = kRowStack + kStackSize / 4;  // kLightPaths: flux, waiting; splatPixel, range, travelled
 
 const bool kShadowRows = kShadows || kPassesLight || kInstances || kResumable;
 const bool kPassingRows = kPassing || kResumable || kMedia;
 
 /// Rows of a path of the megakernel.
-const int kSuspendedRows = kRowAov + (kPathAov ? 1 : 0) + (kLightPaths ? 2 : 0);
+const int kSuspendedRows = kRowAov + (kLightPart ? 1 : 0) + (kLightPaths ? 2 : 0);
 
 /// The count of scatterings and, above it, the prefix.
 uint scatteringsOf(Path p) { return uint(p.bounce) | (kCaustics ? uint(p.prefix) << 30 : 0u); }
@@ -156,7 +156,7 @@ void suspendPath(Path p, int row) {
   pathStates[row + kRowShadowHit] = metBy(t);
   pathStates[row + kRowSuspended] = uvec4(uint(t.node), uint(p.lightSampleIndex), flags, uint(t.visits));
   if (!kIterative && !kLiterals) saveStack(t.stack, row + kRowStack);
-  if (kPathAov) pathStates[row + kRowAov] = uvec4(floatBitsToUint(p.aovWeight), 0u);
+  if (kLightPart) pathStates[row + kRowAov] = uvec4(floatBitsToUint(p.aovWeight), 0u);
   if (kLightPaths) {
     LightPath l = p.fromLight;
     pathStates[row + kRowLight] = floatBitsToUint(vec4(l.flux, l.waiting));
@@ -175,7 +175,7 @@ Path resumePath(int row, uint key) {
     vec4 m = uintBitsToFloat(readPathStates(row + kRowLight + 1));
     p.fromLight = LightPath(l.xyz, m.z, m.w, (a.z & 32u) != 0u, m.xy, l.w);
   }
-  if (kPathAov) p.aovWeight = uintBitsToFloat(readPathStates(row + kRowAov).xyz);
+  if (kLightPart) p.aovWeight = uintBitsToFloat(readPathStates(row + kRowAov).xyz);
   if (kMoving) p.traversal.part = momentAt(p.time, frame.segments.x).part;
   p.traversal.node = int(a.x);
   p.traversal.visits = int(a.w);

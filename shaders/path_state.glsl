@@ -2,18 +2,18 @@
 // The state of one path.
 
 const int kPhaseExtend = 0;  // the path's ray is being traced
-const int kPhaseShade = 1;   // it has hit something; light sample `lightSampleIndex` is next
-const int kPhaseShadow = 2;  // the shadow ray of that slot is being traced
+const int kPhaseShade = 1;   // its ray is traced; light sample `lightSampleIndex` is next
+const int kPhaseShadow = 2;  // the shadow ray of that light sample is being traced
 const int kPhaseEnd = 3;     // the sample is complete
-const int kPhaseCut = 4;     // it is complete because the path has scattered as often as --bounces allows
+const int kPhaseCut = 4;     // it is complete because the path has scattered more than --bounces times
 const int kPhaseNone = 5;    // no path: the pixel's next one is to begin (wavefront)
 const int kPhasePass = 6;    // a value of `after` alone: the ray goes on behind the thin wall that it has met
 
 const float kTie = 9.5367431640625e-7;  // 2^-20: 16 roundings of a distance
 
-/// An AOV that is a part of the radiance: paths are traced to their ends.
-const bool kPathAov = kAov == kAovEmission || kAov == kAovDiffuse || kAov == kAovSpecular;
-const bool kDrawsLight = kAov == kAovNone || kPathAov;
+/// The AOV is a part of the radiance. Paths are traced to their ends for it, as for the picture.
+const bool kLightPart = kAov == kAovEmission || kAov == kAovDiffuse || kAov == kAovSpecular;
+const bool kDrawsLight = kAov == kAovNone || kLightPart;
 
 /// Light may be scattered between surfaces (media/).
 const bool kMedia = (kScattering || kFog || kDensityGrid) && kDrawsLight;
@@ -44,7 +44,7 @@ struct Path {
   int phase;
   int after;       // the phase that follows once the shadow ray is settled
   int lightSampleIndex;
-  int bounce;      // scatterings so far
+  int bounce;      // scatterings so far, also one whose ray roulette ends
   int freeBounces;  // of these, at smooth glass (kTransmission) and in media: --bounces does not limit them
   int straightBounces;  // of these, straight through glass (kThroughGlass)
   int crossings;   // meetings with surfaces, where there is alpha; see nextCrossing
@@ -71,7 +71,7 @@ struct Path {
   vec3 shadowDirection;
   float shadowLimit;
   uint shadowMedium;  // material of the solid that the shadow ray is inside of, as `medium` (kMedia)
-  vec3 aovWeight;       // the share of the light still to come that belongs to the AOV (kPathAov)
+  vec3 aovWeight;       // the share of the light still to come that belongs to the AOV (kLightPart)
   Guide guide;
   LightPath fromLight;
   vec3 contribution;  // added if the shadow ray meets nothing

@@ -85,7 +85,7 @@ Path sampleLd(Path p, Surface s, SurfaceMaterial m, Scattering at) {
   bool sameSide = (dot(light.direction, s.geometricNormal) > 0.0) == (wi.z > 0.0);
   BsdfValue value = evaluateBsdf(at.b, at.wo, wi);
   float weight = lightWeight(light, value.pdf);
-  if (kPathAov && p.bounce == 0) p.aovWeight = aovShare(at.b, at.wo, wi);
+  if (kLightPart && p.bounce == 0) p.aovWeight = aovShare(at.b, at.wo, wi);
   if (kThroughGlass) p.throughGlass = passesGlass(p, s, m, light.direction);
   return spawnShadowRay(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
 }
@@ -106,7 +106,7 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   vec2 uv = drawPair(p.sampler, dimension + kDirectionDimension);
   if (lightSampleCount() > 0) p = sampleLd(p, s, m, at);
   BsdfSample next = sampleBsdf(b, wo, choice, uv.x, uv.y);
-  if (kPathAov && p.bounce == 0) {
+  if (kLightPart && p.bounce == 0) {
     bool delta = next.pdf == 0.0;
     p.aovWeight = delta ? vec3(kAov == kAovSpecular ? 1.0 : 0.0) : aovShare(b, wo, next.wi);
   }

@@ -31,7 +31,7 @@
 //     alpha lets it pass: the same ray goes on behind the hit
 //     throughput *= absorption along the ray
 //     radiance += throughput * emission * weight(pdf of scattering, pdf of light samples)
-//     as many scatterings as may be: end
+//     more scatterings than --bounces: end
 //     light = a light by its power, a point of it   lights.glsl
 //     contribution = throughput * irradiance * BSDF * weight(pdf of the light sample, pdf of scattering)
 //     shadow ray = from the surface to the light

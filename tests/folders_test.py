@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """The order of the folders of src and bench: a file includes what is in its own folder or in one that is named before (docs/design/architecture.md).
+Each class of tests in tests/command and tests/viewer stands in tests/CMakeLists.txt.
 
 usage: folders_test.py SOURCE_FOLDER"""
 import re
@@ -40,10 +41,23 @@ def full_folders(folder):
             yield f"{one}: {count} files, at most {MOST_FILES}"
 
 
+def unlisted_tests(tests):
+    """Classes of tests that ctest does not run, nor a class that is derived from them."""
+    listed = set(re.findall(r"\w+", (tests / "CMakeLists.txt").read_text()))
+    for file in sorted([*tests.glob("command/*_test.py"), *tests.glob("viewer/*_test.py")]):
+        text = file.read_text()
+        bases = {name for bases in re.findall(r"^class \w+\((.*)\):", text, re.M) for name in re.findall(r"\w+", bases)}
+        for body in re.split(r"^class ", text, flags=re.M)[1:]:
+            name = re.match(r"\w+", body)[0]
+            if re.search(r"^    def test_", body, re.M) and name not in listed | bases:
+                yield f"{file}: class {name} is not in tests/CMakeLists.txt"
+
+
 def main():
     source = Path(sys.argv[1])
     wrong = [*wrong_includes(sources(source / "src"), source / "src"), *wrong_includes(sources(source / "bench"), source)]
     wrong += [one for name in ("src", "shaders", "bench") for one in full_folders(source / name)]
+    wrong += unlisted_tests(source / "tests")
     print("\n".join(wrong))
     return 1 if wrong else 0
 

@@ -54,7 +54,7 @@ Path scatterInMedium(Path p) {
   if (p.cameraRay) p.covered = true;
   p.phase = kPhaseEnd;
   if (kAov == kAovEmission) return p;
-  if (kPathAov && p.bounce == 0) p.aovWeight = vec3(kAov == kAovDiffuse ? 1.0 : 0.0);
+  if (kLightPart && p.bounce == 0) p.aovWeight = vec3(kAov == kAovDiffuse ? 1.0 : 0.0);
   vec2 uv = drawPair(p.sampler, kBounceDimensions * uint(p.bounce + 1) + kDirectionDimension);
   bool open = isOpen(p.medium);
   if (open && lightSampleCount() > 0) p = sampleLdInMedium(p, point, scatter.w);

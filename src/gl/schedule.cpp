@@ -31,7 +31,7 @@ constexpr double kFewLongPaths = 2e5;
 std::string whyMegakernel(const ShaderVariant& variant, const RenderOptions& options,
                           const ScheduleWork& work) {
   if (options.device.schedule == Schedule::Megakernel) return "--schedule";
-  if (variant.aov != Aov::None) return "a layer of first hits";
+  if (variant.aov != Aov::None) return "a layer";
   if (variant.countsVisits) return "the heat map";
   if (!has(variant.stages, Stage::Gi)) return "a stage before global illumination";
   if (variant.shadowCatcher) return "--shadow-catcher";

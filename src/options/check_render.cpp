@@ -77,7 +77,7 @@ void checkOutput(const RenderOptions& o, bool anyOutput) {
     throw UsageError("--output: '" + out.file.string() +
                      "' ends in none of .png, .jpg, .exr, .hdr, .pfm, nor, for a sequence, in .mp4, .webm, "
                      ".gif, .mov");
-  const auto part = std::ranges::find_if(out.aovs, isPathAov);
+  const auto part = std::ranges::find_if(out.aovs, isLightPart);
   if (part != out.aovs.end() && !has(o.stages, Stage::Gi))
     throw UsageError("--aov " + std::string(rowOf(*part).name) + ": only stage gi has it");
   checkLightGroups(o);
@@ -177,7 +177,7 @@ void checkLightPaths(const RenderOptions& o) {
     throw UsageError("--caustics on: a shadow catcher shows no caustics (--shadow-catcher)");
   if (o.camera.overrides.type == CameraType::Panorama && o.camera.pixelFilter != PixelFilter::Box)
     throw UsageError("--caustics on: light paths of a panorama need --pixel-filter box");
-  if (std::ranges::any_of(o.output.aovs, isPathAov))
+  if (std::ranges::any_of(o.output.aovs, isLightPart))
     throw UsageError("--caustics on: emission, diffuse and specular (--aov) would not add up to the picture");
 }
 
@@ -189,7 +189,7 @@ void checkReuse(const RenderOptions& o) {
   if (isAdaptive(o)) throw UsageError(refused + "--noise, --time: all pixels need as many samples");
   if (o.output.denoise != Denoise::None)
     throw UsageError(refused + "--denoise: a filter takes what pixels share for the picture");
-  if (std::ranges::any_of(o.output.aovs, isPathAov))
+  if (std::ranges::any_of(o.output.aovs, isLightPart))
     throw UsageError(refused + "emission, diffuse, specular (--aov): they would not add up to the picture");
 }
 

@@ -86,7 +86,7 @@ int parseBounces(const std::string& text) {
 
 OptionRow bouncesRow() {
   OptionRow row = memberRow(
-      "--bounces", "maximum number of scattering events per path, not counting smooth glass, or 'unlimited'",
+      "--bounces", "maximum number of indirect bounces of a path, not counting smooth glass, or 'unlimited'; 0 is direct light alone",
       FRAGTRACE_MEMBER(sampling.bounces), {.effect = Effect::Picture, .attribute = "bounces"});
   row.examples = {"0", "unlimited"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {

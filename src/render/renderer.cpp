@@ -224,7 +224,7 @@ void Renderer::useProgram(const ShaderVariant& variant) {
 }
 
 void Renderer::bindPathStates(const ShaderVariant& variant) {
-  const int own = variant.lightPaths ? 2 : isPathAov(variant.aov) ? 1 : 0;
+  const int own = variant.lightPaths ? 2 : isLightPart(variant.aov) ? 1 : 0;
   const int rows = int(layout::kPathRows) + 1 + variant.stackSize / 4 + own;
   const glm::ivec2 wave = software_ ? kWaveTile : kGpuWaveTile;
   const int64_t lanes = int64_t(wave.x) * wave.y / layout::kWaveSlots;

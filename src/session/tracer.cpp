@@ -26,7 +26,7 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
     variant.literals = largeFirst(loaded.scene, loaded.bvh, variant);
     return;
   }
-  if (variant.aov != Aov::None && !isPathAov(variant.aov)) return;
+  if (variant.aov != Aov::None && !isLightPart(variant.aov)) return;
   const bool asked = options.device.traversal == TraversalMethod::Literals;
   if (variant.countsVisits) {
     if (asked) throw UsageError("--traversal literals: has no tree whose nodes the heat map could count");

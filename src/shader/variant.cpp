@@ -180,7 +180,7 @@ std::string whyNoLightPaths(const RenderOptions& options) {
   // A filter does not reach across the seam of a panorama.
   if (options.camera.overrides.type == CameraType::Panorama && options.camera.pixelFilter != PixelFilter::Box)
     return "--pixel-filter of a panorama";
-  if (std::ranges::any_of(options.output.aovs, isPathAov)) return "--aov has parts of the light";
+  if (std::ranges::any_of(options.output.aovs, isLightPart)) return "--aov has parts of the light";
   if (options.camera.shutter > 0.0) return "--shutter";
   return {};
 }
@@ -232,7 +232,7 @@ ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& pre
                                Surroundings surroundings, uint32_t treeDepth, BufferReads reads, Aov aov) {
   RenderOptions wanted = options;
   wanted.output.debugView = DebugView::None;
-  if (isPathAov(aov)) {
+  if (isLightPart(aov)) {
     ShaderVariant light = chooseVariant(wanted, present, surroundings, treeDepth, reads);
     light.aov = aov;
     light.traits.reset(size_t(Trait::Caustics));

@@ -94,7 +94,7 @@ class Schedules(BothSchedules):
         small = ["--resolution", "8,8", "--spp", 1]
         for why, scene, options in (("the scene is shader text", "cornell-box", ["--traversal", "literals"]),
                                     ("the tree is not walked front to back", "room-ball", ["--traversal", "bvh"]),
-                                    ("a layer of first hits", "room-ball", ["--debug-view", "normal"]),
+                                    ("a layer", "room-ball", ["--debug-view", "normal"]),
                                     ("the heat map", "room-ball", ["--debug-view", "visits"]),
                                     ("a stage before global illumination", "room-ball", ["--stage", "shadows"]),
                                     ("--dispatch fragment", "room-ball", ["--dispatch", "fragment"])):

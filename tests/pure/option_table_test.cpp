@@ -95,6 +95,13 @@ TEST(OptionTable, HasEachNameOnce) {
   for (const OptionRow& row : optionRows()) EXPECT_EQ(++count[row.name], 1) << row.name;
 }
 
+TEST(OptionTable, NoNameIsSaidToBeOfAnotherProgram) {
+  Words names;
+  for (const OptionRow& row : optionRows()) names.push_back(row.name);
+  for (const std::string& name : names)
+    EXPECT_EQ(suggestedOption(name, names).substr(0, name.size()), name) << "suggestion.cpp";
+}
+
 TEST(OptionTable, HasNoRowThatChangesNothing) {
   std::map<std::string, bool> changes;
   forEachUse([&](const OptionRow& row, const RenderOptions& options, const std::string&) {
