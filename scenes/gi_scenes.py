@@ -141,6 +141,15 @@ def caustics(gltf):
     gltf.add_camera("camera", (0.2, 1.9, 3.6), (0, 0.25, 0), 34)
 
 
+@scene("caustic-ball")
+def caustic_ball(gltf):
+    """A ball of glass under a small lamp over matt ground, for error against time."""
+    place_quad(gltf, "ground", ground(5, 5), gltf.add_lambert("ground", (0.8, 0.8, 0.8)))
+    gltf.add_sphere("ball", 0.7, glass(gltf, "clear", thicknessFactor=1), translation=[0, 1, 0])
+    place_backed_lamp(gltf, 0.3, (30, 30, 30), [0, 4, 0])
+    gltf.add_camera("camera", (0, 1, 6), (0, 1, 0), 40)
+
+
 @scene("caustic-ground")
 def caustic_ground(gltf):
     """Dark ground, lit by way of a ball of glass and a hollow mirror that the camera does not see. So dark that what it throws back at them is nothing:
