@@ -41,6 +41,7 @@ def settle(setting, memory, fault):
             passed, seconds = trial.passes(test)
             if passed:
                 memory.note(test, seconds)
+                print(f"{fault.name}: not seen by {test}, {seconds:.0f} s", flush=True)
             elif sound(setting, memory, test):
                 memory.settle(fault, test, time.monotonic() - began)
                 print(f"{fault.name}: seen by {test}, {time.monotonic() - began:.0f} s", flush=True)
