@@ -5,6 +5,7 @@ the mirrored lamp sends, that of a slab of glass follows from Snell and Fresnel.
 (5 degrees of freedom: one of 500 would not)."""
 import json
 import math
+import shutil
 import statistics
 import struct
 from pathlib import Path
@@ -332,6 +333,16 @@ class Caustics(Case):
         scene = self.scene("dots", self.above(0.6, 1.2), self.lamp(((1.5, 0.0, 0.3), 0.02, 6000.0), [0, 0, 0, 1]))
         pixels = sorted(luminances(self.picture(scene, "x.pfm", *SMALL, "--spp", 1024)))
         self.assertLess(pixels[-1], 4 * pixels[len(pixels) // 2])
+
+    def test_light_paths_that_take_many_draws_are_the_same(self):
+        folder = self.folder / "shaders"
+        shutil.copytree(SCENES.parent / "shaders", folder)
+        text = (folder / "trace.glsl").read_text()
+        self.assertIn("int budget = frame.stepBudget;", text)
+        (folder / "trace.glsl").write_text(text.replace("int budget = frame.stepBudget;", "int budget = min(frame.stepBudget, 6);"))
+        options = ["--resolution", "24,18", "--spp", 2, "--traversal", "front-to-back", "--schedule", "megakernel"]
+        scene = str(SCENES / "caustics")
+        self.assertEqual(self.picture(scene, "a.pfm", *options), self.picture(scene, "b.pfm", *options, "--shader-folder", folder))
 
     def test_the_noise_is_what_the_variance_says(self):
         """Of independent numbers, over pixels and 24 seeds; a standard error of about 2 %."""
