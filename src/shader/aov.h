@@ -56,7 +56,9 @@ inline constexpr std::array<AovRow, 16> kAovRows{{{"", ""},
 inline const AovRow& rowOf(Aov aov) { return kAovRows[size_t(aov)]; }
 
 /// Returns true if the AOV is a share of the light, for which paths are traced to their ends.
-inline bool isLightPart(Aov aov) { return aov == Aov::Emission || aov == Aov::Diffuse || aov == Aov::Specular; }
+inline bool isLightPart(Aov aov) {
+  return aov == Aov::Emission || aov == Aov::Diffuse || aov == Aov::Specular;
+}
 
 /// Returns true if the AOV is a Cryptomatte.
 inline bool isMatte(Aov aov) { return aov == Aov::CryptoObject || aov == Aov::CryptoMaterial; }
