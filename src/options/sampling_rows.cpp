@@ -85,9 +85,11 @@ int parseBounces(const std::string& text) {
 }
 
 OptionRow bouncesRow() {
-  OptionRow row = memberRow(
-      "--bounces", "maximum number of indirect bounces of a path, not counting smooth glass, or 'unlimited'; 0 is direct light alone",
-      FRAGTRACE_MEMBER(sampling.bounces), {.effect = Effect::Picture, .attribute = "bounces"});
+  OptionRow row =
+      memberRow("--bounces",
+                "maximum number of indirect bounces of a path, not counting smooth glass, or 'unlimited'; 0 "
+                "is direct light alone",
+                FRAGTRACE_MEMBER(sampling.bounces), {.effect = Effect::Picture, .attribute = "bounces"});
   row.examples = {"0", "unlimited"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
     addWord(app, r, raw,
