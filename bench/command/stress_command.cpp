@@ -31,8 +31,7 @@ void declareStress(CLI::App& app, StressOptions& o) {
   app.add_option("--rows", o.rows,
                  "run only the rows whose name contains one of these strings, separated by commas")
       ->delimiter(',');
-  app.add_option("--seed", o.seed,
-                 "seed of rays, random scenes and samples, 0 to 1000; others are other cases")
+  app.add_option("--seed", o.seed, "seed of rays, random scenes and samples; each tries other cases")
       ->check(CLI::Range(0u, 1000u));
   addJsonOption(app, o.files, "write all results to this file, one JSON line per row");
   addDeviceOptions(app, o.raw);

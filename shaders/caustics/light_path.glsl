@@ -73,7 +73,7 @@ bool withinBounces(Path p) {
   return 1 + limitedScatterings(p) <= most;
 }
 
-/// Traces the shadow ray, and then ends the path unless it is said otherwise.
+/// Traces the shadow ray, after which the path ends unless spawnRay() gives it another ray.
 Path traceSplat(Path p) {
   p.after = kPhaseEnd;
   p.phase = kPhaseShadow;
