@@ -36,10 +36,19 @@ class Materials(Case):
         viewer.key("Return", "Return")
         return viewer.rest(lambda s: not s["set"], "read again")
 
+    def settled(self, viewer, name):
+        """The place of that name once it no longer moves. A scroll bar takes its part one frame later."""
+        place, since = None, time.monotonic()
+        while not place or time.monotonic() - since < 0.5:
+            now = viewer.until(lambda s: s["places"].get(name), f"a place of {name}")["places"][name]
+            if now != place:
+                place, since = now, time.monotonic()
+            time.sleep(0.05)
+        return place
+
     def slide(self, viewer, name, part):
         """Presses on a slider at a part of its width."""
-        x, y, width, height = viewer.until(lambda s: s["places"].get(name), f"a place of {name}")["places"][name]
-        time.sleep(0.1)
+        x, y, width, height = self.settled(viewer, name)
         viewer.at(round(x + part * width), round(y + height / 2))
         time.sleep(0.1)
         before = viewer.status()["set"]
@@ -121,6 +130,7 @@ class Materials(Case):
         viewer.click("material 0")
         # Metal, which the scene has not had.
         metal = self.slide(viewer, "Metallic", 0.9)["/materials/0/pbrMetallicRoughness/metallicFactor"][0]
+        self.assertAlmostEqual(metal, 0.9, delta=0.05)
         file.write_text(file.read_text().replace('"metallicFactor": 0,', f'"metallicFactor": {metal},', 1))
         changed = self.picture(viewer)
         self.same(changed, pixels_of(self.render(file, *PANEL)))
