@@ -74,6 +74,7 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "lights.glsl"
 #include "film_pixel.glsl"
 #include "film.glsl"
+#include "caustics/flux.glsl"
 #include "caustics/form.glsl"
 #include "path_state.glsl"
 #include "path_rows.glsl"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Light paths (kLightPaths): a lamp, delta lobes of casters, a rough surface, then any surfaces, the last of which is
 // rough and is seen by the camera. Camera paths leave out exactly these (form.glsl). Particles carry flux, so glass and
-// shading normals weigh them in another way than camera paths (Veach, Robust Monte Carlo Methods for Light Transport
-// Simulation, 1997, section 5.3).
+// shading normals weigh them in another way than camera paths (flux.glsl).
 
 /// The camera as seen from a point.
 struct SeenFrom {
@@ -106,7 +105,7 @@ Path splat(Path p, Surface s, SurfaceMaterial m, bool first) {
   bool sameSide = (dot(p.direction, s.geometricNormal) < 0.0) == (wi.z > 0.0);
   if (!sameSide) return p;
   vec3 value = evaluateBsdf(at.b, at.wo, wi).value;
-  float arriving = max(abs(dot(p.direction, s.geometricNormal)), 1e-9);
+  float arriving = max(abs(dot(p.direction, s.geometricNormal)), kLeastCosine);
   float leaving = abs(dot(camera.direction, s.geometricNormal));
   vec3 light = p.fromLight.flux * p.throughput * value * (p.etaScale * camera.importance * leaving / arriving);
   if (kAbsorption && medium != kPrimitiveNone) {
@@ -209,10 +208,9 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   if (wrongSide || !lightScatters(p.prefix, delta, straight, caster)) return p;
   float survival = delta ? 1.0 : min(1.0, maxComponent(next.weight));
   if (!delta && pathRandom(p, kSurvivalDimension) >= survival) return p;
-  // Bent normals weigh flux in another way than radiance (Veach, section 5.3).
-  float before = abs(dot(p.direction, s.geometricNormal)) * abs(next.wi.z);
-  float after = abs(dot(direction, s.geometricNormal)) * abs(at.wo.z);
-  vec3 weight = next.weight * (after / max(before, 1e-9) / survival);
+  vec2 from = vec2(dot(p.direction, s.geometricNormal), at.wo.z);
+  vec2 to = vec2(dot(direction, s.geometricNormal), next.wi.z);
+  vec3 weight = next.weight * (fluxFactor(from, to) / survival);
   if (p.bounce == 0) p.fromLight.glassFirst = glass;
   p = spawnRay(p, s, direction, weight, next.pdf, next.transmitted, m);
   if (!withinBounces(p)) p.after = kPhaseEnd;

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "base/errors.h"
 #include "gl/gl.h"
 
 namespace fragtrace {
@@ -35,5 +36,17 @@ DebugLog::~DebugLog() {
 }
 
 std::vector<std::string> DebugLog::take() { return std::exchange(messages_, {}); }
+
+void checkGl(const char* where, DebugLog& log) {
+  try {
+    checkGl(where);
+  } catch (const ContextLost&) {
+    throw;
+  } catch (const RenderError& error) {
+    std::string text = error.what();
+    for (const std::string& message : log.take()) text += "; driver: " + message;
+    throw RenderError(text);
+  }
+}
 
 }  // namespace fragtrace

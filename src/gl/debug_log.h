@@ -20,4 +20,7 @@ class DebugLog {
   std::vector<std::string> messages_;
 };
 
+/// As checkGl(), with what the driver says of the error.
+void checkGl(const char* where, DebugLog& log);
+
 }  // namespace fragtrace

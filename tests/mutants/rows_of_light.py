@@ -218,6 +218,8 @@ ROWS = [
     F("shutter/camera.turnedWith", "turnedBy(pose.first, v)", "v", "a camera forgets the turn to its segment"),
     F("shutter/camera.carried", "ray.origin - frame.cameraPosition", "vec3(0.0)", "a lens that moves has no width"),
     F("path.depthAlong", "? t : t * dot", "? 0.98 * t : 0.98 * t * dot", "media and catchers are 2 % too near", "depths of media guide a filter alone"),
+    F("caustics/flux.fluxFactor", "arriving.y / arriving.x", "arriving.x / arriving.y", "shading normals weigh the light that arrives the other way round"),
+    F("caustics/flux.fluxFactor least", "max(abs(wi), vec2(kLeastCosine))", "abs(wi)", "flat rays that lamps send weigh any quotient of rounding errors"),
     F("caustics/form.cameraPrefix", "kPrefixSmooth ? kPrefixCaustic", "kPrefixSmooth ? kPrefixSmooth", "camera paths bring what light paths bring, too"),
     F("caustics/form.cameraPrefix rough", "delta ? kPrefixNone : kPrefixDiffuse", "delta ? kPrefixDiffuse : kPrefixNone", "camera paths leave out what mirrors show"),
     F("caustics/form.cameraPrefix again", "if (!delta) return kPrefixDiffuse", "if (!delta) return kPrefixNone", "camera paths bring caustics that are seen after another rough surface, too"),

@@ -75,6 +75,7 @@ LIKELY = {
     "lights.chanceOfLight": ("pure.light_tree_test",),
     "path.normalOfLight": ("command.LightTree",),
     "caustics/aim.": ("pure.shader_light_paths_test",),
+    "caustics/flux.": ("pure.shader_light_paths_test",),
     "caustics/form.": ("pure.shader_path_form_test", "command.Caustics"),
     "caustics/": ("caustic-ground.gi", "command.Caustics"),
     "film.recordOf": ("command.Caustics",),

@@ -39,5 +39,6 @@ inline MovingTriangle movingTriangle(int /*slot*/, float /*time*/) { return {}; 
 #include "reuse/candidates.glsl"
 #include "reuse/reservoir.glsl"
 #include "caustics/aim.glsl"
+#include "caustics/flux.glsl"
 #include "caustics/form.glsl"
 // clang-format on

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// shaders/caustics/aim.glsl: light paths are drawn as densely as they are said to be, and towards every
-// caster.
+// shaders/caustics: light paths are drawn as densely as they are said to be, towards every caster, and no
+// rounding error weighs them.
 #include <gtest/gtest.h>
 
 #include "glsl_lights.h"
@@ -125,6 +125,16 @@ TEST(ShaderLightPaths, OfTheSunCrossDisksAsDenselyAsTheyTell) {
   };
   EXPECT_GT(chanceOf(draws, pdf, 4.0 * kHalf * kHalf), kSignificance / 3.0);
   EXPECT_LE(wrong, kSamples / 10000);
+}
+
+TEST(ShaderLightPaths, ShadingNormalsWeighFluxAsVeachSays) {
+  EXPECT_DOUBLE_EQ(glsl_double::fluxFactor({0.5, 0.6}, {-0.3, 0.2}), (0.6 / 0.5) * (0.3 / 0.2));
+  EXPECT_EQ(glsl_float::fluxFactor({0.3f, 0.3f}, {-0.7f, -0.7f}), 1.0f);
+}
+
+TEST(ShaderLightPaths, RoundingErrorsOfFlatRaysWeighNothing) {
+  // These cosines were seen at the edge of a sphere; they made a dot 7,000 times too bright.
+  EXPECT_EQ(glsl_float::fluxFactor({1e-9f, 3e-6f}, {2e-7f, 9e-8f}), 1.0f);
 }
 
 }  // namespace

@@ -344,7 +344,7 @@ void Window::draw() {
   readValues();
   facts_.focus = Interface::focus();
   interface_.end();
-  checkGl("drawing the window");
+  checkGl("drawing the window", driverLog_);
   glfwSwapBuffers(window_.get());
   for (const std::string& message : driverLog_.take()) {
     report_.glErrors.push_back(message);
