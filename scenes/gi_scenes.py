@@ -118,6 +118,19 @@ def vitrine(gltf):
     gltf.add_camera("camera", (0.9, 1.5, 3), (0, 0.7, 0), 28)
 
 
+def place_ring(gltf, radius, height, material, **place):
+    """The inner side of a ring that stands on the ground."""
+    turns, faces = 64, []
+    for k in range(turns):
+        a, b = (2 * math.pi * (k + i) / turns for i in (0, 1))
+        points = [(radius * math.cos(c), 0, radius * math.sin(c)) for c in (a, b)]
+        edge = tuple(q - p for p, q in zip(*points))
+        faces.append(quad(points[0], edge, (0, height, 0)))
+    positions, indices = geometry.join_quads(faces)
+    normals = [(-p[0] / radius, 0, -p[2] / radius) for p in positions]
+    gltf.place_mesh("ring", gltf.primitive(positions, indices, material, normals), **place)
+
+
 @scene("caustics")
 def caustics(gltf):
     """A ball and a bowl of glass and a ring of gold on a table, under a lamp of 6 cm and a spot."""
@@ -127,15 +140,7 @@ def caustics(gltf):
     gltf.add_sphere("green", 0.25, glass(gltf, "green", thicknessFactor=1, attenuationColor=[0.3, 0.85, 0.5], attenuationDistance=0.4),
                     translation=[0.75, 0.26, 0.55])
     gold = gltf.add_material("gold", (1, 0.77, 0.34), metallic=1, roughness=0)
-    turns, faces = 64, []
-    for k in range(turns):
-        a, b = (2 * math.pi * (k + i) / turns for i in (0, 1))
-        points = [(0.35 * math.cos(c), 0, 0.35 * math.sin(c)) for c in (a, b)]
-        edge = tuple(q - p for p, q in zip(*points))
-        faces.append(quad(points[0], edge, (0, 0.22, 0)))
-    positions, indices = geometry.join_quads(faces)
-    normals = [(-p[0] / 0.35, 0, -p[2] / 0.35) for p in positions]
-    gltf.place_mesh("ring", gltf.primitive(positions, indices, gold, normals), translation=[0.35, 0.002, -0.35])
+    place_ring(gltf, 0.35, 0.22, gold, translation=[0.35, 0.002, -0.35])
     place_backed_lamp(gltf, 0.03, (2600, 2400, 2100), [-1.3, 2.2, -0.4])
     gltf.add_light("spot", "spot", 9, (1, 0.9, 0.8), (1.8, 1.6, -0.9), (-0.55, -0.55, 0.6), spot={"innerConeAngle": 0.4, "outerConeAngle": 0.7})
     gltf.add_camera("camera", (0.2, 1.9, 3.6), (0, 0.25, 0), 34)
@@ -148,6 +153,16 @@ def caustic_ball(gltf):
     gltf.add_sphere("ball", 0.7, glass(gltf, "clear", thicknessFactor=1), translation=[0, 1, 0])
     place_backed_lamp(gltf, 0.3, (30, 30, 30), [0, 4, 0])
     gltf.add_camera("camera", (0, 1, 6), (0, 1, 0), 40)
+
+
+@scene("caustic-ring")
+def caustic_ring(gltf):
+    """A brushed ring and a frosted ball on a matt table: casters that are not quite smooth."""
+    place_quad(gltf, "table", ground(2.4, 1.8), gltf.add_lambert("table", (0.6, 0.57, 0.5)))
+    place_ring(gltf, 0.5, 0.3, gltf.add_material("brushed", (1, 0.77, 0.34), metallic=1, roughness=0.2), translation=[0.45, 0.002, 0.1])
+    gltf.add_sphere("ball", 0.35, glass(gltf, "frosted", roughness=0.15, thicknessFactor=1), translation=[-0.6, 0.36, 0.1])
+    place_backed_lamp(gltf, 0.05, (900, 850, 750), [-1.1, 2.2, -0.5])
+    gltf.add_camera("camera", (0.2, 1.9, 3.2), (0, 0.2, 0), 34)
 
 
 @scene("caustic-ground")

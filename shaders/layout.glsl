@@ -168,6 +168,7 @@ const uint kMaterialUnlit = 8u;
 const uint kMaterialSpecularGlossiness = 16u;
 const uint kMaterialScatters = 64u;  // a solid inside of which light is scattered
 const uint kMaterialCaster = 32u;  // its delta lobes make caustics that light paths draw (src/scene/casters.h)
+const uint kMaterialGlossyCaster = 128u;  // its one lobe, which is none, does
 
 const int kMostCasters = 16;  // balls round what makes caustics
 

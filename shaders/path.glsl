@@ -274,6 +274,9 @@ uint normalOfLight(Surface s, SurfaceMaterial m) {
   return kNoNormal;
 }
 
+/// Returns true if a lobe of a material with these flags makes caustics.
+bool isCaster(uint flags, bool delta) { return (flags & (delta ? kMaterialCaster : kMaterialGlossyCaster)) != 0u; }
+
 /// Settles where the path goes on from the surface, once its shadow ray is done; weight multiplies the throughput, and
 /// zero ends the path.
 Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool transmitted, SurfaceMaterial m) {
@@ -305,8 +308,10 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
   if (kMatchedGlass) straight = deltaGlass && transmitted && open && (!m.solid || isMatched(s.material));
   if (kCaustics && kLightPaths) p.prefix = lightPrefix(p.prefix, pdf == 0.0, straight);
   if (kCaustics && !kLightPaths) {
-    bool caster = (materialFlags(s.material) & kMaterialCaster) != 0u;
-    p.prefix = cameraPrefix(p.prefix, p.bounce == 1, pdf == 0.0, straight, caster);
+    bool caster = isCaster(materialFlags(s.material), pdf == 0.0);
+    bool first = p.bounce == 1;
+    bool narrow = pdf == 0.0 || (first && pdf > kNarrow);
+    p.prefix = cameraPrefix(p.prefix, first, narrow, straight, caster);
   }
   // Straight through a thin wall the path keeps its ray, and the pdf that light sampling shares with it.
   if (straight) {

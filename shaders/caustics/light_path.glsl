@@ -79,6 +79,28 @@ Path traceSplat(Path p) {
   return traceAnew(p, p.shadowLimit);
 }
 
+/// f |wi.Ns| |wo.Ng| / |wi.Ng| of the path's light towards wo, which is towards the camera, and the pdf with which a
+/// camera path draws wi. The surface is as seen from wo: layers and compensated energy depend on that side alone.
+BsdfValue scatteredTowards(Path p, Surface s, SurfaceMaterial m, vec3 wo) {
+  bool through = dot(wo, s.geometricNormal) < 0.0;
+  s.front = s.front != through;
+  s.geometricNormal = through ? -s.geometricNormal : s.geometricNormal;
+  s.shadingNormal = through ? -s.shadingNormal : s.shadingNormal;
+  Scattering at = scatteringAt(s, m, normalFacing(s, wo), wo);
+  vec3 wi = toFrame(at.around, -p.direction);
+  bool sameSide = (dot(p.direction, s.geometricNormal) < 0.0) == (wi.z > 0.0);
+  BsdfValue value = evaluateBsdf(at.b, at.wo, wi);
+  float arriving = max(abs(dot(p.direction, s.geometricNormal)), kLeastCosine);
+  value.value *= sameSide ? abs(dot(wo, s.geometricNormal)) / arriving : 0.0;
+  return value;
+}
+
+/// The factor by which radiance grows on the way of a path from the lamp. etaScale has it.
+float radianceScale(Surface s, SurfaceMaterial m, bool transmitted) {
+  float squared = m.ior * m.ior;
+  return transmitted && m.solid ? (s.front ? squared : 1.0 / squared) : 1.0;
+}
+
 /// Sets the shadow ray for the light that the camera sees of the path at a rough surface. With wi towards the path and
 /// wo towards the camera it is flux * throughput * f(wo, wi) |wi.Ns| * |wo.Ng| / |wi.Ng| * etaScale * importance. The
 /// quotient of cosines is there because particles carry flux (Veach, section 5.3). At the first rough surface the ray
@@ -92,22 +114,11 @@ Path splat(Path p, Surface s, SurfaceMaterial m, bool first) {
   }
   SeenFrom camera = cameraFrom(s.position, lens);
   if (camera.importance <= 0.0 || !withinBounces(p)) return p;
-  // The surface as the camera sees it.
   bool through = dot(camera.direction, s.geometricNormal) < 0.0;
   uint medium = through && m.solid ? mediumBehind(s) : p.medium;
-  if (through) {
-    s.front = !s.front;
-    s.geometricNormal = -s.geometricNormal;
-    s.shadingNormal = -s.shadingNormal;
-  }
-  Scattering at = scatteringAt(s, m, normalFacing(s, camera.direction), camera.direction);
-  vec3 wi = toFrame(at.around, -p.direction);
-  bool sameSide = (dot(p.direction, s.geometricNormal) < 0.0) == (wi.z > 0.0);
-  if (!sameSide) return p;
-  vec3 value = evaluateBsdf(at.b, at.wo, wi).value;
-  float arriving = max(abs(dot(p.direction, s.geometricNormal)), kLeastCosine);
-  float leaving = abs(dot(camera.direction, s.geometricNormal));
-  vec3 light = p.fromLight.flux * p.throughput * value * (p.etaScale * camera.importance * leaving / arriving);
+  BsdfValue value = scatteredTowards(p, s, m, camera.direction);
+  if (value.pdf > kNarrow) return p;
+  vec3 light = p.fromLight.flux * p.throughput * value.value * (p.etaScale * camera.importance);
   if (kAbsorption && medium != kPrimitiveNone) {
     light *= exp(-camera.distance * materialFloats(medium, kMaterialVolume).rgb);
   }
@@ -165,7 +176,9 @@ const float kPassedOn = 0.125;
 Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   p.phase = kPhaseEnd;
   if (kUnlit && (flags & kMaterialUnlit) != 0u) return p;
-  bool caster = (flags & kMaterialCaster) != 0u;
+  bool glossy = isCaster(flags, false);
+  bool mirror = isCaster(flags, true);
+  bool caster = glossy || mirror;
   bool scattered = p.prefix != kPrefixNone;
   bool singleSided = isSingleSided(s.material, flags);
   if (singleSided && !s.front) return p;
@@ -189,10 +202,10 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   bool glass = kTransmission && at.b.glass > 0.0;
   bool thin = kThinGlass && glass && !m.solid && isSmoothGlass(at.b) && p.medium == kPrimitiveNone;
   vec4 chances = lobeChances(at.b, at.wo.z);
-  bool rough = !(caster || thin) || !at.b.mirrorLike || chances.z + chances.w > 0.0;
+  bool rough = !(mirror || thin) || !at.b.mirrorLike || chances.z + chances.w > 0.0;
 
   // Step: let the camera see it. The first surface that is all rough has a ray and a record of its own.
-  bool first = p.prefix == kPrefixCaustic && !caster && !thin && p.fromLight.waiting == 0.0;
+  bool first = p.prefix == kPrefixCaustic && !mirror && !thin && p.fromLight.waiting == 0.0;
   if (rough && scattered) p = splat(p, s, m, first);
   if (!caster && !thin && !scattered) return p;
 
@@ -205,13 +218,15 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   vec3 direction = normalize(toWorld(at.around, next.wi));
   if (delta) direction = ontoSide(direction, s.geometricNormal, next.transmitted);
   bool wrongSide = (dot(direction, s.geometricNormal) < 0.0) != next.transmitted;
-  if (wrongSide || !lightScatters(p.prefix, delta, straight, caster)) return p;
-  float survival = delta ? 1.0 : min(1.0, maxComponent(next.weight));
-  if (!delta && pathRandom(p, kSurvivalDimension) >= survival) return p;
+  if (wrongSide || !lightScatters(p.prefix, delta, straight, delta ? mirror : glossy)) return p;
   vec2 from = vec2(dot(p.direction, s.geometricNormal), at.wo.z);
   vec2 to = vec2(dot(direction, s.geometricNormal), next.wi.z);
-  vec3 weight = next.weight * (fluxFactor(from, to) / survival);
-  if (p.bounce == 0) p.fromLight.glassFirst = glass;
+  vec3 weight = next.weight * fluxFactor(from, to);
+  if (!delta) weight = scatteredTowards(p, s, m, direction).value / (next.pdf * radianceScale(s, m, next.transmitted));
+  float survival = delta ? 1.0 : min(1.0, maxComponent(weight));
+  if (!delta && pathRandom(p, kSurvivalDimension) >= survival) return p;
+  weight /= survival;
+  if (p.bounce == 0) p.fromLight.glassFirst = glass && delta;
   p = spawnRay(p, s, direction, weight, next.pdf, next.transmitted, m);
   if (!withinBounces(p)) p.after = kPhaseEnd;
   return p.phase == kPhaseShadow ? p : proceed(p);

@@ -80,6 +80,7 @@ glm::vec3 scatteringAlbedo(const Material& m, TexturePacker& textures) {
   return glm::vec3(glm::clamp((1.0 - s * s) / (1.0 - g * s * s), 0.0, 1.0));
 }
 
+constexpr std::array kCasterFlags{0u, layout::kMaterialCaster, layout::kMaterialGlossyCaster};  // as Caster
 uint32_t materialFlags(const Material& m) {
   uint32_t flags = 0;
   if (m.alphaMode == AlphaMode::Mask) flags |= layout::kMaterialMask;
@@ -87,7 +88,6 @@ uint32_t materialFlags(const Material& m) {
   if (m.doubleSided) flags |= layout::kMaterialDoubleSided;
   if (m.unlit) flags |= layout::kMaterialUnlit;
   if (m.scattersInside()) flags |= layout::kMaterialScatters;
-  if (castsCaustics(m)) flags |= layout::kMaterialCaster;
   if (m.specularGlossiness) flags |= layout::kMaterialSpecularGlossiness;
   return flags;
 }
@@ -118,8 +118,8 @@ void appendLayers(Words& words, const Material& m, TexturePacker& textures) {
   appendRow(words, glm::vec4(m.scattersThinly() ? m.scatterStrength : 0.0f, 0.0f, 0.0f, 0.0f));
 }
 
-void appendMaterial(Words& words, const Material& m, double unit, double emitterPdf, size_t glassTable,
-                    const TraitSet& traits, TexturePacker& textures) {
+void appendMaterial(Words& words, const Material& m, double unit, double emitterPdf, Caster caster,
+                    size_t glassTable, const TraitSet& traits, TexturePacker& textures) {
   const size_t first = words.size();
   appendRow(words, m.baseColorFactor);
   appendRow(words, m.emissiveFactor * m.emissiveStrength, m.alphaCutoff);
@@ -127,7 +127,7 @@ void appendMaterial(Words& words, const Material& m, double unit, double emitter
   appendRow(words, m.specularColorFactor, m.specularFactor);
   appendRow(words, absorption(m, unit), m.thicknessFactor > 0.0f ? 1.0f + float(glassTable) : 0.0f);
   appendRow(words, glm::vec3(m.normalScale, m.occlusionStrength, float(emitterPdf)), 0.0f);
-  words.back() = materialFlags(m);
+  words.back() = materialFlags(m) | kCasterFlags[size_t(caster)];
   appendRow(words, glm::vec4(m.perlinNormal.frequency, m.perlinNormal.amplitude,
                              float(m.perlinNormal.octaves), float(m.number)));
   for (uint32_t slot = 0; slot < layout::kSlotCount; ++slot) {
@@ -292,15 +292,15 @@ std::vector<std::pair<std::string, size_t>> imagesOf(const Scene& scene) {
 void packMaterials(const Scene& scene, const Bvh& bvh, const ShaderVariant& variant,
                    const std::vector<double>& materialPdf, TexturePacker& textures, GpuScene& packed) {
   using namespace layout;
-  const TraitSet& traits = variant.traits;
+  const std::vector<Caster> casters = castersOf(scene);
   const std::vector<float> glass = indicesOfRoughGlass(scene, variant);
   Words& materials = packed.buffers[kMaterialsBinding];
   for (size_t i = 0; i < scene.materials.size(); ++i) {
-    appendMaterial(materials, scene.materials[i], scene.space.unit, materialPdf[i],
-                   tableOf(glass, scene.materials[i]), traits, textures);
+    appendMaterial(materials, scene.materials[i], scene.space.unit, materialPdf[i], casters[i],
+                   tableOf(glass, scene.materials[i]), variant.traits, textures);
   }
   textures.appendTransforms(materials);
-  if (has(traits, Trait::Sheen)) appendCells(materials, sheenAlbedoTable());
+  if (has(variant.traits, Trait::Sheen)) appendCells(materials, sheenAlbedoTable());
   packed.energyTableRow = uint32_t(materials.size() / 4);
   if (has(variant.stages, Stage::EnergyCompensation)) appendEnergyTable(materials);
   for (const float ior : glass) {
@@ -309,7 +309,7 @@ void packMaterials(const Scene& scene, const Bvh& bvh, const ShaderVariant& vari
     appendCells(materials, table.inside);
   }
   packed.objectRow = uint32_t(materials.size() / 4);
-  if (has(traits, Trait::ObjectNumbers)) appendObjectNumbers(scene, bvh, materials);
+  if (has(variant.traits, Trait::ObjectNumbers)) appendObjectNumbers(scene, bvh, materials);
 }
 
 /// Tree, leaves, faces and vertices, unless they are on the device as they are.

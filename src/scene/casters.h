@@ -8,10 +8,22 @@
 
 namespace fragtrace {
 
-/// Returns true if the material is smooth all over, and glass or metal at least in places. Light paths find
-/// the light that scatters at such materials alone between a lamp and a rough surface (shaders/caustics/).
-/// Camera paths find it where textures decide what is smooth, or layers lie above.
-bool castsCaustics(const Material& material);
+/// Roughness up to which metal and glass make caustics that light paths draw.
+inline constexpr float kMostGlossy = 0.3f;
+
+/// Kinds of materials by the caustics that light paths draw of them: of light that scatters at these alone
+/// between a lamp and a rough surface (shaders/caustics/form.glsl). Camera paths find the light where
+/// textures decide how smooth a surface is, or layers lie above.
+enum class Caster {
+  None,
+  Smooth,  ///< smooth all over, and glass or metal at least in places
+  Glossy   ///< has one lobe alone, of metal or glass, and a roughness of at most kMostGlossy
+};
+Caster casterOf(const Material& material);
+
+/// The kind of each material. Glossy ones are no casters where lamps are so wide that camera paths find their
+/// light as well: 0.03 sr, as seen from the casters.
+std::vector<Caster> castersOf(const Scene& scene);
 
 /// A ball in local space.
 struct Ball {

@@ -128,9 +128,10 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop, 
   const Coordinates ofVertices{.texcoord0 = !scene.vertices.texcoord0.empty(),
                                .tangents = !scene.vertices.tangent.empty()};
   for (const Sphere& s : scene.spheres) onSpheres[s.material] = true;
+  const std::vector<Caster> casters = castersOf(scene);
   bool anyCaster = false;
   for (size_t i = 0; i < scene.materials.size(); ++i) {
-    anyCaster = anyCaster || ((onTriangles[i] || onSpheres[i]) && castsCaustics(scene.materials[i]));
+    anyCaster = anyCaster || ((onTriangles[i] || onSpheres[i]) && casters[i] != Caster::None);
     if (onTriangles[i]) addMaterialTraits(scene.materials[i], ofVertices, traits);
     if (onSpheres[i]) addMaterialTraits(scene.materials[i], Coordinates{}, traits);
   }

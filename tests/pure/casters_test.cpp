@@ -23,25 +23,56 @@ Material smoothGlass() {
 }
 
 TEST(Casters, AreSmoothGlassAndMetalWithoutLayers) {
-  EXPECT_TRUE(castsCaustics(smoothGlass()));
   Material mirror;
   mirror.roughnessFactor = 0.01f;
-  EXPECT_TRUE(castsCaustics(mirror));
-  Material rough = smoothGlass();
-  rough.roughnessFactor = 0.04f;
-  EXPECT_FALSE(castsCaustics(rough));
+  for (const Material& m : {smoothGlass(), mirror}) EXPECT_EQ(casterOf(m), Caster::Smooth);
   Material plastic = smoothGlass();
   plastic.transmissionFactor = 0.0f;
-  EXPECT_FALSE(castsCaustics(plastic));
   Material coated = smoothGlass();
   coated.clearcoatFactor = 0.1f;
-  EXPECT_FALSE(castsCaustics(coated));
   Material velvet = smoothGlass();
   velvet.sheenColorFactor = glm::vec3(0.1f);
-  EXPECT_FALSE(castsCaustics(velvet));
   Material stretched = mirror;
   stretched.anisotropyStrength = 0.5f;
-  EXPECT_FALSE(castsCaustics(stretched));
+  for (const Material& m : {plastic, coated, velvet, stretched}) EXPECT_EQ(casterOf(m), Caster::None);
+}
+
+Material brushed() {
+  Material metal;
+  metal.roughnessFactor = kMostGlossy;
+  return metal;
+}
+
+TEST(Casters, AreGlossyMetalAndGlassOfOneLobe) {
+  Material glass = smoothGlass();
+  glass.roughnessFactor = 0.04f;
+  for (const Material& m : {brushed(), glass}) EXPECT_EQ(casterOf(m), Caster::Glossy);
+  std::vector<Material> others(3, brushed());
+  others.insert(others.end(), 3, glass);
+  others[0].roughnessFactor = 0.31f;
+  others[1].metallicFactor = 0.9f;
+  others[2].metallicRoughnessTexture.texture = 0;
+  others[3].transmissionFactor = 0.9f;
+  others[4].transmissionTexture.texture = 0;
+  others[5].clearcoatFactor = 0.1f;
+  for (const Material& m : others) EXPECT_EQ(casterOf(m), Caster::None);
+}
+
+TEST(Casters, GlossyOnesAreNoneUnderWideLamps) {
+  Scene scene;
+  Material lamp;
+  lamp.emissiveFactor = glm::vec3(1.0f);
+  scene.materials = {brushed(), lamp, smoothGlass()};
+  scene.spheres.push_back({.center = glm::vec3(0.0f), .radius = 1.0f, .material = 0});
+  // A lamp of 0.5 square metres; 0.0300 sr at 4.08 m from the ball.
+  scene.vertices.position = {{0, 0, 5}, {1, 0, 5}, {0, 1, 5}};
+  scene.triangles = {{{0, 1, 2}, 1, true}};
+  EXPECT_EQ(castersOf(scene)[0], Caster::None);
+  for (glm::vec3& p : scene.vertices.position) p.z = 5.2f;
+  EXPECT_EQ(castersOf(scene)[0], Caster::Glossy);
+  for (glm::vec3& p : scene.vertices.position) p.z = 0.5f;
+  EXPECT_EQ(castersOf(scene)[0], Caster::None);
+  EXPECT_EQ(castersOf(scene)[2], Caster::Smooth);
 }
 
 /// Spheres and triangles of glass about these places, and matt ones everywhere.

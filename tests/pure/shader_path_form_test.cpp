@@ -13,15 +13,17 @@ using glsl_float::cameraPrefix;
 using glsl_float::lightPrefix;
 using glsl_float::lightScatters;
 
-/// A vertex of a path: D rough, S a delta lobe of a caster, G one of another material, T straight through a
-/// thin wall.
+/// A vertex of a path: D rough, R a glossy caster, S a delta lobe of a caster, G one of another material, T
+/// straight through a thin wall.
 struct Vertex {
   bool delta;
   bool straight;
   bool caster;
 };
 
-Vertex vertexOf(char c) { return {c != 'D', c == 'T', c == 'S'}; }
+bool isRough(char c) { return c == 'D' || c == 'R'; }
+
+Vertex vertexOf(char c) { return {!isRough(c), c == 'T', c == 'S' || c == 'R'}; }
 
 /// Returns true if the camera path E vertices L leaves its light out.
 bool cameraLeavesOut(const std::string& vertices) {
@@ -42,31 +44,34 @@ bool lampFinds(const std::string& vertices) {
     prefix = lightPrefix(prefix, v.delta, v.straight);
   }
   return prefix != glsl_float::kPrefixNone &&
-         vertices[0] == 'D';  // as lightPathAt() decides where a path may be seen
+         isRough(vertices[0]);  // as lightPathAt() decides where a path may be seen
 }
 
 /// The same by the definition: E D, then anything, beside the lamp a run of casters and thin walls that
-/// begins behind a rough surface and holds a caster.
+/// begins behind a rough surface and holds a caster. A glossy one can only be the caster beside the lamp.
 bool isCaustic(const std::string& vertices) {
-  const size_t rough = vertices.rfind('D');
-  if (vertices[0] != 'D') return false;
-  const std::string run = vertices.substr(rough + 1);
-  return run.find('S') != std::string::npos && run.find('G') == std::string::npos;
+  const size_t last = vertices.find_last_not_of('T');
+  if (last == std::string::npos || last == 0 || !vertexOf(vertices[last]).caster) return false;
+  const size_t rough = vertices.find_last_not_of("ST", last - 1);
+  return rough != std::string::npos && isRough(vertices[rough]) && isRough(vertices[0]);
 }
 
 TEST(ShaderPathForm, EachPathIsCountedOnce) {
-  const std::string kinds = "DSGT";
+  const std::string kinds = "DRSGT";
   size_t caustics = 0;
+  size_t codes = 1;
   for (size_t length = 1; length <= 8; ++length) {
-    for (size_t code = 0; code < size_t(1) << (2 * length); ++code) {
+    codes *= kinds.size();
+    for (size_t code = 0; code < codes; ++code) {
       std::string vertices;
-      for (size_t i = 0; i < length; ++i) vertices += kinds[code >> (2 * i) & 3];
+      for (size_t i = 0, rest = code; i < length; ++i, rest /= kinds.size())
+        vertices += kinds[rest % kinds.size()];
       ASSERT_EQ(cameraLeavesOut(vertices), isCaustic(vertices)) << vertices;
       ASSERT_EQ(lampFinds(vertices), isCaustic(vertices)) << vertices;
       caustics += isCaustic(vertices) ? 1 : 0;
     }
   }
-  EXPECT_EQ(caustics, 3763u);
+  EXPECT_EQ(caustics, 65428u);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <limits>
+#include <tuple>
 
 #include "base/text.h"
 #include "gltf/build/numbers.h"
@@ -67,9 +68,9 @@ bool isLost(const Factor& factor, const Material& m) {
 /// Returns true if the loader and the packing of geometry treat both alike.
 bool areOfOneKind(const Material& a, const Material& b) {
   const auto kind = [](const Material& m) {
-    return std::array{m.transmissive(), m.mirrorLike(),     m.clearcoated(),     m.hasSheen(),
+    return std::tuple{m.transmissive(), m.mirrorLike(),     m.clearcoated(),     m.hasSheen(),
                       m.attenuates(),   m.scattersInside(), m.scattersMatched(), m.scattersThinly(),
-                      m.disperses(),    m.emissive(),       castsCaustics(m)};
+                      m.disperses(),    m.emissive(),       casterOf(m)};
   };
   return kind(a) == kind(b);
 }
