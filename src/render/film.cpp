@@ -108,7 +108,9 @@ void Film::addSplats(FilmPixels& film) const {
     const double variance =
         std::max(0.0, splats[p * 4 + 3] / paths - value * value) / std::max(paths - 1.0, 1.0);
     pixel.sum += samples * mean;
-    pixel.m2 += variance * samples * std::max(samples - 1.0, 0.0);
+    const double m2 = variance * samples * std::max(samples - 1.0, 0.0);
+    pixel.m2 += m2;
+    film.lightPathM2 += m2;
   }
 }
 

@@ -61,8 +61,10 @@ void addLighting(nlohmann::ordered_json& json, const Statistics& s) {
   }
   if (!s.lightReuse.empty()) json["light_reuse"] = s.lightReuse;
   if (!s.lightPathReason.empty()) {
-    json["caustics"] = {
-        {"light_paths", s.film.lightPaths}, {"casters", s.casters}, {"reason", s.lightPathReason}};
+    json["caustics"] = {{"light_paths", s.film.lightPaths},
+                        {"casters", s.casters},
+                        {"variance_share", s.film.m2 > 0.0 ? s.film.lightPathM2 / s.film.m2 : 0.0},
+                        {"reason", s.lightPathReason}};
   }
 }
 

@@ -24,10 +24,10 @@ class GlossyCaustics(caustics_test.Case):
     def wall(self, roughness):
         return self.metal(roughness), {"translation": [-MIRROR, 0, 0.45], "rotation": TURN, "scale": [1.2, 1.2, 1]}
 
-    def light_paths(self, scene):
+    def told(self, scene, *options):
         path = self.folder / "stats.json"
-        self.picture(scene, "x.pfm", "--resolution", "8,8", "--spp", 1, "--stats", path)
-        return json.loads(path.read_text())["caustics"]["light_paths"]
+        self.picture(scene, "x.pfm", "--resolution", "16,16", "--spp", 8, "--bounces", 1, "--stats", path, *options)
+        return json.loads(path.read_text())["caustics"]
 
     def test_a_brushed_wall_and_metal_that_the_camera_sees(self):
         """The latter throws the light of the wall at the camera, with a lobe that is narrow, or wide."""
@@ -45,9 +45,19 @@ class GlossyCaustics(caustics_test.Case):
         self.assert_alike(scene, "pane", 384, 128, bounces=3)
 
     def test_rougher_metal_and_wide_lamps_have_none(self):
-        self.assertGreater(self.light_paths(self.scene("some", self.wall(0.3), lights=POINT)), 0)
-        self.assertEqual(self.light_paths(self.scene("rough", self.wall(0.31), lights=POINT)), 0)
-        self.assertEqual(self.light_paths(self.scene("wide", self.wall(0.3), self.lamp(LAMP))), 0)
+        for what, scene, some in (("some", self.scene("some", self.wall(0.3), lights=POINT), True),
+                                  ("rough", self.scene("rough", self.wall(0.31), lights=POINT), False),
+                                  ("wide", self.scene("wide", self.wall(0.3), self.lamp(LAMP)), False)):
+            self.assertEqual(self.told(scene)["light_paths"] > 0, some, what)
+
+    def test_the_variance_of_each_kind_of_path_is_told(self):
+        """The lamp that faces away from the ground lights it by the mirror alone, which light paths draw."""
+        lamp, mirror = caustics_test.Caustics.lamp(caustics_test.UP, [0, 0, 0, 1]), caustics_test.Caustics.above(0.9, 1.0)
+        scene = self.scene("up", mirror, lamp)
+        self.assertEqual(self.told(scene)["variance_share"], 1)
+        self.assertEqual(self.told(scene, "--caustics", "off")["variance_share"], 0)
+        both = self.told(self.scene("both", mirror, lamp, self.lamp(LAMP)))
+        self.assertTrue(0.01 < both["variance_share"] < 0.99, both)
 
 
 if __name__ == "__main__":

@@ -18,9 +18,11 @@ FilmTotals totalsOf(const FilmPixels& film) {
   FilmTotals totals;
   totals.cut = film.cut;
   totals.lightPaths = film.lightPaths;
+  totals.lightPathM2 = film.lightPathM2;
   if (!film.pixels.empty()) totals.fewestSamples = film.pixels.front().samples;
   for (const FilmPixel& p : film.pixels) {
     totals.samples += p.samples;
+    totals.m2 += p.m2;
     totals.rays += p.rays;
     totals.hitPixels += p.alpha > 0.0;
     totals.emptyPixels += p.samples == 0;
@@ -36,6 +38,7 @@ FilmPixels pooled(const FilmPixels& a, const FilmPixels& b) {
   FilmPixels result = a;
   result.cut += b.cut;
   result.lightPaths += b.lightPaths;
+  result.lightPathM2 += b.lightPathM2;
   for (size_t i = 0; i < result.pixels.size(); ++i) {
     FilmPixel& p = result.pixels[i];
     const FilmPixel& q = b.pixels[i];

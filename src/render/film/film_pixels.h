@@ -34,8 +34,9 @@ struct FilmPixel {
 struct FilmPixels {
   glm::ivec2 size{0};
   std::vector<FilmPixel> pixels;
-  double cut = 0.0;         ///< luminance of the throughput that --bounces cut, over all paths
-  uint64_t lightPaths = 0;  ///< whose light is in the sums
+  double cut = 0.0;          ///< luminance of the throughput that --bounces cut, over all paths
+  uint64_t lightPaths = 0;   ///< whose light is in the sums
+  double lightPathM2 = 0.0;  ///< their part of m2, over all pixels
 };
 
 /// The film's counts, summed over all pixels.
@@ -48,6 +49,8 @@ struct FilmTotals {
   uint64_t budgetHits = 0;  ///< pixels in which a loop was ended by the driver: the picture is wrong
   double cut = 0.0;         ///< as in FilmPixels
   uint64_t lightPaths = 0;  ///< as in FilmPixels
+  double m2 = 0.0;
+  double lightPathM2 = 0.0;  ///< as in FilmPixels
   uint32_t fewestSamples = 0;
   uint32_t mostSamples = 0;
 };

@@ -83,6 +83,8 @@ void add(FilmTotals& totals, const FilmTotals& part, bool first) {
   totals.budgetHits += part.budgetHits;
   totals.cut += part.cut;
   totals.lightPaths += part.lightPaths;
+  totals.m2 += part.m2;
+  totals.lightPathM2 += part.lightPathM2;
 }
 
 /// An image of all parts with the channels of one of them, still black.
