@@ -232,7 +232,9 @@ Path meetSurroundings(Path p) {
   if (!kEnvironment) return p;
   // Surroundings are outside of everything: who has left less than was entered has missed a face that touches another.
   if (kPassesLight) p.throughput *= p.etaScale;
-  vec4 seen = environmentAlong(p.direction);
+  // Light paths bring the sun.
+  bool sunless = kSunPaths && p.prefix == kPrefixCaustic;
+  vec4 seen = sunless ? mapAlong(p.direction) : environmentAlong(p.direction);
   float weight = 1.0;
   if (kGi && kEnvironmentSampling && p.pdf > 0.0) {
     weight = balanceWeight(p.pdf, frame.environmentChance * environmentPdf(seen, p.direction));

@@ -4,6 +4,9 @@
 // all of the S+ beside the lamp are casters. Camera paths leave out exactly these. Straight passages through thin walls
 // may lie anywhere but beside the camera.
 
+/// Light paths begin at the sun, too.
+const bool kSunPaths = kCaustics && kSun && kEnvironmentSampling;
+
 const int kPrefixNone = 0;     // from the camera: another form; from the lamp: no caster yet
 const int kPrefixDiffuse = 1;  // the last surface was rough (from the lamp: one of them since the caster)
 const int kPrefixCaustic = 2;  // delta lobes of casters since (from the lamp: since the start)
