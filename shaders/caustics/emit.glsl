@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Light paths (kLightPaths) begin at the sun or a lamp, which is drawn by its power, and are aimed at casters of caustics. Balls
-// enclose all casters, so that no path that meets one first is left out.
+// Light paths (kLightPaths) begin at the sun or a lamp, which is drawn by its power, and are aimed at casters of
+// caustics. Balls enclose all casters, so that no path that meets one first is left out.
 
 layout(location = 0) uniform vec4 casters[kMostCasters];  // local space: middle, radius
 layout(location = kMostCasters) uniform int casterCount;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The form of a path decides if it is found from the camera or from the lamp. In Heckbert's notation (E the camera,
-// D a rough surface, S a delta lobe, L a lamp) light paths bring the light of E D S+ L and of E D (D|S)* D S+ L, where
-// all of the S+ beside the lamp are casters. Camera paths leave out exactly these. Straight passages through thin walls
-// may lie anywhere but beside the camera.
+// The form of a path decides if it is found from the camera or from the lamp. In Heckbert's notation (E the camera, D a
+// rough surface, S a delta lobe, L a lamp or the sun) light paths bring the light of E D S+ L and of E D (D|S)* D S+ L,
+// where all of the S+ beside the lamp are casters. Camera paths leave out exactly these. Straight passages through thin
+// walls may lie anywhere but beside the camera.
 
 /// Light paths begin at the sun, too.
 const bool kSunPaths = kCaustics && kSun && kEnvironmentSampling;

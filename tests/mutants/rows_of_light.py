@@ -238,7 +238,7 @@ ROWS = [
     F("caustics/emit.triangleEmission place", "w.x * e1", "float(0.9) * w.x * e1", "a tenth of lamps sends no light paths"),
     F("caustics/emit.punctualEmission", "e.flux = vec3(intensity)", "e.flux = float(1.05) * vec3(intensity)", "punctual lights send 5 % too much along light paths"),
     F("caustics/emit.sunEmission", "e.flux = vec3(disc)", "e.flux = float(1.05) * vec3(disc)", "the sun sends 5 % too much along light paths"),
-    F("caustics/emit.drawEmission sun", "share *= 1.0f - sunChance", "share *= 1.05f - sunChance", "lamps beside the sun are told to be more likely"),
+    F("caustics/emit.drawEmission sun", "share *= 1.0f - sunChance", "share *= 1.1f - sunChance", "lamps beside the sun are told to be more likely"),
     F("path.meetSurroundings sunless", "kSunPaths && p.prefix == kPrefixCaustic", "false", "camera paths bring the sun that light paths bring, too"),
     F("caustics/emit.drawEmission", "emitterRow(emitter, 0).w)", "emitterRow(emitter, 0).w) * float(1.05)", "lamps are told to be 5 % more likely"),
     F("caustics/emit.startLightPath", "p.fromLight.flux = e.flux", "p.fromLight.flux = float(1.05) * e.flux", "light paths carry 5 % too much"),
