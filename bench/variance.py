@@ -73,7 +73,7 @@ def less(scene, without, folder):
     for one in document["scenes"]:
         one["nodes"] = [n for n in one["nodes"] if n not in numbers]
     for buffer in document.get("buffers", []):
-        if "uri" in buffer:
+        if "uri" in buffer and not buffer["uri"].startswith("data:"):
             shutil.copy(scene.parent / buffer["uri"], folder)
     (folder / scene.name).write_text(json.dumps(document))
     return folder / scene.name

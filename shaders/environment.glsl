@@ -47,14 +47,16 @@ vec4 environmentAt(vec2 place) {
   return vec4(vec3(there) * intensity, there.w);
 }
 
-/// The same for a direction.
+/// The same for a direction, without the sun.
+vec4 mapAlong(vec3 direction) {
+  return environmentAt(environmentCoordinates(direction) * vec2(ivec2(frame.environmentSize)));
+}
+
+/// The same with the sun.
 vec4 environmentAlong(vec3 direction) {
   if (!kEnvironment) return vec4(0.0f);
-  if (kSun) {
-    vec2 place = environmentCoordinates(direction) * vec2(ivec2(frame.environmentSize));
-    return withSun(environmentAt(place), direction);
-  }
-  return environmentAt(environmentCoordinates(direction) * vec2(ivec2(frame.environmentSize)));
+  if (kSun) return withSun(mapAlong(direction), direction);
+  return mapAlong(direction);
 }
 
 /// Radiance that camera rays see in place of the environment (kBackdrop).

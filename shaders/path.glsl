@@ -232,7 +232,9 @@ Path meetSurroundings(Path p) {
   if (!kEnvironment) return p;
   // Surroundings are outside of everything: who has left less than was entered has missed a face that touches another.
   if (kPassesLight) p.throughput *= p.etaScale;
+  // Light paths bring the sun.
   vec4 seen = environmentAlong(p.direction);
+  if (kSunPaths && p.prefix == kPrefixCaustic) seen.rgb = vec3(mapAlong(p.direction));
   float weight = 1.0;
   if (kGi && kEnvironmentSampling && p.pdf > 0.0) {
     weight = balanceWeight(p.pdf, frame.environmentChance * environmentPdf(seen, p.direction));

@@ -78,22 +78,24 @@ LightSample lightAt(Path p, Surface s, SurfaceMaterial m) {
   return sampleLight(0, s.position, normal, p.sampler, dimension);
 }
 
-/// Returns true if light paths bring the light sample: that of a lamp, rather than of the environment, which a glossy
-/// caster scatters.
-bool isBrought(Path p, Surface s, LightSample light) {
-  bool lamp = light.distance < kFarAway || light.pdf <= 0.0;
+/// The irradiance of a light sample without the light of lamps and the sun that a glossy caster scatters: light paths
+/// bring it.
+vec3 irradianceLeft(Path p, Surface s, LightSample light) {
   bool glossy = isCaster(materialFlags(s.material), false);
-  return lamp && cameraPrefix(p.prefix, p.bounce == 0, false, false, glossy) == kPrefixCaustic;
+  if (cameraPrefix(p.prefix, p.bounce == 0, false, false, glossy) != kPrefixCaustic) return light.irradiance;
+  bool lamp = light.distance < kFarAway || light.pdf <= 0.0;
+  if (kSunPaths && !lamp) return vec3(mapAlong(light.direction)) / light.pdf;
+  return lamp ? vec3(0.0) : light.irradiance;
 }
 
 /// Takes one light sample, and sets up its shadow ray.
 Path sampleLd(Path p, Surface s, SurfaceMaterial m, Scattering at) {
   LightSample light = lightAt(p, s, m);
+  if (kCaustics) light.irradiance = irradianceLeft(p, s, light);
   vec3 wi = toFrame(at.around, light.direction);
   bool sameSide = (dot(light.direction, s.geometricNormal) > 0.0) == (wi.z > 0.0);
   BsdfValue value = evaluateBsdf(at.b, at.wo, wi);
   float weight = lightWeight(light, value.pdf);
-  if (kCaustics && isBrought(p, s, light)) weight = 0.0;
   if (kLightPart && p.bounce == 0) p.aovWeight = aovShare(at.b, at.wo, wi);
   if (kThroughGlass) p.throughGlass = passesGlass(p, s, m, light.direction);
   return spawnShadowRay(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));

@@ -4,7 +4,7 @@
 //   tracePixel(pixel):                            a lane of the megakernel; a lane of wavefront.glsl has 32 pixels
 //     film = load(pixel)
 //     until film has its samples or the draw its steps:
-//       path = beginSample()                      a camera ray; or a ray of a lamp (caustics/)
+//       path = beginSample()                      a camera ray; or one of a lamp or the sun (caustics/)
 //       while the path goes on: advance(path)
 //       film = endSample(path)                    sums of radiance and its variance, counts
 //     store(film)

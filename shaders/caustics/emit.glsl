@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Light paths (kLightPaths) begin at a lamp that is drawn by its power, and are aimed at casters of caustics. Balls
-// enclose all casters, so that no path that meets one first is left out.
+// Light paths (kLightPaths) begin at the sun or a lamp, which is drawn by its power, and are aimed at casters of
+// caustics. Balls enclose all casters, so that no path that meets one first is left out.
 
 layout(location = 0) uniform vec4 casters[kMostCasters];  // local space: middle, radius
 layout(location = kMostCasters) uniform int casterCount;
+layout(location = kMostCasters + 1) uniform float sunChance;  // that a light path begins at the sun; 1: no lamps
 
 #include "caustics/aim.glsl"
 
@@ -68,15 +69,37 @@ Emission punctualEmission(int index, float share, float choice, vec2 aim) {
   return e;
 }
 
-/// Draws a lamp by its power, a point on it, and a direction.
+/// A ray of the sun of a sky.
+Emission sunEmission(float share, float choice, vec2 uv, vec2 aim) {
+  Sun sun = sunOfSky();
+  vec3 towards = sampleSun(sun, uv.x, uv.y);
+  vec4 disc = discAlong(sun, towards);
+  Aim a = aimAlong(-towards, choice, aim);
+  Emission e = noEmission();
+  // Rounding may draw what lies just beside the disc.
+  if (disc.w <= 0.0f) return e;
+  e.origin = a.origin;
+  e.direction = a.direction;
+  e.flux = vec3(disc) / (share * disc.w * a.pdf);
+  return e;
+}
+
+/// Draws the sun or a lamp by its power, a point on it, and a direction.
 Emission drawEmission(Sampler sampler) {
-  int emitter = emitterAt(drawBits(sampler, kEmitterDimension));
-  float share = uintBitsToFloat(emitterRow(emitter, 0).w);
-  uint kind = emitterRow(emitter, 3).w;
-  bool punctual = kPunctualLights && (kind & kEmitterPunctual) != 0u;
+  uint bits = drawBits(sampler, kEmitterDimension);
   float choice = drawFloat(sampler, kCasterDimension);
   vec2 aim = drawPair(sampler, kAimDimensions);
+  uint border = kSunPaths ? uint(sunChance * 4294967040.0f) : 0u;
+  bool ofSun = kSunPaths && (bits < border || sunChance >= 1.0f);
+  if (ofSun) return sunEmission(sunChance, choice, drawPair(sampler, kEmitterPointDimensions), aim);
   Emission e = noEmission();
+  if (!kPunctualLights && !kEmissiveTriangles) return e;
+  if (kSunPaths) bits = stretchBits(bits, border, 1.0f / (1.0f - sunChance));
+  int emitter = emitterAt(bits);
+  float share = uintBitsToFloat(emitterRow(emitter, 0).w);
+  if (kSunPaths) share *= 1.0f - sunChance;
+  uint kind = emitterRow(emitter, 3).w;
+  bool punctual = kPunctualLights && (kind & kEmitterPunctual) != 0u;
   if (share <= 0.0f) return e;
   if (punctual) e = punctualEmission(int(kind & ~kEmitterPunctual), share, choice, aim);
   if (kEmissiveTriangles && !punctual) {

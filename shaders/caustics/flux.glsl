@@ -2,7 +2,7 @@
 // Light paths carry flux, which shading normals weigh in another way than radiance (Veach, Robust Monte Carlo Methods
 // for Light Transport Simulation, 1997, section 5.3).
 
-/// Smaller cosines count as this. Their quotients are rounding errors, of any size, and hardly any flux arrives so flat.
+/// Smaller cosines count as this. Their quotients are rounding errors, of any size, and hardly any flux is so flat.
 const float kLeastCosine = 1e-4f;
 
 /// The factor of a scattering of flux: |wi.Ns| |wo.Ng| / (|wi.Ng| |wo.Ns|) with wi towards the lamp and wo towards the

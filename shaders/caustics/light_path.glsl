@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Light paths (kLightPaths): a lamp, delta lobes of casters, a rough surface, then any surfaces, the last of which is
-// rough and is seen by the camera. Camera paths leave out exactly these (form.glsl). Particles carry flux, so glass and
-// shading normals weigh them in another way than camera paths (flux.glsl).
+// Light paths (kLightPaths): a lamp or the sun, delta lobes of casters, a rough surface, then any surfaces, the last of
+// which is rough and is seen by the camera. Camera paths leave out exactly these (form.glsl). Particles carry flux, so
+// glass and shading normals weigh them in another way than camera paths (flux.glsl).
 
 /// The camera as seen from a point.
 struct SeenFrom {

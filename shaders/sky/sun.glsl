@@ -28,22 +28,26 @@ Sun sunOfSky() {
 /// cosine at the sun's surface.
 float limbOf(float squared, float power) { return pow(squared, 0.5f * power); }
 
-/// Adds the disc to radiance and pdf of the map along a direction, which environmentAt gives.
-vec4 withSun(vec4 there, vec3 direction) {
-  Sun sun = sunOfSky();
-  there.w *= 1.0f - sun.chance;
+/// The radiance of the disc along a direction, and the pdf over solid angle with which sampleSun() draws it. Zeros
+/// beside the disc; the ground hides what is below the horizon.
+vec4 discAlong(Sun sun, vec3 direction) {
   float radius = kSunRadius;
   vec3 off = (direction - sun.direction) / radius;
   float squared = 1.0f - dot(off, off);
-  if (squared <= 0.0f) return there;
+  if (squared <= 0.0f) return vec4(0.0f);
   float green = limbOf(squared, kLimbGreen);
-  float sine = sqrt(max(0.0f, 1.0f - direction.y * direction.y));
-  there.w += sun.chance * sun.pdf * green * 2.0f * kPi * kPi * sine;
-  // The ground hides the rest.
-  if (direction.y <= 0.0f) return there;
   vec3 limb = vec3(limbOf(squared, kLimbRed), green, limbOf(squared, kLimbBlue));
-  float intensity = frame.environmentScale;
-  return there + vec4(sun.radiance * limb * intensity, 0.0f);
+  float intensity = direction.y > 0.0f ? frame.environmentScale : 0.0f;
+  return vec4(sun.radiance * limb * intensity, sun.pdf * green);
+}
+
+/// Adds the disc to radiance and pdf of the map along a direction, which environmentAt gives.
+vec4 withSun(vec4 there, vec3 direction) {
+  Sun sun = sunOfSky();
+  vec4 disc = discAlong(sun, direction);
+  float sine = sqrt(max(0.0f, 1.0f - direction.y * direction.y));
+  there.w = (1.0f - sun.chance) * there.w + sun.chance * disc.w * 2.0f * kPi * kPi * sine;
+  return there + vec4(vec3(disc), 0.0f);
 }
 
 /// A direction to the disc by the radiance of its green light.

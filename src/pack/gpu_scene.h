@@ -35,6 +35,9 @@ inline const Image& wholeMap(const Environment& environment, Image& memory) {
   return memory;
 }
 
+/// The features of the scene in these surroundings.
+TraitSet traitsOf(const Scene& scene, const Environment& environment);
+
 /// The quantisation grid of the tree's boxes: position = origin + steps * cell, steps in 0..65535.
 struct BoxGrid {
   glm::vec3 origin{0.0f};
@@ -47,10 +50,14 @@ struct LightShare {
   double environment = 0.0;  ///< power at an intensity of 1
   double emitters = 0.0;
   bool anyEmitters = false;
+  double sun = 0.0;  ///< the sun's part of the environment's
 };
 
 /// The probability that a light sample goes to the environment, whose radiance is multiplied by `intensity`.
 float environmentChance(const LightShare& share, double intensity);
+
+/// The probability that a light path begins at the sun.
+float sunChance(const LightShare& share, double intensity);
 
 /// A grid of densities among the texels.
 struct PackedGrid {

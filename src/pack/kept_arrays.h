@@ -39,6 +39,7 @@ struct KeptArrays {
     bool forCatcher = false;  ///< upwardIrradiance is known
     bool light = false;       ///< appendEnvironmentLight()
     bool sun = false;         ///< appendSun()
+    double sunPower = 0.0;    ///< the sun's part of the power
   };
   std::optional<KeptEnvironment> environment;  ///< environment map; there is one a sequence
   bool geometry = false;  ///< tree, leaves, faces and vertices are as packed before, as are all pictures

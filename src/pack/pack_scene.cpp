@@ -199,15 +199,6 @@ std::vector<glm::vec3> meanRadiance(const Scene& scene, const TraitSet& traits, 
 
 }  // namespace
 
-float environmentChance(const LightShare& share, double intensity) {
-  if (!share.samplesEnvironment) return 0.0f;
-  if (!share.anyEmitters) return 1.0f;
-  const double power = share.environment * intensity;
-  const double all = power + share.emitters;
-  // Neither side is left out altogether: a dim one can still be the only light of a corner.
-  return float(std::clamp(all > 0.0 ? power / all : 0.5, 0.1, 0.9));
-}
-
 size_t GpuScene::bytes() const {
   size_t words = 0;
   for (const Words& buffer : buffers) words += buffer.size();
@@ -247,7 +238,8 @@ KeptArrays::KeptEnvironment packMap(const Environment& environment, const Shader
                                      int(draws),
                                      variant.shadowCatcher,
                                      lightsByEnvironment(variant),
-                                     has(variant.traits, Trait::Sun)};
+                                     has(variant.traits, Trait::Sun),
+                                     sunPower};
   if (has(variant.traits, Trait::Backdrop)) {
     // A program that is forced to have one (bench variants) draws the map itself.
     const Image& seen = environment.backdrop.values.empty() ? environment.image : environment.backdrop;
@@ -280,6 +272,7 @@ void placeMap(const Environment& environment, const ShaderVariant& variant, doub
   packed.upwardIrradiance = surroundings.upwardIrradiance;
   packed.lightShare.samplesEnvironment = has(variant.traits, Trait::EnvironmentSampling);
   packed.lightShare.environment = surroundings.power * radius * radius;
+  packed.lightShare.sun = surroundings.sunPower * radius * radius;
 }
 
 std::vector<std::pair<std::string, size_t>> imagesOf(const Scene& scene) {

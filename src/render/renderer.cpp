@@ -156,6 +156,7 @@ void Renderer::setFrame(const Film& film, const View& view) {
   frame_.lensShift = glm::vec4(2.0 * camera.shift, 0.0, 0.0);
   frame_.environmentScale = float(view.hdriIntensity) * view.surroundings;
   frame_.environmentChance = environmentChance(lightShare_, view.hdriIntensity);
+  sunChance_ = sunChance(lightShare_, view.hdriIntensity);
   frame_.pictureSize = placed.whole;
   frame_.seed = int(view.seed);
   frame_.maxBounces = view.bounces;
@@ -219,6 +220,7 @@ void Renderer::useProgram(const ShaderVariant& variant) {
   if (variant.lightPaths) {
     glProgramUniform4fv(program, 0, GLsizei(casters_.size()), casters_.empty() ? nullptr : &casters_[0].x);
     glProgramUniform1i(program, GLint(layout::kMostCasters), int(casters_.size()));
+    if (samplesSun(variant.traits)) glProgramUniform1f(program, GLint(layout::kMostCasters) + 1, sunChance_);
   }
   glUseProgram(program);
 }

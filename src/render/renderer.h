@@ -225,6 +225,7 @@ class Renderer {
   LightShare lightShare_;
   PackedGrid grid_;
   std::vector<glm::vec4> casters_;     ///< as in GpuScene
+  float sunChance_ = 0.0f;             ///< that a light path of the frame begins at the sun
   std::optional<Film> lightPathFilm_;  ///< two texels per light path (storeRecord of film.glsl)
   std::optional<Film> reservoirs_;  ///< a reservoir a pixel, for this sample (shaders/reuse/neighbours.glsl)
   GlBuffer frameBuffer_;

@@ -103,7 +103,7 @@ void describeLightSelection(const ShaderVariant& variant, const LoadedScene& loa
 std::string whyCaustics(const ShaderVariant& variant, const TraitSet& present, const RenderOptions& options) {
   if (has(variant.traits, Trait::Caustics)) {
     return options.light.caustics == Caustics::On ? "--caustics"
-                                                  : "there are lamps, and smooth glass or metal";
+                                                  : "there are lamps or a sun, and smooth glass or metal";
   }
   if (options.light.caustics == Caustics::Off) return "--caustics";
   if (!has(present, Trait::Caustics)) return traitRows()[size_t(Trait::Caustics)].absence;
@@ -154,9 +154,7 @@ void warnOfNoEffect(const ShaderVariant& variant, const TraitSet& present, const
 /// read.
 ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const RenderOptions& asked,
                              Statistics& stats) {
-  const TraitSet present =
-      traitsOf(loaded.scene, loaded.environment.kind, !loaded.environment.backdrop.values.empty(),
-               loaded.environment.sun.has_value());
+  const TraitSet present = traitsOf(loaded.scene, loaded.environment);
   const RenderOptions options = asDrawn(asked, present);
   const uint32_t depth = loaded.bvh.depth;
   const BufferReads undecided = options.device.bufferReads;  // what is packed does not depend on it

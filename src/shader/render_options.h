@@ -60,8 +60,8 @@ inline constexpr std::array<std::string_view, 4> kLightSelectionNames{"auto", "t
 /// at the first surface, those of the pixel and of others near it.
 enum class LightReuse : uint8_t { None, Candidates, Spatial };
 inline constexpr std::array<std::string_view, 3> kLightReuseNames{"none", "candidates", "spatial"};
-/// Light paths bring the caustics of lamps, or not (shaders/caustics/); auto: where there are lamps and
-/// casters.
+/// Light paths bring the caustics of lamps and of a sky's sun, or not (shaders/caustics/); auto: where there
+/// are lamps or a sun, and casters.
 enum class Caustics : uint8_t { Auto, On, Off };
 inline constexpr std::array<std::string_view, 3> kCausticsNames{"auto", "on", "off"};
 /// The light of a scene that has none of its own: white from all sides, which the camera does not see, the

@@ -107,6 +107,11 @@ inline bool hasLamps(const TraitSet& traits) {
   return traits[size_t(Trait::EmissiveTriangles)] || traits[size_t(Trait::PunctualLights)];
 }
 
+/// Returns true if there is a sun that light samples and light paths take (kSunPaths).
+inline bool samplesSun(const TraitSet& traits) {
+  return traits[size_t(Trait::Sun)] && traits[size_t(Trait::EnvironmentSampling)];
+}
+
 /// Returns true if light may be scattered between surfaces.
 inline bool hasMedia(const TraitSet& traits) {
   return traits[size_t(Trait::Scattering)] || traits[size_t(Trait::Fog)] ||

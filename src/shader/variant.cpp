@@ -94,7 +94,8 @@ void dropIdle(ShaderVariant& v) {
   }
   // Only shadow rays would find its light.
   if (!stage(Stage::Shadows)) drop(v.traits, {Trait::ThinGlass});
-  if (!hasLamps(v.traits)) drop(v.traits, {Trait::LightTree, Trait::Caustics});
+  if (!hasLamps(v.traits)) drop(v.traits, {Trait::LightTree});
+  if (!hasLamps(v.traits) && !samplesSun(v.traits)) drop(v.traits, {Trait::Caustics});
   // Light paths do not know of media, nor of time.
   if (hasMedia(v.traits) || isTimed(v.traits)) drop(v.traits, {Trait::Caustics});
   if (!hasNormalMaps(v.traits)) off(Stage::NormalMaps);
@@ -114,7 +115,7 @@ bool hasOwnLight(const Scene& scene) {
          std::any_of(scene.spheres.begin(), scene.spheres.end(), emits);
 }
 
-TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop, bool sun) {
+TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop, SunLight sun) {
   TraitSet traits;
   std::vector<bool> onTriangles(scene.materials.size(), false);
   std::vector<bool> onSpheres(scene.materials.size(), false);
@@ -148,11 +149,11 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop, 
   const bool lamps =
       surroundings != Surroundings::DefaultLight && (emissiveTriangles || !scene.lights.empty());
   mark(Trait::LightTree, lamps && gainByPlace(scene) >= kLeastGainByPlace);
-  mark(Trait::Caustics, lamps && anyCaster);
+  mark(Trait::Caustics, (lamps || sun == SunLight::Shines) && anyCaster);
   mark(Trait::Environment, surroundings != Surroundings::None);
   mark(Trait::EnvironmentSampling, surroundings != Surroundings::None);
   mark(Trait::Backdrop, backdrop);
-  mark(Trait::Sun, sun);
+  mark(Trait::Sun, sun != SunLight::None);
   mark(Trait::Instances, !scene.instances.empty());
   mark(Trait::Creases, !scene.insets.empty());
   mark(Trait::Slivers, hasSlivers(scene));

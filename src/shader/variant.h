@@ -47,9 +47,13 @@ struct ShaderVariant {
 /// The light from outside the scene: an environment map, a constant default light, or nothing.
 enum class Surroundings : uint8_t { None, DefaultLight, Map };
 
+/// The sun before the surroundings.
+enum class SunLight : uint8_t { None, Set, Shines };
+
 /// The features of the scene, before anything is asked for. backdrop: the surroundings have a backdrop of
 /// their own.
-TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop = false, bool sun = false);
+TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop = false,
+                  SunLight sun = SunLight::None);
 
 /// Returns true if the scene has any light of its own: emission or punctual lights.
 bool hasOwnLight(const Scene& scene);

@@ -279,7 +279,7 @@ class Caustics(Case):
         self.assert_mean([sum(flux(seed, side) for side in turns) for seed in SEEDS], 4 * math.pi * intensity, "room")
 
     def test_a_request_without_effect_is_told(self):
-        for scene, options, why in (("caustics", ["--stage", "shadows"], "only stage gi has them"), ("rough-glass", [], "no lamp, or no smooth glass or metal")):
+        for scene, options, why in (("caustics", ["--stage", "shadows"], "only stage gi has them"), ("rough-glass", [], "no lamp or sun, or no smooth glass or metal")):
             told = run("render", SCENES / f"{scene}.gltf", "-o", self.folder / "x.pfm", "--resolution", "8,8", "--spp", 1, "--caustics", "on", "--default-light", "white",
                        "--light-reuse", "candidates", *options).stderr
             self.assertIn(f"--caustics on: no light paths: {why}", told)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from fault import callers_of
 
-COMMANDS = ("Sky", "Media", "Volumes", "Means", "Sheets", "KnownLight", "ThinGlass", "LightTree", "Caustics", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "LightParts", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging", "Denoising", "ShadowCatcher", "CutOutShadow", "CameraTypes")
+COMMANDS = ("Sky", "Media", "Volumes", "Means", "Sheets", "KnownLight", "ThinGlass", "LightTree", "Caustics", "SunCaustics", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "LightParts", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging", "Denoising", "ShadowCatcher", "CutOutShadow", "CameraTypes")
 # Where to look first, before there is any experience: scenes of picture tests, test files and groups by the beginning of a fault's name.
 LIKELY = {
     "path.roundCameraRay": ("command.CameraTypes",),
@@ -82,7 +82,10 @@ LIKELY = {
     "caustics/light_path.splat narrow": ("command.GlossyCaustics",),
     "path.spawnRay narrow": ("command.GlossyCaustics",),
     "path.isCaster": ("command.GlossyCaustics",),
-    "shade.isBrought": ("command.GlossyCaustics",),
+    "shade.irradianceLeft": ("command.GlossyCaustics",),
+    "caustics/emit.sunEmission": ("command.SunCaustics",),
+    "caustics/emit.drawEmission sun": ("command.SunCaustics",),
+    "path.meetSurroundings sunless": ("command.SunCaustics",),
     "caustics/": ("caustic-ground.gi", "command.Caustics"),
     "film.recordOf": ("command.Caustics",),
     "film.storeRecord": ("command.Caustics",),

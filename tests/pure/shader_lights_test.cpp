@@ -308,5 +308,16 @@ TEST(LightShare, FollowsTheIntensityOfTheEnvironment) {
   EXPECT_EQ(environmentChance({true, 0.0, 0.0, true}, 1.0), 0.5f);
 }
 
+TEST(LightShare, OfTheSunIsNothingByNightAndAllWithoutLamps) {
+  EXPECT_EQ(sunChance({.samplesEnvironment = true, .environment = 1.0}, 1.0), 0.0f);
+  EXPECT_EQ(sunChance({.samplesEnvironment = false, .sun = 1.0}, 1.0), 0.0f);
+  EXPECT_EQ(sunChance({.samplesEnvironment = true, .sun = 1.0}, 0.5), 1.0f);
+  const LightShare both{true, 5.0, 3.0, true, 1.0};
+  EXPECT_EQ(sunChance(both, 1.0), 0.25f);
+  EXPECT_EQ(sunChance(both, 0.0), 0.0f);
+  EXPECT_EQ(sunChance(both, 1e6), 0.9f);
+  EXPECT_EQ(sunChance(both, 1e-6), 0.1f);
+}
+
 }  // namespace
 }  // namespace fragtrace

@@ -18,9 +18,7 @@ bool ViewTracer::setSurfaces(const TraceRequest& request) {
   if (!sameMoment(wanted, loadedOptions_.selection) || wanted.animationTime ||
       !loaded_->scene.strokes.empty() || std::ranges::any_of(request.sides, isText))
     return false;
-  const auto traits = [&](const Scene& scene) {
-    return traitsOf(scene, loaded_->environment.kind, !loaded_->environment.backdrop.values.empty());
-  };
+  const auto traits = [&](const Scene& scene) { return traitsOf(scene, loaded_->environment); };
   const TraitSet before = traits(loaded_->scene);
   if (!setByEye(loaded_->scene, fileMaterials_, fileLights_, wanted.set) || traits(loaded_->scene) != before)
     return false;

@@ -193,9 +193,7 @@ void ViewTracer::adoptScene() {
   viewed.camera = loaded_->camera;
   viewed.cameras = loaded_->scene.cameras;
   viewed.bounds = loaded_->scene.bounds;
-  viewed.present =
-      traitsOf(loaded_->scene, loaded_->environment.kind, !loaded_->environment.backdrop.values.empty(),
-               loaded_->environment.sun.has_value());
+  viewed.present = traitsOf(loaded_->scene, loaded_->environment);
   viewed.description = result->stats.scene;
   viewed.defaultLight = !result->ownLight;
   viewed.refersToFiles = loaded_->scene.refersToFiles;

@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""--caustics: light that the sun of --sky sends by way of a mirror. The mirror stands at the edge of matt ground and faces the sun, so what
+it throws there is as bright as what the sun itself sends, which is drawn from the ground. The sky beside the sun is made black. Means of
+4 seeds lie within 6 standard errors (3 degrees of freedom: one of 100 would not)."""
+import json
+import math
+import shutil
+import statistics
+import sys
+
+from support import SCENES, Case, main, mean
+
+sys.path.insert(0, str(SCENES))
+from gltf_writer import GltfWriter  # noqa: E402
+from geometry import ground, quad  # noqa: E402
+from scene_parts import place_quad  # noqa: E402
+
+SEEDS = range(1, 5)
+ABOVE = ("--camera-position", "0,4,0", "--camera-focal-point", "0,0,0", "--camera-view-up", "0,0,-1", "--camera-parallel-scale", "1")
+SKY = ("--sky", "--sun-elevation", "30", "--sun-azimuth", "90")
+BLACK = ("environment.glsl", "vec3(there) * intensity", "vec3(there) * (0.0f * intensity)")
+WIDER = 10
+WIDE = (("layout.glsl", "kSunRadius = 0.004651303f", f"kSunRadius = {0.004651303 * WIDER}f"), ("sky/sun.glsl", "sun.pdf = light.w;", f"sun.pdf = light.w / {WIDER**2}.0f;"))
+
+
+class SunCaustics(Case):
+    def scene(self, name, mirror=True, lamp=0.0):
+        """The mirror has two halves. A lamp of that radiance shines down from where it shades nothing."""
+        gltf = GltfWriter(self.folder, name)
+        place_quad(gltf, "ground", ground(1.05, 3), gltf.add_lambert("ground", (1, 1, 1)))
+        smooth = gltf.add_material("mirror", metallic=1, roughness=0)
+        for z in (0.0, 1.1) if mirror else ():
+            place_quad(gltf, f"mirror {z}", quad((-1.05, 0, z), (0, 0, -1.1), (0, 1.3, 0)), smooth)
+        if lamp:
+            place_quad(gltf, "lamp", quad((0.1, 2.2, -0.2), (0.4, 0, 0), (0, 0, 0.4)), gltf.add_lamp("lamp", (lamp, lamp, lamp)))
+        gltf.write()
+        return str(self.folder / name)
+
+    def shaders(self, *edits):
+        folder = self.folder / f"shaders{len(edits)}"
+        if not folder.exists():
+            shutil.copytree(SCENES.parent / "shaders", folder)
+            for name, old, new in edits:
+                text = (folder / name).read_text()
+                self.assertEqual(text.count(old), 1, name)
+                (folder / name).write_text(text.replace(old, new))
+        return ("--shader-folder", folder)
+
+    def seen(self, scene, *options, spp=16, seeds=SEEDS):
+        return [mean(self.picture(scene, "x.pfm", "--resolution", "96,96", *ABOVE, "--bounces", 1, "--spp", spp, "--seed", seed, *options), 1) for seed in seeds]
+
+    def assert_mean(self, seen, wanted, what, known=0.003):
+        error = statistics.stdev(seen) / math.sqrt(len(seen)) / wanted
+        difference = statistics.fmean(seen) / wanted - 1
+        print(f"{what}: {difference:+.3%}, standard error {error:.3%}")
+        self.assertLess(abs(difference), 6 * error + 5e-4, what)
+        self.assertLess(error, known, what)
+
+    def test_a_mirror_shows_the_ground_a_second_sun(self):
+        direct, = self.seen(self.scene("bare", mirror=False), *SKY, *self.shaders(BLACK), seeds=[9])
+        scene = self.scene("mirror")
+        self.assert_mean(self.seen(scene, *SKY, *self.shaders(BLACK)), 2 * direct, "sun")
+
+    def test_camera_paths_leave_out_what_light_paths_bring(self):
+        """A sun of ten times its width, as bright, is found by chance a hundred times as often."""
+        edits = self.shaders(BLACK, *WIDE)
+        direct, = self.seen(self.scene("bare", mirror=False), *SKY, *edits, seeds=[9])
+        scene = self.scene("mirror")
+        # Turned back to the east.
+        turned = ("--sky", "--sun-elevation", "30", "--sun-azimuth", "130", "--hdri-rotation", "40", "--hdri-intensity", "0.5")
+        self.assert_mean(self.seen(scene, *turned, *edits), direct, "wide sun, turned and dimmed")
+        self.assert_mean(self.seen(scene, *SKY, *edits, "--caustics", "off", spp=32), 2 * direct, "wide sun, from the camera alone", 0.02)
+
+    def test_beside_a_lamp_each_brings_its_own(self):
+        scene = self.scene("lamp", lamp=60)
+        direct, = self.seen(self.scene("bare", mirror=False), *SKY, *self.shaders(BLACK), seeds=[9])
+        lamp, = self.seen(scene, spp=64, seeds=[9])
+        self.assertGreater(lamp, 0.9 * direct)
+        self.assert_mean(self.seen(scene, *SKY, *self.shaders(BLACK)), 2 * direct + lamp, "sun and lamp")
+
+    def test_it_is_told(self):
+        def told(scene, *options):
+            path = self.folder / "stats.json"
+            self.renders(f"{scene}.gltf", "-o", self.folder / "x.png", "--resolution", "16,16", "--spp", 2, "--stats", path, *options)
+            return json.loads(path.read_text())["caustics"]
+        scene = self.scene("mirror")
+        day = told(scene, *SKY)
+        self.assertEqual(day["light_paths"], 2 * 16 * 4)
+        self.assertIn("a sun", day["reason"])
+        night = told(scene, "--sky", "--sun-elevation", "-5")
+        self.assertEqual(night["light_paths"], 0)
+        self.assertIn("no lamp or sun", night["reason"])
+        self.assertEqual(told(scene, *SKY, "--caustics", "off"), {"light_paths": 0, "casters": 0, "reason": "--caustics"})
+
+
+if __name__ == "__main__":
+    main()
