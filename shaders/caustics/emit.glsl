@@ -80,7 +80,7 @@ Emission sunEmission(float share, float choice, vec2 uv, vec2 aim) {
   if (disc.w <= 0.0f) return e;
   e.origin = a.origin;
   e.direction = a.direction;
-  e.flux = vec3(disc) / (share * disc.w * a.pdf);
+  e.flux = vec3(disc) / (share * sun.pdf * disc.w * a.pdf);
   return e;
 }
 

@@ -28,8 +28,8 @@ Sun sunOfSky() {
 /// cosine at the sun's surface.
 float limbOf(float squared, float power) { return pow(squared, 0.5f * power); }
 
-/// The radiance of the disc along a direction, and the pdf over solid angle with which sampleSun() draws it. Zeros
-/// beside the disc; the ground hides what is below the horizon.
+/// The radiance of the disc along a direction, and the pdf with which sampleSun() draws it as a part of that of its
+/// middle. Zeros beside the disc; the ground hides what is below the horizon.
 vec4 discAlong(Sun sun, vec3 direction) {
   float radius = kSunRadius;
   vec3 off = (direction - sun.direction) / radius;
@@ -38,7 +38,7 @@ vec4 discAlong(Sun sun, vec3 direction) {
   float green = limbOf(squared, kLimbGreen);
   vec3 limb = vec3(limbOf(squared, kLimbRed), green, limbOf(squared, kLimbBlue));
   float intensity = direction.y > 0.0f ? frame.environmentScale : 0.0f;
-  return vec4(sun.radiance * limb * intensity, sun.pdf * green);
+  return vec4(sun.radiance * limb * intensity, green);
 }
 
 /// Adds the disc to radiance and pdf of the map along a direction, which environmentAt gives.
@@ -46,7 +46,7 @@ vec4 withSun(vec4 there, vec3 direction) {
   Sun sun = sunOfSky();
   vec4 disc = discAlong(sun, direction);
   float sine = sqrt(max(0.0f, 1.0f - direction.y * direction.y));
-  there.w = (1.0f - sun.chance) * there.w + sun.chance * disc.w * 2.0f * kPi * kPi * sine;
+  there.w = (1.0f - sun.chance) * there.w + sun.chance * sun.pdf * disc.w * 2.0f * kPi * kPi * sine;
   return there + vec4(vec3(disc), 0.0f);
 }
 

@@ -156,7 +156,7 @@ ROWS = [
     F("sky/sun.sunOfSky radiance", "sun.radiance = vec3(light)", "sun.radiance = float(1.02) * vec3(light)", "the sun is 2 % too bright"),
     F("sky/sun.limbOf", "0.5f * power", "0.6f * power", "the sun is too dark at its limb"),
     F("sky/sun.withSun", "(1.0f - sun.chance) *", "(float(0.95) - sun.chance) *", "the density of the sky beside the sun is too low"),
-    F("sky/sun.withSun disc", "sun.chance * disc.w", "float(1.05) * sun.chance * disc.w", "the density of the sun is 5 % too high"),
+    F("sky/sun.withSun disc", "sun.chance * sun.pdf", "float(1.05) * sun.chance * sun.pdf", "the density of the sun is 5 % too high"),
     F("sky/sun.discAlong", "vec4(sun.radiance * limb", "vec4(float(1.02) * sun.radiance * limb", "the disc of the sun is 2 % too bright"),
     F("sky/sun.discAlong ground", "direction.y > 0.0f ?", "direction.y > -1.0f ?", "the sun shines through the horizon"),
     F("sky/sun.sampleSun", "sqrt(max(0.0f, 1.0f - squared))", "float(0.95) * sqrt(max(0.0f, 1.0f - squared))", "the limb of the sun is never drawn"),
