@@ -102,8 +102,9 @@ void describeLightSelection(const ShaderVariant& variant, const LoadedScene& loa
 /// Why light paths are traced for the picture, or are not.
 std::string whyCaustics(const ShaderVariant& variant, const TraitSet& present, const RenderOptions& options) {
   if (has(variant.traits, Trait::Caustics)) {
-    return options.light.caustics == Caustics::On ? "--caustics"
-                                                  : "there are lamps or a sun, and smooth glass or metal";
+    return options.light.caustics == Caustics::On
+               ? "--caustics"
+               : "there are lamps or a sun, and glass or metal that is smooth enough";
   }
   if (options.light.caustics == Caustics::Off) return "--caustics";
   if (!has(present, Trait::Caustics)) return traitRows()[size_t(Trait::Caustics)].absence;

@@ -335,7 +335,7 @@ std::span<const TraitRow> traitRows() {  // NOLINT(readability-function-size): a
       {.trait = Trait::Caustics,
        .name = "caustics",
        .constant = "kCaustics",
-       .absence = "no lamp or sun, or no smooth glass or metal",
+       .absence = "no lamp or sun, or no glass or metal that is smooth enough for it",
        .stages = setOf({Stage::Gi, Stage::Shadows}),
        .needs = setOf({Trait::Specular})},
       {.trait = Trait::Environment,

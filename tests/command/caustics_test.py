@@ -279,7 +279,7 @@ class Caustics(Case):
         self.assert_mean([sum(flux(seed, side) for side in turns) for seed in SEEDS], 4 * math.pi * intensity, "room")
 
     def test_a_request_without_effect_is_told(self):
-        for scene, options, why in (("caustics", ["--stage", "shadows"], "only stage gi has them"), ("rough-glass", [], "no lamp or sun, or no smooth glass or metal")):
+        for scene, options, why in (("caustics", ["--stage", "shadows"], "only stage gi has them"), ("rough-glass", [], "no lamp or sun, or no glass or metal that is smooth enough for it")):
             told = run("render", SCENES / f"{scene}.gltf", "-o", self.folder / "x.pfm", "--resolution", "8,8", "--spp", 1, "--caustics", "on", "--default-light", "white",
                        "--light-reuse", "candidates", *options).stderr
             self.assertIn(f"--caustics on: no light paths: {why}", told)
@@ -379,7 +379,7 @@ class Caustics(Case):
         drawn = told("caustics")
         self.assertEqual(drawn["light_paths"], 3 * 16 * 4)
         self.assertGreater(drawn["casters"], 1)
-        self.assertEqual(told("caustics", "--caustics", "off"), {"light_paths": 0, "casters": 0, "reason": "--caustics"})
+        self.assertEqual(told("caustics", "--caustics", "off"), {"light_paths": 0, "casters": 0, "variance_share": 0, "reason": "--caustics"})
         self.assertIn("no lamp", told("cornell-box")["reason"])
         for other in (("--clamp-indirect", "1"), ("--shadow-catcher", "0"), ("--aov", "diffuse")):
             refused = run("render", SCENES / "caustics.gltf", "-o", self.folder / "x.exr", "--caustics", "on", *other)
