@@ -288,10 +288,13 @@ void Window::takePictures(std::vector<TracedPicture> pictures) {
   const double now = glfwGetTime();
   for (TracedPicture& picture : pictures) {
     const size_t side = picture.side;
-    if (!picture.file.empty())
+    if (!picture.file.empty()) {
       takeReference(picture);
-    else if (side == 1 && !state_.reference.empty())
-      continue;  // it was on its way when the reference took its place
+    } else if (side == 1 && !state_.reference.empty()) {
+      // It was on its way when the reference took its place.
+      if (picture.shared.slot >= 0) exchange_.giveBack(side, picture.shared, nullptr);
+      continue;
+    }
     display_.take(picture);
     ++report_.pictures;
     if (side == 0) arrivals_.push_back(now);
