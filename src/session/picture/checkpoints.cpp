@@ -103,13 +103,13 @@ std::string whyNotMore(const Checkpoint& checkpoint) {
 }
 
 nlohmann::json totalsJson(const FilmTotals& t) {
-  return {t.samples,    t.rays, t.hitPixels,  t.emptyPixels,   t.nonfinitePixels,
-          t.budgetHits, t.cut,  t.lightPaths, t.fewestSamples, t.mostSamples};
+  return {t.samples, t.rays,       t.hitPixels, t.emptyPixels, t.nonfinitePixels, t.budgetHits,
+          t.cut,     t.lightPaths, t.m2,        t.lightPathM2, t.fewestSamples,   t.mostSamples};
 }
 
 FilmTotals totalsIn(const nlohmann::json& json) {
-  return {json.at(0), json.at(1), json.at(2), json.at(3), json.at(4),
-          json.at(5), json.at(6), json.at(7), json.at(8), json.at(9)};
+  return {json.at(0), json.at(1), json.at(2), json.at(3), json.at(4),  json.at(5),
+          json.at(6), json.at(7), json.at(8), json.at(9), json.at(10), json.at(11)};
 }
 
 }  // namespace
