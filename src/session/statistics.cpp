@@ -48,6 +48,13 @@ nlohmann::ordered_json denoiseJson(const DenoiseStatistics& denoise) {
   return json;
 }
 
+/// Appends how many segments stand for what moves while the shutter is open.
+void addMotion(nlohmann::ordered_json& json, const MotionStatistics& motion) {
+  if (motion.segments > 0) json["motion"] = {{"segments", motion.segments}, {"pixels_off", motion.pixels}};
+  if (motion.cameraSegments > 0)
+    json["camera_motion"] = {{"segments", motion.cameraSegments}, {"pixels_off", motion.cameraPixels}};
+}
+
 /// Appends the ways in which light was sampled.
 void addLighting(nlohmann::ordered_json& json, const Statistics& s) {
   if (s.sun) {
@@ -105,10 +112,7 @@ std::string statisticsText(const Statistics& s) {
         {"rounds", s.adaptive->rounds}};
   }
   addLighting(json, s);
-  if (s.motion.segments > 0)
-    json["motion"] = {{"segments", s.motion.segments}, {"pixels_off", s.motion.pixels}};
-  if (s.motion.cameraSegments > 0)
-    json["camera_motion"] = {{"segments", s.motion.cameraSegments}, {"pixels_off", s.motion.cameraPixels}};
+  addMotion(json, s.motion);
   if (s.featureMs > 0.0) json["feature_ms"] = s.featureMs;
   if (s.denoise) json["denoise"] = denoiseJson(*s.denoise);
   json["width"] = s.size.x;
