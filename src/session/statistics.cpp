@@ -86,8 +86,7 @@ double samplesPerPixel(const Statistics& s) { return double(s.film.samples) / (d
 double cutShare(const Statistics& s) { return s.film.cut / double(std::max<uint64_t>(1, s.film.samples)); }
 
 std::string statisticsText(const Statistics& s) {
-  nlohmann::ordered_json json;
-  json["schema"] = 1;
+  nlohmann::ordered_json json = {{"schema", 1}};
   json["scene"] = sceneJson(s.scene);
   json["bvh"] = bvhJson(s.bvh);
   json["bvh"]["refitted"] = s.treeRefitted;
