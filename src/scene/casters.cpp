@@ -162,21 +162,23 @@ std::vector<Ball> fewBalls(std::vector<Ball> all, size_t most) {
   return balls;
 }
 
-/// The light of lamps comes to these balls from at most this solid angle, in sr.
-double widthOfLamps(const Scene& scene, const std::vector<Ball>& balls) {
-  double most = 0.0;
-  for (const Ball& ball : balls) {
-    double sum = 0.0;
-    for (const Triangle& t : scene.triangles) {
-      if (!scene.materials[t.material].emissive()) continue;
-      const std::array<glm::vec3, 3> c = cornersOf(scene, t);
-      const double distance = glm::distance((c[0] + c[1] + c[2]) / 3.0f, ball.middle) - ball.radius;
-      const double area = 0.5 * glm::length(glm::cross(c[1] - c[0], c[2] - c[0]));
-      sum += area / std::max(distance * distance, 1e-30) * (distance > 0.0 ? 1.0 : 1e30);
-    }
-    most = std::max(most, sum);
+std::vector<Triangle> emissiveTriangles(const Scene& scene) {
+  std::vector<Triangle> lamps;
+  std::ranges::copy_if(scene.triangles, std::back_inserter(lamps),
+                       [&](const Triangle& t) { return scene.materials[t.material].emissive(); });
+  return lamps;
+}
+
+/// The solid angle, in sr, from which the light of lamps comes to a ball at most; infinite if one is inside.
+double widthOfLamps(const Scene& scene, const std::vector<Triangle>& lamps, const Ball& ball) {
+  double sum = 0.0;
+  for (const Triangle& t : lamps) {
+    const std::array<glm::vec3, 3> c = cornersOf(scene, t);
+    const double distance = glm::distance((c[0] + c[1] + c[2]) / 3.0f, ball.middle) - ball.radius;
+    if (distance <= 0.0) return std::numeric_limits<double>::infinity();
+    sum += 0.5 * glm::length(glm::cross(c[1] - c[0], c[2] - c[0])) / (distance * distance);
   }
-  return most;
+  return sum;
 }
 
 }  // namespace
@@ -197,10 +199,14 @@ Caster casterOf(const Material& m) {
 std::vector<Caster> castersOf(const Scene& scene) {
   std::vector<Caster> casters;
   std::ranges::transform(scene.materials, std::back_inserter(casters), casterOf);
+  if (std::ranges::count(casters, Caster::Glossy) == 0) return casters;
+  const std::vector<Triangle> lamps = emissiveTriangles(scene);
+  if (lamps.empty()) return casters;
   std::vector<Caster> glossy = casters;
   std::ranges::replace(glossy, Caster::Smooth, Caster::None);
-  if (std::ranges::count(glossy, Caster::Glossy) == 0) return casters;
-  const bool wide = widthOfLamps(scene, fewBalls(allBalls(scene, glossy), kBallsForWidth)) > kWidestLamps;
+  const std::vector<Ball> balls = fewBalls(allBalls(scene, glossy), kBallsForWidth);
+  const bool wide = std::ranges::any_of(
+      balls, [&](const Ball& ball) { return widthOfLamps(scene, lamps, ball) > kWidestLamps; });
   if (wide) std::ranges::replace(casters, Caster::Glossy, Caster::None);
   return casters;
 }
