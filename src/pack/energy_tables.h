@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "base/parallel.h"
 #include "shader/layout.h"
 
 namespace fragtrace {
@@ -18,16 +19,18 @@ struct EnergyTable {
   float at(float cosine, float alpha) const;
 };
 
+/// valueOf(cosine, alpha) at all nodes, on all processors.
 template <typename Value>
 EnergyTable energyTableOf(const Value& valueOf) {
-  EnergyTable table;
-  for (int j = 0; j < EnergyTable::kNodes; ++j) {
+  constexpr size_t kNodes = EnergyTable::kNodes;
+  EnergyTable table{std::vector<float>(kNodes * kNodes)};
+  forEachIndex(kNodes, [&](size_t j) {
     const double y = double(j) / EnergyTable::kCells;
-    for (int i = 0; i < EnergyTable::kNodes; ++i) {
+    for (size_t i = 0; i < kNodes; ++i) {
       const double x = double(i) / EnergyTable::kCells;
-      table.nodes.push_back(float(valueOf(x * x, y * y)));
+      table.nodes[j * kNodes + i] = float(valueOf(x * x, y * y));
     }
-  }
+  });
   return table;
 }
 

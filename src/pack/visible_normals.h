@@ -26,6 +26,7 @@ double meanOverVisibleNormals(double cosine, double alpha, int samplesASide, con
   double sum = 0.0;
   for (int a = 0; a < samplesASide; ++a) {
     const double phi = glm::pi<double>() * (a + 0.5) / samplesASide;  // half of the circle
+    const glm::dvec2 around(std::cos(phi), std::sin(phi));
     // Each column is shifted by another golden part of a step. The value falls to 0 where light would go
     // below the horizon; on a plain grid, seen from above, that edge would lie between the same two rows for
     // all phi.
@@ -33,7 +34,7 @@ double meanOverVisibleNormals(double cosine, double alpha, int samplesASide, con
     for (int b = 0; b < samplesASide; ++b) {
       const double z = (1.0 - (b + shift) / samplesASide) * (1.0 + stretched.z) - stretched.z;
       const double sine = std::sqrt(std::max(0.0, 1.0 - z * z));
-      const glm::dvec3 cap = glm::dvec3(sine * std::cos(phi), sine * std::sin(phi), z) + stretched;
+      const glm::dvec3 cap = glm::dvec3(sine * around, z) + stretched;
       sum += valueOf(wo, glm::normalize(glm::dvec3(alpha * cap.x, alpha * cap.y, std::max(cap.z, 1e-12))));
     }
   }
