@@ -40,6 +40,12 @@ class Documents(Case):
             self.assertEqual(self.faults(f"# One\n\na\nsee [it]({target})\n"), [f"README.md:4: {target}: no such " +
                              ("heading" if "#" in target else "file")])
 
+    def test_source_files_that_are_not_there_are_found(self):
+        (self.folder / "shaders").mkdir()
+        (self.folder / "shaders/x.glsl").write_text("// shaders/x.glsl, as src/none.cpp packs it\n")
+        found = self.faults("# One\n\n`src/NAME.cpp`, `shaders/y.glsl`\n", "shaders/x.glsl")
+        self.assertEqual(found, ["README.md:3: shaders/y.glsl: no such file", "shaders/x.glsl:1: src/none.cpp: no such file"])
+
     def test_long_lines_of_prose_and_shaders_are_found(self):
         wide = "word " * 25
         (self.folder / "shaders").mkdir()
