@@ -108,8 +108,22 @@ std::string nearerPlace(const json& root, const std::string& pointer) {
   return isNamed ? cut.place + "/" + std::to_string(*index) + cut.rest : "";
 }
 
+/// Says how to set numbers that are only set together, if a pointer names one of them by its index; else
+/// nothing.
+std::string hintAtWhole(const json& root, const std::string& pointer) {
+  const size_t end = pointer.rfind('/');
+  if (end == std::string::npos || !numberOfAll<size_t>(pointer.substr(end + 1))) return "";
+  const std::string whole = pointer.substr(0, end);
+  const std::optional<NumberRule> rule = numberRuleIn(root, whole);
+  if (!rule || !rule->isArray) return "";
+  std::string example = "=1";
+  for (size_t i = 1; i < rule->width; ++i) example += ",1";
+  return "; set all of " + whole + " together, such as " + whole + example;
+}
+
 /// A hint at what may be meant by a pointer to no number.
 std::string hintFor(const json& root, const std::string& pointer) {
+  if (const std::string whole = hintAtWhole(root, pointer); !whole.empty()) return whole;
   std::string meant = pointer;
   constexpr int kMostSteps = 8;  // as many parts may be wrong
   for (int i = 0; i < kMostSteps && !meant.empty(); ++i) {
