@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// GLM has none of these: finite vectors, norms of matrices, luminance.
+// GLM has none of these: finite vectors, norms of matrices, areas, luminance.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/glm.hpp>
 
@@ -25,6 +26,11 @@ inline double rowNorm(const glm::dmat3& m) {
 
 /// A bound on how much a matrix can lengthen a vector: no more than the root of both norms' product.
 inline double stretchBound(const glm::dmat3& m) { return std::sqrt(rowNorm(m) * rowNorm(glm::transpose(m))); }
+
+/// The area of a triangle, in the squared unit of its corners.
+inline double areaOf(const std::array<glm::dvec3, 3>& corners) {
+  return 0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+}
 
 /// Luminance of linear sRGB (ITU-R BT.709), as shaders/luminance.glsl has it.
 inline constexpr glm::dvec3 kLuminance{0.2126, 0.7152, 0.0722};

@@ -19,7 +19,7 @@ constexpr double kDimRadiance = 0.01;
 std::vector<double> emissiveAreas(const Scene& scene) {
   std::vector<double> areas(scene.materials.size(), 0.0);
   for (const Triangle& t : scene.triangles) {
-    if (scene.materials[t.material].emissive()) areas[t.material] += triangleArea(scene, t);
+    if (scene.materials[t.material].emissive()) areas[t.material] += areaOf(cornersOf<glm::dvec3>(scene, t));
   }
   for (const Sphere& s : scene.spheres) {
     if (scene.materials[s.material].emissive())

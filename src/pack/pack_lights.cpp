@@ -26,7 +26,7 @@ void appendEdges(Words& words, const Scene& scene, const Triangle& t) {
   const uint32_t doubleSided = scene.materials[t.material].doubleSided ? layout::kEmitterDoubleSided : 0u;
   appendRow(words, v0, 0.0f);
   words.back() = t.material | doubleSided;
-  appendRow(words, v1 - v0, float(1.0 / triangleArea(scene, t)));
+  appendRow(words, v1 - v0, float(1.0 / areaOf(cornersOf<glm::dvec3>(scene, t))));
   appendRow(words, v2 - v0, 0.0f);
 }
 
@@ -47,7 +47,7 @@ void appendEmissive(std::vector<Emitter>& emitters, const Scene& scene,
   for (size_t i = 0; i < count; ++i) {
     const Triangle& t = scene.triangles[i];
     const double radiance = luminance(glm::dvec3(materialRadiance[t.material]));
-    const double area = radiance > 0.0 ? triangleArea(scene, t) : 0.0;
+    const double area = radiance > 0.0 ? areaOf(cornersOf<glm::dvec3>(scene, t)) : 0.0;
     if (area <= kLeastArea || slots[i] == kMissIndex) continue;
     const auto [a, b, c] = cornersOf<glm::dvec3>(scene, t);
     emitters.push_back({radiance * kPi * area, (a + b + c) / 3.0, slots[i], uint32_t(i)});
@@ -130,11 +130,6 @@ void appendTree(Words& words, std::span<const Emitter> emitters, std::span<const
 }
 
 }  // namespace
-
-double triangleArea(const Scene& scene, const Triangle& t) {
-  const auto [a, b, c] = cornersOf<glm::dvec3>(scene, t);
-  return 0.5 * glm::length(glm::cross(b - a, c - a));
-}
 
 PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> materialRadiance,
                             std::span<const uint32_t> slots, size_t slotCount, double radius,

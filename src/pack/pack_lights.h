@@ -22,7 +22,4 @@ PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> mater
 /// Punctual lights, kLightRows vec4 each.
 Words packLights(const Scene& scene);
 
-/// The area of a triangle in local space.
-double triangleArea(const Scene& scene, const Triangle& t);
-
 }  // namespace fragtrace

@@ -283,9 +283,9 @@ std::vector<std::pair<std::string, size_t>> imagesOf(const Scene& scene) {
 
 /// Materials, their tables, and the numbers of objects. materialPdf: of the light samples on each material.
 void packMaterials(const Scene& scene, const Bvh& bvh, const ShaderVariant& variant,
-                   const std::vector<double>& materialPdf, TexturePacker& textures, GpuScene& packed) {
+                   const std::vector<double>& materialPdf, const std::vector<Caster>& casters,
+                   TexturePacker& textures, GpuScene& packed) {
   using namespace layout;
-  const std::vector<Caster> casters = castersOf(scene);
   const std::vector<float> glass = indicesOfRoughGlass(scene, variant);
   Words& materials = packed.buffers[kMaterialsBinding];
   for (size_t i = 0; i < scene.materials.size(); ++i) {
@@ -356,8 +356,9 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   if (has(traits, Trait::EmissiveTriangles)) slots = leafSlots(scene, bvh);
   PackedEmitters emitters = packEmitters(scene, radiance, slots, bvh.leaves.size() * 2, radius, variant);
   packed.emitterCount = emitters.count;
+  const std::vector<Caster> casters = castersOf(scene);
   if (has(traits, Trait::Caustics)) {
-    for (const Ball& ball : casterBalls(scene, kMostCasters))
+    for (const Ball& ball : casterBalls(scene, casters, kMostCasters))
       packed.casters.emplace_back(ball.middle, ball.radius);
   }
   packed.buffers[kEmittersBinding] = std::move(emitters.entries);
@@ -371,7 +372,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
     packed.lightShare.anyEmitters = emitters.count > 0;
   }
 
-  packMaterials(scene, bvh, variant, emitters.materialPdf, textures, packed);
+  packMaterials(scene, bvh, variant, emitters.materialPdf, casters, textures, packed);
   if (kept != nullptr && (keepsGeometry || !kept->textures.empty())) {
     if (!textures.allKnown()) {  // one that no picture before has shown: all of them are placed anew
       kept->textures.clear();

@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/vectors.h"
+
 namespace fragtrace {
 
 namespace {
@@ -173,10 +175,10 @@ std::vector<Triangle> emissiveTriangles(const Scene& scene) {
 double widthOfLamps(const Scene& scene, const std::vector<Triangle>& lamps, const Ball& ball) {
   double sum = 0.0;
   for (const Triangle& t : lamps) {
-    const std::array<glm::vec3, 3> c = cornersOf(scene, t);
-    const double distance = glm::distance((c[0] + c[1] + c[2]) / 3.0f, ball.middle) - ball.radius;
+    const std::array<glm::dvec3, 3> c = cornersOf<glm::dvec3>(scene, t);
+    const double distance = glm::distance((c[0] + c[1] + c[2]) / 3.0, glm::dvec3(ball.middle)) - ball.radius;
     if (distance <= 0.0) return std::numeric_limits<double>::infinity();
-    sum += 0.5 * glm::length(glm::cross(c[1] - c[0], c[2] - c[0])) / (distance * distance);
+    sum += areaOf(c) / (distance * distance);
   }
   return sum;
 }
@@ -211,8 +213,8 @@ std::vector<Caster> castersOf(const Scene& scene) {
   return casters;
 }
 
-std::vector<Ball> casterBalls(const Scene& scene, size_t most) {
-  return fewBalls(allBalls(scene, castersOf(scene)), most);
+std::vector<Ball> casterBalls(const Scene& scene, const std::vector<Caster>& casters, size_t most) {
+  return fewBalls(allBalls(scene, casters), most);
 }
 
 }  // namespace fragtrace

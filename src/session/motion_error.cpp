@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/vectors.h"
 #include "scene/camera.h"
 #include "scene/projection.h"
 
@@ -134,10 +135,6 @@ double surfacesOffAt(const Between& b, const Scene& scene, const PixelMeasure& m
       most = std::max(most, measure.between(pointAt(corners, weights), measure, pointAt(ours, weights)));
   }
   return most;
-}
-
-double areaOf(const std::array<glm::dvec3, 3>& c) {
-  return 0.5 * glm::length(glm::cross(c[1] - c[0], c[2] - c[0]));
 }
 
 }  // namespace

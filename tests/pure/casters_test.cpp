@@ -102,7 +102,7 @@ TEST(Casters, AllLieInBalls) {
     std::vector<glm::vec3> middles;
     for (size_t i = 0; i < places; ++i) middles.emplace_back(10.0 * draw.inCube(1.0));
     const Scene scene = sceneAbout(middles, 200, draw);
-    const std::vector<Ball> balls = casterBalls(scene, kMost);
+    const std::vector<Ball> balls = casterBalls(scene, castersOf(scene), kMost);
     EXPECT_LE(balls.size(), kMost);
     // Many fill their box: the balls round parts of it would be larger together.
     if (places <= 5) {
@@ -124,10 +124,10 @@ TEST(Casters, OneThingHasOneBall) {
     const glm::vec3 out = glm::normalize(glm::vec3(draw.inCube(1.0)));
     scene.spheres.push_back({.center = 3.0f * out, .radius = 0.2f, .material = 0});
   }
-  const std::vector<Ball> balls = casterBalls(scene, kMost);
+  const std::vector<Ball> balls = casterBalls(scene, castersOf(scene), kMost);
   ASSERT_EQ(balls.size(), 1u);
   EXPECT_LT(balls[0].radius, 1.15f * 3.2f);
-  EXPECT_TRUE(casterBalls(Scene{}, kMost).empty());
+  EXPECT_TRUE(casterBalls(Scene{}, {}, kMost).empty());
 }
 
 TEST(Casters, InstancesHaveBallsWhereTheyStand) {
@@ -141,7 +141,7 @@ TEST(Casters, InstancesHaveBallsWhereTheyStand) {
     toLocal[3] = glm::dvec4(x, 0.0, 0.0, 1.0);
     scene.instances.push_back({.toLocal = toLocal, .mesh = 0});
   }
-  const std::vector<Ball> balls = casterBalls(scene, kMost);
+  const std::vector<Ball> balls = casterBalls(scene, castersOf(scene), kMost);
   ASSERT_EQ(balls.size(), 2u);
   for (const float x : {0.0f, 100.0f}) {
     for (const glm::vec3& p : scene.vertices.position)
