@@ -16,7 +16,7 @@ namespace fragtrace {
 
 namespace {
 
-constexpr std::string_view kMagic = "fragtrace checkpoint 2\n";
+constexpr std::string_view kMagic = "fragtrace checkpoint 3\n";
 
 template <typename Value>
 std::span<const uint8_t> bytesOf(const std::vector<Value>& values) {

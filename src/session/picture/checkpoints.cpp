@@ -15,11 +15,15 @@
 #include "image/format.h"
 #include "render/adaptive.h"
 #include "session/outputs.h"
-#include "session/picture/draw_picture.h"
+#include "session/picture/draw_samples.h"
 #include "session/picture/provenance.h"
 #include "session/say.h"
 
 namespace fragtrace {
+
+// The totals of a film by their names.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FilmTotals, samples, rays, hitPixels, emptyPixels, nonfinitePixels,
+                                   budgetHits, cut, lightPaths, m2, lightPathM2, fewestSamples, mostSamples)
 
 namespace {
 
@@ -102,21 +106,10 @@ std::string whyNotMore(const Checkpoint& checkpoint) {
   return checkpoint.looks.empty() ? "" : "what --denoise reads was kept at a quarter of the samples";
 }
 
-nlohmann::json totalsJson(const FilmTotals& t) {
-  return {t.samples, t.rays,       t.hitPixels, t.emptyPixels, t.nonfinitePixels, t.budgetHits,
-          t.cut,     t.lightPaths, t.m2,        t.lightPathM2, t.fewestSamples,   t.mostSamples};
-}
-
-FilmTotals totalsIn(const nlohmann::json& json) {
-  return {json.at(0), json.at(1), json.at(2), json.at(3), json.at(4),  json.at(5),
-          json.at(6), json.at(7), json.at(8), json.at(9), json.at(10), json.at(11)};
-}
-
 }  // namespace
 
 std::string measuredText(const Statistics& before, const RenderTimes& now) {
-  nlohmann::json json = {
-      {"film", totalsJson(before.film)}, {"render_ms", now.renderMs}, {"draw_ms", now.drawMs}};
+  nlohmann::json json = {{"film", before.film}, {"render_ms", now.renderMs}, {"draw_ms", now.drawMs}};
   if (before.adaptive) {
     const AdaptiveStatistics& a = *before.adaptive;
     json["adaptive"] = {a.noise, a.seconds, a.error, a.share, a.rounds, a.known, a.black};
@@ -127,7 +120,7 @@ std::string measuredText(const Statistics& before, const RenderTimes& now) {
 void restoreMeasured(const std::string& text, Statistics& stats) {
   try {
     const auto json = nlohmann::json::parse(text);
-    stats.film = totalsIn(json.at("film"));
+    stats.film = json.at("film");
     stats.times.renderMs = json.at("render_ms");
     stats.times.drawMs = json.at("draw_ms");
     if (json.contains("adaptive")) {
