@@ -13,7 +13,7 @@ FilmPixel loadFilm(ivec2 pixel) {
 }
 
 void storeFilm(ivec2 pixel, FilmPixel f) {
-  if (!kLightPaths && !kLightRecords) {
+  if (!kLightPaths && !kStoresReservoirs) {
     imageStore(filmSum, pixel, vec4(f.sum, f.alpha));
     imageStore(filmCompensation, pixel, vec4(f.compensation, f.m2));
   }

@@ -58,8 +58,8 @@ LightSample punctualLight(int index, vec3 point) {
 
 /// The pdf over solid angle of choosing the point that a ray hit on an emissive triangle.
 float emitterPdf(uint material, float distance, float cosine) {
-  float area = materialFloats(material, kMaterialMaps).z * (1.0f - frame.environmentChance);
-  return area * distance * distance / max(cosine, float(1e-7));
+  float pdfOverArea = materialFloats(material, kMaterialMaps).z * (1.0f - frame.environmentChance);
+  return pdfOverArea * distance * distance / max(cosine, float(1e-7));
 }
 
 uvec4 emitterRow(int emitter, int row) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One camera path from pixel to light, as a state machine whose every step can wait for the next draw.
+// The steps of a path from the camera, as a state machine: where the step budget ends a draw, the path waits for the
+// next one, or with kWholeRays its sample begins anew. Light paths share the steps that scatter.
 
 /// Paths scatter, so that --bounces can end them.
 const bool kScatters = kGi || kReflections || kRefraction;
@@ -279,8 +280,8 @@ uint normalOfLight(Surface s, SurfaceMaterial m) {
 /// Returns true if a lobe of a material with these flags makes caustics.
 bool isCaster(uint flags, bool delta) { return (flags & (delta ? kMaterialCaster : kMaterialGlossyCaster)) != 0u; }
 
-/// Settles where the path goes on from the surface, once its shadow ray is done; weight multiplies the throughput, and
-/// zero ends the path.
+/// Sets where the path goes on from the surface. `after` keeps it until the shadow ray is traced. weight multiplies the
+/// throughput, and zero ends the path.
 Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool transmitted, SurfaceMaterial m) {
   p.throughput *= weight;
   p.after = kPhaseEnd;

@@ -49,7 +49,7 @@ struct Path {
   int straightBounces;  // of these, straight through glass (kThroughGlass)
   int crossings;   // meetings with surfaces, where there is alpha; see nextCrossing
   int rays;        // traced so far
-  ivec2 pixel;     // of the film (kLightRecords, kNeighbours), or the record of a light path
+  ivec2 pixel;     // of the film (kStoresReservoirs, kNeighbours), or the record of a light path
   Sampler sampler;
   float time;      // 0..1 while the shutter is open (kTimed)
   bool oneChannel; // dispersion has left one of red, green and blue (kDispersion)

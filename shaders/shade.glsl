@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The steps where a ray hits: alpha, absorption, emission, then light samples one by one, then the next ray.
+// The steps where a ray hits: alpha, absorption, emission, then a light sample, then the next ray. Stages before gi
+// visit a hit once for each of their light samples.
 
 /// The base of the material, without its compensation.
 Bsdf baseBsdf(SurfaceMaterial m, bool front) {
@@ -232,7 +233,7 @@ vec3 aovAt(Surface s, int slot, int instance, vec3 baseColor, vec3 wo, float tim
 #include "guides.glsl"
 #include "caustics/light_path.glsl"
 
-/// One step at the point hit. The first visit also settles alpha, absorption and emission.
+/// One step at the point hit. The first visit (gi has one only) also settles alpha, absorption and emission.
 Path shade(Path p) {
   Surface s = surfaceAt(p.hitSlot, p.hitInstance, p.origin, p.direction, p.hitT, p.hitWeights, p.time);
   uint flags = materialFlags(s.material);
@@ -278,7 +279,7 @@ Path shade(Path p) {
     return p;
   }
   SurfaceMaterial m = materialAt(s.material, base.rgb, s.texcoords);
-  if (kLightRecords) return keepLight(p, s, m);
+  if (kStoresReservoirs) return fillReservoir(p, s, m);
   vec3 normal = normalFacing(s, -p.direction);
   if (kGi) p = shadeGlobal(p, s, m, normal);
   if (!kGi) p = shadeLocal(p, s, m, normal);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tracer: what all entries include and call. The whole of it:
+// The tracer, which the entries that trace include and call. The whole of it, without media:
 //
 //   tracePixel(pixel):                            a lane of the megakernel; a lane of wavefront.glsl has 32 pixels
 //     film = load(pixel)
@@ -12,7 +12,7 @@
 //   advance(path):                                one round
 //     hit = traverse(path.ray)
 //     meet(path, hit)
-//     if it left a shadow ray: settleShadow(path, traverse(shadow ray))
+//     if it left a shadow ray: meetShadow(path, traverse(shadow ray))
 //
 //   traverse(ray):                                traverse.glsl
 //     node = root
@@ -33,14 +33,14 @@
 //     radiance += throughput * emission * weight(pdf of scattering, pdf of light samples)
 //     more scatterings than --bounces: end
 //     light = a light by its power, a point of it   lights.glsl
-//     contribution = throughput * irradiance * BSDF * weight(pdf of the light sample, pdf of scattering)
+//     contribution = throughput * irradiance * BSDF * cosine * weight(pdf of the light sample, pdf of scattering)
 //     shadow ray = from the surface to the light
 //     direction = a direction drawn from the BSDF   bsdf.glsl, layers.glsl
 //     throughput *= BSDF * cosine / pdf
 //     Russian roulette: end, or throughput /= chance to survive
 //     path.ray = from the surface along the direction
 //
-//   settleShadow(path, hit):
+//   meetShadow(path, hit):
 //     if nothing is hit: radiance += contribution
 #include "layout.glsl"
 #include "frame.glsl"
@@ -121,7 +121,7 @@ FilmPixel endSample(FilmPixel film, Path p, ivec2 pixel) {
   if (kCountVisits) p.radiance = vec3(float(p.traversal.visits));
   float alpha = coverageOf(p);
   if (kShadowCatcher) p = showShadow(p);
-  if (kLightPaths || kLightRecords) {
+  if (kLightPaths || kStoresReservoirs) {
     film.samples += 1u;
   } else if (kAov == kAovGuides) {
     p = endGuide(p);
@@ -165,23 +165,23 @@ Path meetShadow(Path p) {
 Path advance(Path p, int budget, TreeFrame tree) {
   p.traversal.steps += 1;
 
-  // Step: find what the path's ray hits; dark: what its shadow ray hits.
-  bool dark = kGpu && kShadows && p.phase == kPhaseShadow;
+  // Step: find what the ray hits: that of the path, or its shadow ray.
+  bool isShadow = kGpu && kShadows && p.phase == kPhaseShadow;
   // Only light paths may have ended before their first ray.
-  if ((kWholeRays && !kLightPaths) || p.phase == kPhaseExtend || dark) {
-    if (kWholeRays && !dark) p = extend(p);
-    if (kGpu && kWholeRays && dark) p = traceAnew(p, p.shadowLimit);
-    p.traversal = traverse(dark ? p.shadowOrigin : p.origin, dark ? p.shadowDirection : p.direction,
-                           dark ? p.shadowLimit : kFarAway, p.traversal, tree, budget, dark && !kPassing);
-    // A ray that is dark or not done leaves its hit, too: that of the ray before then needs no registers.
+  if ((kWholeRays && !kLightPaths) || p.phase == kPhaseExtend || isShadow) {
+    if (kWholeRays && !isShadow) p = extend(p);
+    if (kGpu && kWholeRays && isShadow) p = traceAnew(p, p.shadowLimit);
+    p.traversal = traverse(isShadow ? p.shadowOrigin : p.origin, isShadow ? p.shadowDirection : p.direction,
+                           isShadow ? p.shadowLimit : kFarAway, p.traversal, tree, budget, isShadow && !kPassing);
+    // A shadow ray or one that is not done leaves its hit, too: that of the ray before then needs no registers.
     if (kWholeRays) p = withHit(p, p.traversal);
-    if (!dark && p.traversal.node == kTraversalDone) {
+    if (!isShadow && p.traversal.node == kTraversalDone) {
       p.rays += 1;
       if (!kWholeRays) p = withHit(p, p.traversal);
       p.phase = kPhaseShade;
     }
   }
-  if (kGpu && dark) p = meetShadow(p);
+  if (kGpu && isShadow) p = meetShadow(p);
 
   // Step: shade it; this may need a shadow ray.
   if (p.phase == kPhaseShade) {
@@ -203,7 +203,7 @@ uint keyOfLane(ivec2 pixel) { return kLightPaths ? keyOfLightPaths() : keyOfPixe
 /// GPUs its film stays in memory while a path goes on.
 void tracePixel(ivec2 pixel) {
   FilmPixel film = loadFilm(pixel);
-  fetchFrame(film.flags);
+  fetchFrame(film.flags);  // the flags keep compilers from reading the block in the loops
   ivec2 place = pixel - frame.tile.xy;
   int row = (place.y * frame.tile.z + place.x) * kSuspendedRows;
   int budget = frame.stepBudget;

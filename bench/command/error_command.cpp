@@ -20,7 +20,7 @@
 #include "render/adaptive.h"
 #include "session/phase_timer.h"
 #include "session/picture/denoising.h"
-#include "session/picture/draw_picture.h"
+#include "session/picture/draw_samples.h"
 #include "session/progress_bar.h"
 #include "session/tracer.h"
 

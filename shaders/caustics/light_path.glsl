@@ -106,7 +106,7 @@ float radianceScale(Surface s, SurfaceMaterial m, bool transmitted) {
 /// quotient of cosines is there because particles carry flux (Veach, section 5.3). At the first rough surface the ray
 /// is traced at once. Later ones share one ray: each takes it with a probability in proportion to its light (reservoir
 /// sampling; Chao, A general purpose unequal probability sampling plan, 1982), and the ray then carries the sum.
-Path splat(Path p, Surface s, SurfaceMaterial m, bool first) {
+Path spawnSplatRay(Path p, Surface s, SurfaceMaterial m, bool first) {
   vec2 lens = vec2(0.0);
   if (kLens && frame.lens.x > 0.0) {
     vec2 uv = drawPair(p.sampler, kBounceDimensions * uint(p.bounce + 1) + kSplatLensDimensions);
@@ -206,7 +206,7 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
 
   // Step: let the camera see it. The first surface that is all rough has a ray and a record of its own.
   bool first = p.prefix == kPrefixCaustic && !mirror && !thin && p.fromLight.waiting == 0.0;
-  if (rough && scattered) p = splat(p, s, m, first);
+  if (rough && scattered) p = spawnSplatRay(p, s, m, first);
   if (!caster && !thin && !scattered) return p;
 
   // Step: continue. Until a rough surface is met, it scatters at casters alone.

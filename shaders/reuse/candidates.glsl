@@ -52,7 +52,7 @@ Candidate chooseCandidate(vec3 point, vec3 normal, bool through, uint packedNorm
   c.sum = 0.0f;
   for (int i = 0; i < int(kLightCandidates); ++i) {
     LightChoice light = chooseLight(shifted(first, i), point, packedNormal);
-    if (kLightRecords) light.bits &= uvec2(kReservoirBits);
+    if (kStoresReservoirs) light.bits &= uvec2(kReservoirBits);
     LightSample s = lightOfChoice(light, point);
     float weight = candidateWeight(s, normal, through);
     if (!(weight > 0.0f)) continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Spatial reuse: a first program stores each pixel's light sample (kLightRecords), a second one lets pixels take those
-// of pixels near them (kNeighbours).
+// Spatial reuse: a first program stores the light sample of each pixel (kStoresReservoirs), and a second one lets
+// pixels take those of pixels near them (kNeighbours).
 
 layout(binding = kReservoirTextures) uniform sampler2D reservoirSurfaces;
 layout(binding = kReservoirTextures + 1u) uniform sampler2D reservoirLights;
@@ -15,7 +15,7 @@ void storeReservoir(ivec2 pixel, Reservoir r) {
 }
 
 /// Stores the light sample of the first surface of a camera path, which ends there.
-Path keepLight(Path p, Surface s, SurfaceMaterial m) {
+Path fillReservoir(Path p, Surface s, SurfaceMaterial m) {
   p.phase = kPhaseEnd;
   if (p.bounce > 0 || lightSampleCount() == 0) return p;
   LitSurface on = LitSurface(s.position, packNormal(s.geometricNormal), takesLightFromBehind(s, m));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The command line as a pipeline: scene, tree, context, packed scene, renderer, film, picture.
+// `fragtrace render` as a pipeline: scene, tree, context, packed scene and renderer here; film and picture in
+// drawAndWrite() of cli/render_picture.cpp.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>

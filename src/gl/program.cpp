@@ -71,7 +71,7 @@ GlProgram buildComputeProgram(const std::string& text) {
   return finished(link(std::move(shaders)));
 }
 
-const GlProgram& ProgramCache::tracer(const ShaderVariant& variant) {
+const GlProgram& ProgramCache::tracerProgram(const ShaderVariant& variant) {
   const auto found = tracers_.find(variant);
   if (found != tracers_.end()) return found->second;
   const char* compute = variant.wavefront ? "entry/wavefront.comp" : "entry/trace.comp";

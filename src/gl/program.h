@@ -27,7 +27,7 @@ GlProgram buildComputeProgram(const std::string& text);
 class ProgramCache {
  public:
   explicit ProgramCache(ShaderSource source) : source_(std::move(source)) {}
-  const GlProgram& tracer(const ShaderVariant& variant);
+  const GlProgram& tracerProgram(const ShaderVariant& variant);
   /// Adds light paths to a film through the pixel filter of the variant.
   const GlProgram& splatter(const ShaderVariant& variant);
   void clear();

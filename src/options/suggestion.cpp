@@ -17,7 +17,7 @@ struct OtherName {
 };
 
 /// As other renderers have it.
-constexpr std::array<OtherName, 25> kOtherNames = {{
+constexpr auto kOtherNames = std::to_array<OtherName>({
     {"--samples", "--spp"},
     {"--samples-per-pixel", "--spp"},
     {"--size", "--resolution"},
@@ -43,7 +43,7 @@ constexpr std::array<OtherName, 25> kOtherNames = {{
     {"-V", "--version"},
     {"-v", "--verbose"},
     {"-q", "--quiet"},
-}};
+});
 
 }  // namespace
 

@@ -4,8 +4,8 @@
 
 namespace fragtrace {
 
-bool Renderer::keepLight(const Film& film, const View& view, int index, const GoOn& goOn) {
-  const std::optional<ShaderVariant> records = lightRecordVariant(pace_->drawn);
+bool Renderer::storeReservoirs(const Film& film, const View& view, int index, const GoOn& goOn) {
+  const std::optional<ShaderVariant> records = reservoirVariant(pace_->drawn);
   if (!records) return true;
   const glm::ivec2 size = film.size();
   const glm::ivec2 tile(software_ ? 256 : 2048);  // pixels of a draw

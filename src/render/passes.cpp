@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The part of the renderer that cuts samples into rounds of draws, by the time that draws took before.
+// The part of the renderer that cuts samples into passes over the picture, by the time that draws took
+// before.
 #include "render/draw_plan.h"
 #include "render/renderer.h"
 
@@ -33,27 +34,27 @@ bool Renderer::addParts(Film& film, const View& view, std::span<const Work> part
   const GoOn stays = [&](double) { return goOn(0.0); };
   ShaderVariant& variant = pace_->drawn;
   for (const Work& part : parts) {
-    for (Work round = part; round.from < part.to; round.from = round.to) {
-      // Step: plan a round. Where pixels take light samples of others in the same sample, these are stored
+    for (Work pass = part; pass.from < part.to; pass.from = pass.to) {
+      // Step: plan a pass. Where pixels take light samples of others in the same sample, these are stored
       // for one sample at a time.
-      const int left = variant.neighbours ? 1 : part.to - round.from;
+      const int left = variant.neighbours ? 1 : part.to - pass.from;
       const int mostPixels = software_ || variant.resumable ? kMaxTilePixels : kMaxGpuTilePixels;
       const DrawPlan plan = variant.wavefront
-                                ? planWaves(part.size, software_ ? kWaveTile : kGpuWaveTile, round.from, left)
+                                ? planWaves(part.size, software_ ? kWaveTile : kGpuWaveTile, pass.from, left)
                                 : planDraws(part.size, left, pace_->mostSamplesPerDraw, mostPixels,
                                             pace_->msPerSample * part.busy, targetMs_);
-      round.to = round.from + plan.samples;
+      pass.to = pass.from + plan.samples;
       const auto start = Clock::now();
 
       // Step: draw it.
-      if (!keepLight(film, view, round.from, stays)) return false;
+      if (!storeReservoirs(film, view, pass.from, stays)) return false;
       const auto drawStart = Clock::now();
-      if (!drawPass({variant, film, view, tilesOf(round, plan.tile)}, goOn)) return false;
-      done += pixelSamples(round);
+      if (!drawPass({variant, film, view, tilesOf(pass, plan.tile)}, goOn)) return false;
+      done += pixelSamples(pass);
       doneMs += millisecondsBetween(drawStart, Clock::now());
       pace_->msPerSample = doneMs / done;
       adaptPace(plan.samples);
-      const bool lit = addLightPaths(film, view, round.to, stays);
+      const bool lit = addLightPaths(film, view, pass.to, stays);
 
       // Step: note its time, if it is that of whole frames.
       const double frameMs = millisecondsBetween(start, Clock::now()) / plan.samples;

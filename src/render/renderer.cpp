@@ -216,7 +216,7 @@ void Renderer::uploadFrame(size_t from, size_t to) {
 
 void Renderer::useProgram(const ShaderVariant& variant) {
   if (variant.resumable || variant.wavefront) bindPathStates(variant);
-  const GLuint program = programs_.tracer(variant).name();
+  const GLuint program = programs_.tracerProgram(variant).name();
   if (variant.lightPaths) {
     glProgramUniform4fv(program, 0, GLsizei(casters_.size()), casters_.empty() ? nullptr : &casters_[0].x);
     glProgramUniform1i(program, GLint(layout::kMostCasters), int(casters_.size()));
@@ -368,7 +368,7 @@ double Renderer::compile(const ShaderVariant& variant, Film& film, const View& v
   const auto start = Clock::now();
   pace_ = &paces_.insert_or_assign(variant, Pace{variant}).first->second;
   const Work tiny{{0, 0}, glm::min(film.size(), glm::ivec2(kTinyTile)), 0, 1};
-  keepLight(film, view, 0, toTheEnd);
+  storeReservoirs(film, view, 0, toTheEnd);
   drawPass({pace_->drawn, film, view, {tiny}}, toTheEnd);
   compileLightPaths(film, view);
   film.clear();

@@ -200,7 +200,7 @@ class Renderer {
   bool addLightTile(const RenderPass& pass, glm::ivec2 whole, int index, const GoOn& goOn);
   /// Stores the light samples of all pixels in their sample `index`, if the picture's pixels take those of
   /// others; false if it was stopped.
-  bool keepLight(const Film& film, const View& view, int index, const GoOn& goOn);
+  bool storeReservoirs(const Film& film, const View& view, int index, const GoOn& goOn);
   /// Draws the records of a tile into the film of splats, through the pixel filter.
   void splat(const RenderPass& pass, glm::ivec2 tile);
   /// Allows more samples a draw as long as they fit into the step budget.

@@ -70,7 +70,7 @@ void keepLight(Tracer& tracer, const GpuScene& packed, const RenderOptions& opti
 
 Phase buildProgram(ProgramCache& programs, const ShaderVariant& variant) {
   PhaseTimer timer("program");
-  programs.tracer(variant);
+  programs.tracerProgram(variant);
   return timer.end();
 }
 

@@ -152,7 +152,7 @@ void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
   constant("kFrontToBack", variant.traversal == TraversalMethod::FrontToBack);
   constant("kResumable", variant.resumable);
   constant("kCandidates", variant.lightCandidates);
-  constant("kLightRecords", variant.lightRecords);
+  constant("kStoresReservoirs", variant.storesReservoirs);
   constant("kNeighbours", variant.neighbours);
   constant("kClampIndirect", variant.clampIndirect);
   constant("kShadowCatcher", variant.shadowCatcher);

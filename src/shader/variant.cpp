@@ -205,7 +205,7 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   dropIdle(v);
 
   // Step: choose how rays find triangles. Literals need the packed scene, and useLiterals of
-  // src/session/setup.cpp adds them.
+  // src/session/tracer.cpp adds them.
   const bool named = options.device.traversal != TraversalMethod::Auto &&
                      options.device.traversal != TraversalMethod::Literals;
   v.traversal = named ? options.device.traversal : TraversalMethod::FrontToBack;
@@ -309,11 +309,11 @@ std::optional<ShaderVariant> lightPathVariant(const ShaderVariant& variant) {
   return light;
 }
 
-std::optional<ShaderVariant> lightRecordVariant(const ShaderVariant& variant) {
+std::optional<ShaderVariant> reservoirVariant(const ShaderVariant& variant) {
   if (!variant.neighbours) return std::nullopt;
   ShaderVariant records = variant;
   records.neighbours = false;
-  records.lightRecords = true;
+  records.storesReservoirs = true;
   records.traits.reset(size_t(Trait::Caustics));
   records.wavefront = false;
   records.waveUnit = -1;
@@ -356,7 +356,7 @@ std::string variantName(const ShaderVariant& variant) {
   if (variant.countsVisits) append(std::string(rowOf(DebugView::Visits).name));
   if (variant.uniformLights) append("uniform-lights");
   if (variant.lightCandidates) append("light-candidates");
-  if (variant.lightRecords) append("light-records");
+  if (variant.storesReservoirs) append("reservoirs");
   if (variant.neighbours) append("neighbours");
   if (variant.clampIndirect) append("clamp-indirect");
   if (variant.shadowCatcher) append("shadow-catcher");

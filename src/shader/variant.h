@@ -25,7 +25,7 @@ struct ShaderVariant {
   bool countsVisits = false;     ///< the nodes that camera rays visit are, too
   bool uniformLights = false;    ///< the light tree chooses all lights alike
   bool lightCandidates = false;  ///< a light sample is one of several (shaders/reuse/candidates.glsl)
-  bool lightRecords = false;     ///< light samples of first hits are kept (shaders/reuse/neighbours.glsl)
+  bool storesReservoirs = false;     ///< light samples of first hits are kept (shaders/reuse/neighbours.glsl)
   bool neighbours = false;       ///< pixels take such light samples of others near them
   bool clampIndirect = false;
   bool shadowCatcher = false;
@@ -75,7 +75,7 @@ ShaderVariant choosePictureVariant(const RenderOptions& options, const TraitSet&
 std::optional<ShaderVariant> lightPathVariant(const ShaderVariant& variant);
 
 /// The variant that keeps the light samples that such a picture's pixels take of others, if they do.
-std::optional<ShaderVariant> lightRecordVariant(const ShaderVariant& variant);
+std::optional<ShaderVariant> reservoirVariant(const ShaderVariant& variant);
 
 /// Returns true if the environment lights surfaces without sampling, as before gi (kEnvironmentLight).
 bool lightsByEnvironment(const ShaderVariant& variant);

@@ -79,7 +79,7 @@ LIKELY = {
     "caustics/form.": ("pure.shader_path_form_test", "command.Caustics"),
     "caustics/light_path.scatteredTowards": ("command.GlossyCaustics",),
     "caustics/light_path.radianceScale": ("command.GlossyCaustics",),
-    "caustics/light_path.splat narrow": ("command.GlossyCaustics",),
+    "caustics/light_path.spawnSplatRay narrow": ("command.GlossyCaustics",),
     "path.spawnRay narrow": ("command.GlossyCaustics",),
     "path.isCaster": ("command.GlossyCaustics",),
     "shade.irradianceLeft": ("command.GlossyCaustics",),

@@ -24,7 +24,7 @@ class Variants : public ::testing::TestWithParam<BufferReads> {
 
   static void links(const ShaderVariant& variant) {
     ProgramCache cache(shaderSource({}));
-    EXPECT_NO_THROW(cache.tracer(variant)) << variantName(variant);
+    EXPECT_NO_THROW(cache.tracerProgram(variant)) << variantName(variant);
   }
 };
 

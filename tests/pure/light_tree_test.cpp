@@ -309,7 +309,7 @@ auto reservoirOn(const LitPlace& place, bool tree, const glsl_double::Sampler& s
 /// One of the light samples of the place and of four others, some of which are not there, each kept in
 /// texels.
 auto reusedLight(const LitPlace& place, bool tree, uint32_t k) {
-  const With records(glsl_variant::kLightRecords, true);
+  const With records(glsl_variant::kStoresReservoirs, true);
   const auto kept = [](const auto& r) {
     return glsl_double::reservoirOf(glsl_double::firstTexel(r), glsl_double::secondTexel(r));
   };

@@ -15,7 +15,7 @@
 #include "session/outputs.h"
 #include "session/picture/checkpoints.h"
 #include "session/picture/denoising.h"
-#include "session/picture/draw_picture.h"
+#include "session/picture/draw_samples.h"
 #include "session/picture/layer_times.h"
 #include "session/picture/light_groups.h"
 #include "session/picture/mattes.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "session/picture/draw_picture.h"
+#include "session/picture/draw_samples.h"
 
 #include <algorithm>
 

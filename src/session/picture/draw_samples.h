@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws one whole picture, as `render` does: its samples, with readings of the film for a filter, and its
-// layers of first hits.
+// Draws the samples of a picture, with readings of the film for a filter, and its layers of first hits.
 #pragma once
 
 #include <vector>

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "render/adaptive.h"
-#include "session/picture/draw_picture.h"
+#include "session/picture/draw_samples.h"
 
 namespace fragtrace {
 

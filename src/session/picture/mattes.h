@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "session/picture/draw_picture.h"
+#include "session/picture/draw_samples.h"
 
 namespace fragtrace {
 

@@ -7,7 +7,7 @@
 #include "gl/program.h"
 #include "image/denoise/oidn.h"
 #include "render/noisy_image.h"
-#include "session/picture/draw_picture.h"
+#include "session/picture/draw_samples.h"
 
 namespace fragtrace {
 
