@@ -21,12 +21,12 @@ def table(head, rows):
 
 
 def names(text):
-    """Of the tables that a document has marks for."""
+    """Returns the names of the tables for which a document has marks."""
     return [found[1] for found in BLOCK.finditer(text)]
 
 
 def marks(text):
-    """As names(). Raises ValueError where a mark has no end or an end no mark."""
+    """Returns the same as names(). Raises ValueError where a mark has no end or an end has no mark."""
     if not len(names(text)) == text.count(BEGIN.split("{")[0]) == text.count(END):
         raise ValueError(f'"{BEGIN.format("NAME")}" and "{END}" do not come in pairs')
     return names(text)

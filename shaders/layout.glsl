@@ -244,7 +244,7 @@ struct Frame {
   float cameraMedium;   // 1 + the material of the scattering solid that the camera stands in, or 0
   vec3 cameraForward;   // unit
   float metresPerUnit;  // of local space
-  vec4 gridOrigin;      // of the quantised boxes, local space
+  vec4 gridOrigin;      // origin of the grid of the quantised boxes, local space
   vec4 gridCell;        // size of a grid step, local space
   vec3 background;      // radiance that camera rays see
   float backgroundShows;    // 1 when they see the environment instead; -1 when they see nothing

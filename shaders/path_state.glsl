@@ -6,7 +6,7 @@ const int kPhaseShade = 1;   // its ray is traced; light sample `lightSampleInde
 const int kPhaseShadow = 2;  // the shadow ray of that light sample is being traced
 const int kPhaseEnd = 3;     // the sample is complete
 const int kPhaseCut = 4;     // it is complete because the path has scattered more than --bounces times
-const int kPhaseNone = 5;    // no path: the pixel's next one is to begin (wavefront)
+const int kPhaseNone = 5;    // there is no path: the pixel's next path has yet to begin (wavefront)
 const int kPhasePass = 6;    // a value of `after` alone: the ray goes on behind the thin wall that it has met
 
 const float kTie = 9.5367431640625e-7;  // 2^-20: 16 roundings of a distance
@@ -45,11 +45,11 @@ struct Path {
   int after;       // the phase that follows once the shadow ray is settled
   int lightSampleIndex;
   int bounce;      // scatterings so far, also one whose ray roulette ends
-  int freeBounces;  // of these, at smooth glass (kTransmission) and in media: --bounces does not limit them
-  int straightBounces;  // of these, straight through glass (kThroughGlass)
+  int freeBounces;  // the part of `bounce` at smooth glass (kTransmission) and in media, which --bounces does not limit
+  int straightBounces;  // the part of `bounce` that went straight through glass (kThroughGlass)
   int crossings;   // meetings with surfaces, where there is alpha; see nextCrossing
   int rays;        // traced so far
-  ivec2 pixel;     // of the film (kLightRecords, kNeighbours), or the record of a light path
+  ivec2 pixel;     // the path's pixel in the film (kLightRecords, kNeighbours), or the index of a light path's record
   Sampler sampler;
   float time;      // 0..1 while the shutter is open (kTimed)
   bool oneChannel; // dispersion has left one of red, green and blue (kDispersion)

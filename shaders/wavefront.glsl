@@ -314,7 +314,7 @@ void traceWave(ivec2 lane) {
   Wave v;
   v.corner = tileOfDraw().xy + ivec2(lane.x, lane.y * int(kWaveSlots));
   fetchFrame(loadFilm(v.corner).flags);
-  int own = (lane.y * frame.tile.z + lane.x) * int(kWaveLaneRows);  // the row of what is left of the lane's own
+  int own = (lane.y * frame.tile.z + lane.x) * int(kWaveLaneRows);  // the lane's first row; it holds masks
   v.first = own + 1;
   int count = min(int(kWaveSlots), frame.tile.w - lane.y * int(kWaveSlots));
   int budget = frame.stepBudget;

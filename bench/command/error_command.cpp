@@ -98,7 +98,7 @@ struct Contender {
   ErrorCurve filtered;  ///< of --denoise
 };
 
-/// One picture on the way to a filter.
+/// A picture that has been drawn and may still be filtered.
 struct Draw {
   Drawing drawing;
   int layerSamples = 0;

@@ -8,7 +8,7 @@ NUMBERS = {"GA102": {"registers": r"(\d+) Number of GPRs", "spills": r"(\d+) Spi
            "navi21": {"registers": r"VGPRS: (\d+)", "spills": r"Spilled VGPRs: (\d+)", "waves": r"Max Waves: (\d+)", "bytes": r"Code Size: (\d+)"},
            "DG2": {"lanes": r"SIMD(\d+) shader", "spills": r"(\d+):\d+ spills:fills", "fills": r"\d+:(\d+) spills:fills", "instructions": r"(\d+) inst,"}}
 LIMITED = ("registers", "spills", "fills")
-# In a table, one cell a device.
+# The text of each device's cell in a table.
 CELLS = {"GA102": "{registers}, {spills} + {fills}; {warps} warps; {instructions}", "navi21": "{registers}, {spills}; {waves} waves; {bytes} B",
          "DG2": "{spills} + {fills}; {instructions}"}
 

@@ -111,7 +111,8 @@ def median_and_range(values, form="{:.2f}"):
 
 
 def draw_in_turn(title, running, folder, spp, options):
-    """By engine: the seconds of each round's picture, as if a pixel had exactly `spp` samples; and the pictures' blocks."""
+    """Draws one picture in each round with each engine, in turn. Returns, by engine, the seconds of each round's
+    picture, scaled as if a pixel had exactly `spp` samples, and the blocks of the pictures."""
     seconds, seen = [{key: [] for key in running} for _ in range(2)]
     for k in range(options.rounds):
         for key, engine in running.items():

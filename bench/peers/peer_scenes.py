@@ -54,7 +54,8 @@ def boxes():
 
 
 def ball(middle=(0, -0.35, 0), radius=0.6, bump=0.05, cells=BALL_CELLS):
-    """A cube's faces cut into cells, blown up to a ball with bumps; corners on edges are shared by place."""
+    """Cuts a cube's faces into cells and blows it up to a ball with bumps. Corners at the same place are one vertex,
+    also on the cube's edges."""
     places, positions, indices = {}, [], []
 
     def corner(origin, right, up, i, j):

@@ -115,7 +115,7 @@ struct Point {
 struct Layout {
   Axis x;
   Axis y;
-  double left = 0;  ///< of the plot
+  double left = 0;  ///< the plot's left edge
   double legendLeft = 0;
   double width = 0;
   double height = 0;

@@ -15,7 +15,7 @@ namespace fragtrace {
 /// How the picture of a setting was judged.
 struct PictureVerdict {
   std::string against;  ///< what it was compared with
-  double rmse = 0.0;    ///< these as in bench/report/picture_check.h
+  double rmse = 0.0;    ///< the differences are defined in bench/report/picture_check.h
   double differing = 0.0;
   double meanErrors = 0.0;
   double farBlocks = 0.0;

@@ -75,7 +75,7 @@ struct Known {
   vec3 light;  // without albedo
   float variance;
   float samples;
-  float weight;  // of the taps that fit
+  float weight;  // the sum of the weights of the taps that show the same surface
 };
 
 Known knownOf(Surface now, vec3 point) {

@@ -4,7 +4,7 @@
 
 const int kGroupLanes = 64;  // of all compute entries
 
-shared int stackEntries[kStackSize * kGroupLanes];  // a row of lanes an entry
+shared int stackEntries[kStackSize * kGroupLanes];  // each entry has a row of all lanes
 
 struct Stack {
   int count;

@@ -124,7 +124,7 @@ std::vector<uint32_t> targetsOf(Blocks& blocks) {
 
 /// The draws that lead to the targets, by tiles and numbers of samples.
 std::vector<Work> workOf(Blocks& blocks) {
-  std::map<std::tuple<int, int, int, int>, int> busy;  // samples, target, tile y, tile x: pixels
+  std::map<std::tuple<int, int, int, int>, int> busy;  // number of pixels by samples, target, tile y, tile x
   for (int y = 0; y < blocks.picture.y; ++y) {
     for (int x = 0; x < blocks.picture.x; ++x) {
       const Block& b = blocks.ofPixel(x, y);

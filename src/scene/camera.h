@@ -14,7 +14,8 @@ namespace fragtrace {
 
 /// A place on a sphere around the point at which an upright camera looks.
 struct Orbit {
-  double azimuthDegrees = 0.0;    ///< 0: in front of it (+Z); positive: to the right of a viewer there
+  /// 0 is in front of the point (towards +Z); positive angles are to the right of a viewer in front
+  double azimuthDegrees = 0.0;
   double elevationDegrees = 0.0;  ///< -90 to 90, up
   double zoom = 1.0;              ///< factor by which things are larger in the picture
 

@@ -106,7 +106,7 @@ Fans fansOf(const Scene& scene) {
   return fans;
 }
 
-/// A triangle seen from one of its corners.
+/// The angle of a triangle at one of its corners.
 struct Sector {
   glm::dvec3 normal, toSecond, toThird;  // unit; (0, 0, 0) for the normal of a triangle without area
   std::array<double, 3> altitude;        // over the edge opposite to the corner, the second, the third vertex

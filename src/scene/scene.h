@@ -160,8 +160,8 @@ struct Material {
   bool transmissive() const { return transmissionFactor > 0.0f; }
   /// Light of any kind passes through, so rays see the back.
   bool passesLight() const { return transmissive() || diffuseTransmissionFactor > 0.0f; }
-  /// By the roughness factor alone the surface is so smooth that it scatters light in single directions
-  /// (kMirrorAlpha of shaders/bsdf.glsl).
+  /// Returns true if the surface, judged by its roughness factor without the texture, is so smooth that it
+  /// scatters light in single directions (kMirrorAlpha of shaders/bsdf.glsl).
   bool mirrorLike() const { return roughnessFactor * roughnessFactor < 0.001f; }
   bool clearcoated() const { return clearcoatFactor > 0.0f; }
   bool hasSheen() const { return sheenColorFactor != glm::vec3(0.0f); }
@@ -369,7 +369,7 @@ struct Scene {
   std::vector<LightSource> lightSources;  ///< all of the file
   std::vector<Camera> cameras;            ///< cameras in the order in which nodes are visited; world space
   std::vector<PrimitiveOrigin> origins;
-  std::vector<SceneNode> nodes;          ///< parents before what is below them
+  std::vector<SceneNode> nodes;          ///< a parent stands before its children
   std::vector<SharedMesh> sharedMeshes;  ///< their triangles and vertices stand behind all others
   std::vector<Instance> instances;
   std::string sharing;  ///< why meshes are shared or are not, in a few words

@@ -183,7 +183,7 @@ double cameraOff(const Moments& moments, std::span<const CameraSegment> segments
     const auto check = [&](const glm::dvec3& point) {
       if (right.sees(point)) most = std::max(most, right.between(point, measure, point));
     };
-    // Points far away tell every turn; points as far away as the scene is, all else.
+    // Points far away show turns of the camera. Points at the distance of the scene show its other motion.
     const double focal = glm::distance(moment.camera.position, focalPointOf(moment.camera, scene.bounds));
     for (const double distance : {focal, kFar * focal}) {
       check(moment.camera.position + distance * moment.camera.forward);

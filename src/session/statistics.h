@@ -30,7 +30,7 @@ struct DenoiseStatistics {
   std::string skipped;     ///< why none ran
   double compileMs = 0.0;  ///< programs, built anew
   double filterMs = 0.0;   ///< wall clock, with the way to the device and back
-  std::string library;     ///< the file that did it; empty: we did
+  std::string library;     ///< the file of the library that filtered; empty: the built-in filter
   double loadMs = 0.0;     ///< time to open the library
 };
 

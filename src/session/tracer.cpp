@@ -129,7 +129,7 @@ bool lightPathsGiveWay(const ShaderVariant& variant, const TraitSet& present, co
          has(variant.stages, Stage::Shadows);
 }
 
-/// Says what was asked for and changes nothing, and what gives way to it.
+/// Warns of options that change nothing in this picture, and of options that are turned off by others.
 void warnOfNoEffect(const ShaderVariant& variant, const TraitSet& present, const RenderOptions& options,
                     Statistics& stats) {
   const auto warn = [&](const std::string& text) {

@@ -14,7 +14,7 @@ namespace fragtrace {
 
 /// The kind of change that a change of an option or a stage makes.
 enum class Effect : uint8_t {
-  Report,   ///< messages, files beside the picture, or permission
+  Report,   ///< messages, files beside the picture, or whether a picture is allowed
   Method,   ///< the way in which the same samples are drawn: their time and rounding
   Layers,   ///< content of a file beside the picture
   Count,    ///< number of samples

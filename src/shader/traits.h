@@ -87,8 +87,8 @@ struct TraitRow {
   const char* name;      ///< shown in the statistics and the variant's name
   const char* constant;  ///< in the shader
   const char* absence;   ///< why something that needs it is off
-  StageSet stages{};     ///< it is off where one of these is
-  TraitSet needs{};      ///< it is off where one of these is
+  StageSet stages{};     ///< the trait is off if one of these stages is off
+  TraitSet needs{};      ///< the trait is off if one of these traits is off
   TraitSet brings{};     ///< traits that a scene must also have to show it
   /// The textures that the shader reads where it is on; the rest null.
   std::array<TextureRef Material::*, 2> textures{};

@@ -188,7 +188,7 @@ struct Delivery {
   uint64_t request = 0;               ///< the latest that the tracing thread has seen
   bool resting = false;               ///< it has nothing to do
   std::string note;                   ///< reason why the tracing thread does not draw; empty: it does
-  std::string error;                  ///< why the latest wish could not be met; empty: it was
+  std::string error;                  ///< why the latest request could not be met; empty if it was met
   std::vector<std::string> messages;  ///< messages about the driver and about files written
   std::exception_ptr failure;         ///< ends the program
 };

@@ -155,7 +155,7 @@ bool isHidden(const ViewState& state, size_t node);
 /// Hides it with all that is below it, or shows it again, on both sides. Others of its name stay as they are.
 void hideNode(ViewState& state, size_t node, bool hidden);
 
-/// Closes a panel that has lost its room beside the picture, and opens it again with the room.
+/// Closes the panel when there is no room for it beside the picture, and opens it again when there is.
 void fitPanel(ViewState& state, bool hasRoom);
 
 /// Makes the options load the same scene and light as others: what one side has, both have.

@@ -114,7 +114,8 @@ def baked(path, seconds):
         w = weight(p)
         moved = turned((p[0], p[1] - 1, p[2]), -80 * part)
         placed.append((p[0] + w * (moved[0] - p[0]), p[1] + w * (moved[1] + 1 - p[1]), p[2]))
-        # The cofactors of (1 - w) I + w R about z; its third row and column are those of the identity.
+        # Normals are multiplied by the cofactors of M = (1 - w) I + w R about z. The third row and column of M are
+        # those of the identity.
         c, s = (f(math.radians(-80 * part)) for f in (math.cos, math.sin))
         a, b = 1 - w + w * c, w * s
         m = (a * n[0] - b * n[1], b * n[0] + a * n[1], (a * a + b * b) * n[2])

@@ -108,7 +108,7 @@ class FramePictures(Frame):
         self.fails(3, "bench", "frame", BOX, *QUICK, "--reference", small, says=["small.pfm", "default"])
         self.fails(3, "bench", "frame", BOX, *QUICK, "--reference", self.folder / "none.exr", says=["none.exr"])
         self.fails(2, "bench", "frame", BOX, SCENES / "sphere-phong.gltf", *QUICK, "--reference", small, says=["--reference"])
-        # Before anything is measured, which would take hours here.
+        # The command fails before it measures anything, which would take hours here.
         for bad in (small, self.folder / "none.exr"):
             self.fails(3, "bench", "frame", BOX, "--quiet", "--rounds", 100000, "--reference", bad, says=[bad.name], timeout=60)
 

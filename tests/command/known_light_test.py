@@ -174,7 +174,8 @@ class KnownLight(Case):
         return "--hdri-file", path
 
     def test_glass_that_disperses_reflects_each_colour_by_its_own_index(self):
-        """Before black, which takes all that goes through; so strong that blue has an index of 2, of which 2 % of the spread are 0.01."""
+        """The glass stands before a black wall, which absorbs all transmitted light. Dispersion is so strong that blue
+        has an index of 2. An error of 2 % of the spread changes that index by 0.01."""
         ior, dispersion = 1.5, 40
         blue = ior + (ior - 1) * 0.025 * dispersion
 

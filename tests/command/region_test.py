@@ -52,7 +52,7 @@ class Regions(Cut):
         self.assertEqual(set(part.layers), set(whole.layers))
         for name, rows in whole.layers.items():
             self.assertEqual(part.layers[name], [row[x:x + width] for row in rows[y:y + height]], name)
-        # Who reads it as a picture sees the whole, black around the part.
+        # A program that reads the file as a picture sees the whole, with black around the part.
         black = self.folder / "black.pfm"
         black.write_bytes(b"PF\n%d %d\n-1\n" % SIZE + bytes(12 * SIZE[0] * SIZE[1]))
         inside = sum(v * v for c in "RGB" for v in part.values(c))

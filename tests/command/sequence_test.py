@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Sequences of pictures (--frames, --turntable): each is the picture of a single command, what does not change stays, a broken one is said."""
+"""Sequences of pictures (--frames, --turntable). Each picture is that of a single command. What does not change is
+kept, and a message names each picture that failed."""
 import base64
 import json
 import shutil

@@ -182,7 +182,7 @@ class CutOutShadow(CatcherCase):
         self.assertAlmostEqual(sum(clean.values("A")) / sum(noisy.values("A")), 1, delta=0.003)
         self.assertEqual(clean.values("noisy.A"), noisy.values("A"))
         self.assertEqual(noisy.pixel(2, 70, *("denoising.albedo." + c for c in "RGBA"), "denoising.normal.Y"), (1,) * 5)
-        # A surface that covers the pixel stays opaque, and where nothing is met nothing is.
+        # A pixel that a surface covers stays opaque, and a pixel without any hit stays transparent.
         for before, after in zip(noisy.values("A"), clean.values("A")):
             if before == 1:
                 self.assertEqual(after, 1)

@@ -25,8 +25,8 @@ def passed(cosine, walls=1, ior=IOR):
 
 class ThinGlass(Case):
     def scene(self, panes, lights=(), lamps=(), **material):
-        """Ground under panes (heights) of clear glass, under directional lights (angles to the vertical) and lamps (place, half width,
-        radiance)."""
+        """Makes a scene of ground under panes of clear glass. `panes` are heights, `lights` the angles of directional
+        lights to the vertical, `lamps` places, half widths and radiances."""
         glass = {"pbrMetallicRoughness": MATT | {"roughnessFactor": 0, "baseColorFactor": TINT},
                  "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}}
         glass["pbrMetallicRoughness"] |= material.pop("surface", {})
@@ -78,7 +78,8 @@ class ThinGlass(Case):
             self.assert_everywhere(self.seen(self.scene(panes, [angle]), "--bounces", 1), wanted)
 
     def test_what_the_material_says_counts(self):
-        """Half of a pane lets light through; a coat and an index change how much; a solid stays closed to shadow rays."""
+        """A transmission of 0.5 halves the light. Clearcoat and the index of refraction change it. A solid blocks
+        shadow rays."""
         angle = 0.6
         cosine = math.cos(angle)
         plain = [cosine * passed(cosine) * tint for tint in TINT[:3]]

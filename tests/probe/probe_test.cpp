@@ -107,7 +107,7 @@ TEST_P(Probe, FresnelIsWithinEightUlps) {
   for (int i = 0; i < given.rows(); ++i) {
     const float cosine = given.row(i)[0];
     const float eta = given.row(i)[1];
-    // Close to the critical angle a square root magnifies whatever the divisions round.
+    // Close to the critical angle, a square root magnifies the rounding errors of the divisions.
     const double left = std::max(std::abs(1.0 - (1.0 - double(cosine) * cosine) / (double(eta) * eta)), 1e-7);
     worst = std::max(worst, ulpsApart(results.row(i)[0], glsl_float::fresnelDielectric(cosine, eta), 1.0) *
                                 std::sqrt(left));

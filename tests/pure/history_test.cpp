@@ -149,7 +149,7 @@ TEST(History, LightAndVariantAreStepsOfTheirOwn) {
   EXPECT_EQ(withLight(history, state.scene->options), state.scene->options);
   EXPECT_TRUE(undo(history, state));
   EXPECT_EQ(state.pose.viewAngleDegrees, 30.0);
-  // What is shown stays until the other is loaded.
+  // The window keeps showing this environment until the other one is loaded.
   EXPECT_EQ(state.sides[0].light.hdriFile, "other.hdr");
   const RenderOptions wanted = withLight(history, state.scene->options);
   EXPECT_EQ(wanted.scene, "a.gltf");

@@ -254,7 +254,7 @@ TEST(LightTree, DensityOfASampleIsThatOfTheRayThatFindsIt) {
       ++found;
       const double cosine = std::abs(glm::dot(lit.normalOf(place->triangle), s.direction));
       EXPECT_NEAR(glsl_double::treePdf(int(slots[place->triangle]), point, normal, s.distance, cosine), s.pdf,
-                  2e-4 * s.pdf);  // seen edge-on, edges of single precision tell
+                  2e-4 * s.pdf);  // where lamps are seen edge-on, the single precision of their edges matters
       EXPECT_LE(glm::distance(s.irradiance * s.pdf, lit.radianceOf(place->triangle)),
                 1e-5 * glm::length(lit.radianceOf(place->triangle)));
     }

@@ -157,7 +157,8 @@ TEST(ShaderBsdfAtRandom, PlasticOverABlackBaseGivesNoMoreThanItGets) {
 TEST(ShaderBsdfAtRandom, WhatFacetsGiveBackIsTheSumOverAllFurtherScatterings) {
   Draw draw(277);
   for (int k = 0; k < 100; ++k) {
-    // A scattering keeps `fresnel`; of what it sends out the share `loss` meets a further facet.
+    // A scattering keeps the share `fresnel` of the light. The share `loss` of the kept light meets another
+    // facet.
     const dvec3 fresnel = 0.5 + draw.inCube(0.5);
     const double loss = draw.between(0.0, 0.6);
     dvec3 sum(0.0);

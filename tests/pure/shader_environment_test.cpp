@@ -80,8 +80,8 @@ dvec3 turned(const dvec3& d, double angle) {
   return {d.x * std::cos(angle) + d.z * std::sin(angle), d.y, d.z * std::cos(angle) - d.x * std::sin(angle)};
 }
 
-// Bins of equal angles about world's axes. Steps within them meet the edges of all texels, at 0 and at 40
-// degrees, so that sums of the density, constant over a texel but for the sine, are exact.
+// The bins have equal angles about the world's axes. Their steps meet the edges of all texels, at rotations
+// of 0 and of 40 degrees. The density is constant over a texel except for the sine, so its sums are exact.
 constexpr size_t kBands = 32;
 constexpr size_t kTurns = 36;
 constexpr size_t kInner = 8;

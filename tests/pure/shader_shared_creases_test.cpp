@@ -67,7 +67,7 @@ TEST(ShaderCreases, NoRayThatLeavesAnInstanceStartsBehindTheOtherFaceOfItsWedge)
 }
 
 TEST(ShaderCreases, MeshesOfTheirOwnSpacesDoNotMeet) {
-  // Each has one face of a wedge, at the same numbers.
+  // Each mesh has one face of a wedge. In the meshes' own spaces the faces share an edge.
   Draw draw(73);
   const std::vector<Corners> faces = wedge(draw, 30.0);
   Scene scene;

@@ -37,7 +37,7 @@ class Sheen:
         return a / (1 + b * x ** c) + mixed(-1.97760, -1.27393, t) * x + mixed(-4.32054, -4.85967, t)
 
     def smith(self, cosine, library=dr):
-        """Lambda of the fit; library: numpy or drjit."""
+        """Returns Smith's Lambda by the fit of Estevez and Kulla. `library` is numpy or drjit."""
         choose = np.where if library is np else dr.select
         low, high = library.minimum(cosine, 0.5), library.maximum(cosine, 0.5)
         return choose(cosine < 0.5, library.exp(self.fit(low)), library.exp(2 * self.fit(0.5) - self.fit(1 - high)))

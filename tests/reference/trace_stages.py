@@ -22,7 +22,7 @@ from textures_and_noise import perlin_normal, sample
 
 STAGES = ["flat", "phong", "shadows", "reflections", "refraction", "normal-maps"]
 SCENES = FOLDER.parent.parent / "scenes"
-MIRROR_SPLITS = 3  # glass boundaries where both ways are followed; one is drawn by chance from there on
+MIRROR_SPLITS = 3  # at so many glass boundaries both ways are followed, at later ones a random one
 RAY_LEAVES_BY = 1e-9
 LEAST_COSINE = 0.001
 

@@ -28,7 +28,7 @@ struct Provenance {
   int64_t samples = 0;  ///< of every pixel; their mean, rounded, where they differ
   bool uniform = true;  ///< every pixel has the same samples: neither adaptive nor interrupted
   std::vector<SampleRange> ranges =
-      {};  ///< in ascending order; none: the one that seed, offset and samples say
+      {};  ///< in ascending order; if empty, the range follows from seed, offset and samples
 };
 
 inline constexpr const char* kSettingsAttribute = "fragtrace:settings";

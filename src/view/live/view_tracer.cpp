@@ -294,7 +294,8 @@ void ViewTracer::pose(const TraceRequest& request) {
 
 bool ViewTracer::relight(const TraceRequest& request) {
   const auto airOf = [](SkyOptions sky) {
-    placeSun(sky, {sunOf(sky).elevation, 0.0});  // the environment is turned to its azimuth
+    // the sky is made without the sun's azimuth; the environment is turned by it afterwards
+    placeSun(sky, {sunOf(sky).elevation, 0.0});
     return sky;
   };
   SkyOptions& shown = loadedOptions_.light.sky;

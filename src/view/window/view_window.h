@@ -111,12 +111,13 @@ class Window {
   bool statusWaits_ = false;
   bool newReference_ = false;  ///< its size is not yet compared with the picture's
   bool prepared_ = false;      ///< the display
-  bool skipped_ = false;       ///< the latest frame would have shown the picture before
-  int frames_ = 0;             ///< still to be drawn
-  double drawn_ = -1e30;       ///< when the latest frame was drawn
-  double changed_ = -1.0;      ///< when the traced picture was last changed
-  double again_ = 1e30;        ///< when a picture or its values may have come
-  double fades_ = 1e30;        ///< when a message is to be drawn paler
+  /// the latest frame was not drawn, since it would have shown the previous picture again
+  bool skipped_ = false;
+  int frames_ = 0;         ///< still to be drawn
+  double drawn_ = -1e30;   ///< when the latest frame was drawn
+  double changed_ = -1.0;  ///< when the traced picture was last changed
+  double again_ = 1e30;    ///< when to look again for a picture or its values
+  double fades_ = 1e30;    ///< when a message is to be drawn paler
   std::vector<RenderOptions> askedSides_;
   glm::ivec2 askedSize_{0};
   bool savesShown_ = false;  ///< a model is written over the file that is shown
