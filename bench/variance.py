@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""How many times sooner one way of drawing a scene reaches an error than another, by variance x CPU seconds.
+"""Measures how many times sooner one way of drawing a scene reaches an error than another, by variance x CPU seconds.
 
 usage: variance.py SCENE [--before "OPTIONS"] [--now "OPTIONS"] [--before-program FRAGTRACE] [--program FRAGTRACE]
                    [--resolution W,H] [--spp BEFORE,NOW] [--seeds N] [--reference TIMES] [--without NODE,...] [--rough] [--part X,Y,W,H]

@@ -73,7 +73,7 @@ def kind_of(name):
 
 
 def takes_several(name):
-    """Whether its value is a list with commas."""
+    """Returns true if the option's value is a list with commas."""
     return " ..." in name
 
 
@@ -92,5 +92,5 @@ def choices(name, text, others):
 
 
 def extensions(text):
-    """Of the files that a value may name, without dots."""
+    """Returns the extensions of the files that a value may name, without dots."""
     return list(dict.fromkeys(re.findall(r"(?<!\w)\.([a-z]{3,4})\b", text))) or (["json"] if "JSON" in text else [])

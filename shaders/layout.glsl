@@ -81,7 +81,8 @@ const uint kPixelTargetShift = 3u;  // above: the most samples this pixel is to 
 const int kTraversalDone = -2147483647 - 1;
 const uint kNodeRows = 2u;
 const uint kLeafRows = 5u;
-// Where surfaces move (kMoving), nodes and leaves have these rows twice: when their segment begins and when it ends.
+// If surfaces move (kMoving), nodes and leaves have these rows twice: for the beginning and for the end of their
+// segment.
 const uint kLeafBlock = 4u;  // the iterative traversal tests this many leaves in one loop iteration
 
 // An instance is a leaf of the upper tree whose index is from here on: kInstanceLeaf + its number, which is that of its

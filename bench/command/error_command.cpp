@@ -166,7 +166,7 @@ Draw drawWhole(Contender& c, const View& view, int samples, double& compileMs) {
   return draw;
 }
 
-/// What the driver compiles at a first picture is done.
+/// Draws and filters once, so that all that the driver compiles at a first picture is compiled.
 double warmUpFilter(Contender& c, const View& view, const Judge& judge) {
   double compileMs = c.filter->compileMs;
   const Draw draw = drawWhole(c, view, 1, compileMs);

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What drivers of GPUs say of the programs that they compile (bench/gpu/compilers), as figures, a table and limits."""
+"""Reads figures from the messages of GPU drivers about compiled programs (bench/gpu/compilers), and makes a table and
+limits of them."""
 import re
 
 # By device: the message of the tracer's shader, and its figures by name. The first is what limits how many lanes are under way.
@@ -33,7 +34,7 @@ def table(result):
 
 
 def over(result, limits):
-    """What takes more than the limits let it, a line each."""
+    """Yields a line for each figure that is above its limit."""
     for name, row in result["rows"].items():
         for device, now in row.items():
             most = limits["rows"].get(name, {}).get(device, {})

@@ -46,7 +46,7 @@ rm -rf /root/mesa-* /root/mesa_*
 
 
 def why_not():
-    """What is missing for the system, or ''."""
+    """Returns a text that names what the system lacks, or ''."""
     return "" if os.geteuid() == 0 and (FOLDER / "finished").exists() else debian.why_not(RELEASE)
 
 

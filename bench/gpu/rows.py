@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What bench/gpu/run measures: one entry a call of the program. Seconds are for a GPU, where the whole takes at most 540."""
+"""The measurements of bench/gpu/run: each entry is one call of the program. Seconds are for a GPU, where the whole
+takes at most 540."""
 from dataclasses import dataclass, field
 
 WHOLE_SECONDS = 540
@@ -15,7 +16,8 @@ WAVEFRONT = ["--schedule", "wavefront"]  # by a tree
 
 GPU_TEXT = ["--tune", "gpu"]
 
-# How reference pictures are drawn: the name, options of `render`, and the stage that it draws alone.
+# The ways to draw reference pictures: the name, the options of `render`, and the only stage that this way draws, or
+# None.
 ENTRIES = (
     ("fragment entry", FRAGMENT, None),
     ("compute entry", COMPUTE, None),

@@ -150,7 +150,7 @@ def kept(options):
 
 
 def cold(options):
-    """Of the whole process."""
+    """Measures the seconds of the whole process."""
     scenes = {"cornell-box": [REPOSITORY / "scenes/cornell-box.gltf", "--resolution", "16,16"],
               "room-ball": [REPOSITORY / "scenes/room-ball.gltf", "--resolution", "16,16"],
               "asset": [options.asset, "--resolution", "64,64", "--hdri-file", options.environment]}

@@ -147,7 +147,7 @@ def exr_attributes(path):
 
 
 def seconds_of(text):
-    """Of 01:02.34 or 1:01:02.34."""
+    """Returns the seconds of a text such as 01:02.34 or 1:01:02.34."""
     total = 0.0
     for part in text.split(":"):
         total = 60 * total + float(part)

@@ -25,7 +25,8 @@ def flat_quad(folder):
 
 
 def bounds(root):
-    """Of the positions as the meshes have them; these assets turn and scale little."""
+    """Returns the bounds of the positions in the meshes' own spaces; the nodes of these assets turn and scale
+    little."""
     boxes = [root["accessors"][p["attributes"]["POSITION"]] for m in root["meshes"] for p in m["primitives"]]
     return [[pick(box[end][k] for box in boxes) for k in range(3)] for end, pick in (("min", min), ("max", max))]
 

@@ -190,7 +190,7 @@ OptionRow word(const char* name, std::string help, Member member, OptionTraits t
   return row;
 }
 
-/// How a colour is written, for messages.
+/// The form of a colour, for messages.
 inline constexpr const char* kColorForm = "1,1,1 for white";
 
 /// Numbers in one word, separated by commas, which `take` puts into the options; it throws UsageError. `form`

@@ -37,7 +37,7 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
     if (asked) throw UsageError("--traversal literals: not with --aov light:NAME, whose light is no literal");
     return;
   }
-  // Who asks for the wavefront gets it, which needs a tree.
+  // A wavefront that was asked for needs a tree, so there are no literals then.
   if (!asked && options.device.schedule == Schedule::Wavefront && has(variant.stages, Stage::Gi)) return;
   const std::string reason = asked ? whyNoLiterals(loaded.scene, packed) : "";
   if (!reason.empty()) throw UsageError("--traversal literals: " + reason);

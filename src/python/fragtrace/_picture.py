@@ -126,7 +126,7 @@ def _save(path, planes, made, exposure, tone_map, half, png_depth, no_dither, ch
 
 
 def picture_of(channels, values, attributes):
-    """What _core gives, as a Picture, with its layers."""
+    """Returns the values of _core as a Picture, with its layers."""
     index = {name: i for i, name in enumerate(channels)}
     height, width = values.shape[:2]
     if "R" not in index and "Y" in index:
