@@ -55,7 +55,7 @@ def bulge(position, normal):
 
 
 def weight(position):
-    """Of the upper joint."""
+    """Returns the weight of the upper joint."""
     return min(max(position[1] - 0.5, 0.0), 1.0)
 
 

@@ -15,7 +15,8 @@ SHIFT = (0.3, -0.4)
 
 
 def seen(types, view, fisheye=180.0):
-    """Where a camera at the origin that looks along -z sees a point, in pixels from the top left, and its depth."""
+    """Returns the pixel at which a camera at the origin that looks along -z sees a point, from the top left, and the
+    depth."""
     x, y, z = view[0], view[1], -view[2]
     distance = math.hypot(x, y, z)
     if types == "panorama":

@@ -136,7 +136,7 @@ class Checkpoints(Broken):
         for spp, said in ((1, "the picture begins anew"), (2, "x.png is finished.*does not say with how many samples, and nothing is drawn")):
             result = self.renders(BOX, "-o", picture, "--resolution", "16,16", "--spp", spp, "--resume")
             self.assertRegex(result.stderr, said)
-        # What a crash of others has left is no picture.
+        # A file that a crash of another program has left is not a picture.
         self.output.write_bytes(b"")
         self.assertEqual(run(*self.arguments(*options, scene=BOX)).returncode, 0)
         self.assertGreater(self.output.stat().st_size, 0)

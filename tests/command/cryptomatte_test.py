@@ -66,7 +66,7 @@ class Cryptomatte(Case):
         self.close(self.shares(exr, "CryptoObject", 4, 0), {"left": 0.125, "right": 0.375})
         self.close(self.shares(exr, "CryptoObject", 2, 1), {"left": 1}, 0)  # two nodes of one name
         self.close(self.shares(exr, "CryptoObject", 7, 1), {})
-        # What is seen through a blended surface, by chance.
+        # Through a blended surface, samples see the objects behind it by chance.
         self.close(self.shares(exr, "CryptoObject", 0, 1), {"veil": 0.5}, 0.15)
         self.close(self.shares(exr, "CryptoMaterial", 1, 2), {"/materials/2": 0.5, "bunny": 0.5}, 0.15)
         for y in range(4):

@@ -74,7 +74,7 @@ class InDebian(Case):
 
 
 class PackageChecks:
-    """Of `package`, a file for `release`; mixed into a case InDebian."""
+    """Checks of `package`, a file for `release`. They are mixed into a case InDebian."""
 
     def setUp(self):
         super().setUp()
@@ -94,13 +94,13 @@ class PackageChecks:
         self.assertEqual(status["state"], "resting")
 
     def completes(self, *words):
-        """What bash offers the user for the last word."""
+        """Returns the words that bash offers the user for the last word."""
         script = ("source /usr/share/bash-completion/completions/fragtrace; "
                   f"COMP_WORDS=({' '.join(words)}); COMP_CWORD={len(words) - 1}; _fragtrace; echo ${{COMPREPLY[@]}}")
         return self.does(self.debian.run(script, "painter")).split()
 
     def advised(self, command, status):
-        """What the program says that one should install for this to work."""
+        """Returns the packages that the program advises to install for this to work."""
         result = self.debian.run(command, "painter")
         self.assertEqual(result.returncode, status, result.stderr)
         advice = re.search(r"apt-get install ([\w. -]+)", result.stderr)
@@ -142,7 +142,7 @@ class DebianPackage(PackageChecks, InDebian):
 
 
 class WheelChecks:
-    """Of `wheel`; all that the machine brings is Python and OpenGL."""
+    """Checks of `wheel`. The machine brings Python and OpenGL only."""
 
     def test_it_draws_and_the_notebook_runs(self):
         debian = self.fresh()
@@ -175,7 +175,8 @@ class WheelInDebian(WheelChecks, InDebian):
 
 
 class OtherRelease(PackageChecks, WheelChecks, InDebian):
-    """What a newcomer does on the other release, from a clean clone: the two commands, the packages, and what else draws there."""
+    """Follows a newcomer on the other release, from a clean clone: the two commands, the packages, and the other
+    drivers."""
     release = next((name for name in RELEASES if name != own_release()), "")
     clone = "/home/painter/fragtrace"
 

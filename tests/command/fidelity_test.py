@@ -37,7 +37,7 @@ class Fidelity(Case):
         write_pfm(self.folder / "assets/sky.pfm", 8, 32, lambda x, y: ABOVE if y < 16 else BELOW)
 
     def draw(self, skybox, *options, model="quad", **orbit):
-        """Of the generator's relative paths."""
+        """Draws a scenario with relative paths as the generator writes them."""
         scenario = {"name": "quad", "model": f"../../../assets/{model}.gltf", "lighting": "../../../assets/sky.pfm", "renderSkybox": skybox, "verticalFoV": 45,
                     "dimensions": {"width": 32, "height": 16}, "target": {"x": 0.2, "y": 0.5, "z": -0.3}, "orbit": {"theta": 90, "phi": 90, "radius": 2} | orbit}
         self.output = self.folder / "test/goldens/quad/fragtrace-golden.png"

@@ -47,7 +47,7 @@ def clamped_cosine(cosine):
 
 
 def nine_harmonics(cosine):
-    """What is left of it by the bands 0 to 2 (Ramamoorthi and Hanrahan, 2001)."""
+    """Returns the part of the irradiance in the bands 0 to 2 (Ramamoorthi and Hanrahan, 2001)."""
     return 1 / 4 + cosine / 2 + 5 / 32 * (3 * cosine**2 - 1)
 
 

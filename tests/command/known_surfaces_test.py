@@ -210,7 +210,7 @@ class KnownSurfaces(Case):
         self.shown([(material, [IRRADIANCE * 0.3 * c * k / math.pi for c, k in zip(COLOR, kept)])] + 4 * [(material, [])], math.pi - ANGLE)
 
     def test_gloss_at_a_grazing_angle(self):
-        """Where the mirror image of the light is seen, so that the reflectance is half of f90."""
+        """The camera sees the mirror image of the light, so the reflectance is half of f90."""
         angle, alpha, specular = 1.2, 0.25, 0.8
         gltf = quad(base(0, 0.5, specular={"specularFactor": specular}))
         turned = lambda sign: [0, sign * math.sin(angle / 2), 0, math.cos(angle / 2)]

@@ -64,7 +64,8 @@ class Lens(Case):
         stop = 0.02
         radius = 0.5 * 0.012 / math.tan(math.radians(ANGLE / 2)) / stop
         def part_hidden(x):
-            """Of the lens, where the wall is seen x from the axis: its rays are 3 / 4 x + 1 / 4 of the lens at the edge."""
+            """Returns the hidden part of the lens, seen from the wall at x from the axis: its rays cross the edge at 3
+            / 4 x + 1 / 4 of the lens."""
             at = min(max(-3 * x / radius, -1), 1)
             return 0.5 + (at * math.sqrt(1 - at * at) + math.asin(at)) / math.pi
         rows = self.picture(str(path.with_suffix("")), "x.exr", "--resolution", f"{SIDE},{SIDE}", "--spp", 64, "--camera-position", f"0,0,{DISTANCE}", "--camera-focal-point",

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""How pictures are stored: 16-bit floats and integers, and what the header of an .exr says of its camera."""
+"""Tests of stored pictures: 16-bit floats and integers, and the camera in the header of an .exr."""
 import json
 import sys
 

@@ -96,7 +96,7 @@ class Regions(Cut):
 
 class DrawnInParts(Cut):
     def test_the_bits_of_one_film(self):
-        """Of 1,000,000 pixels a film takes 176 MB."""
+        """A film of 1,000,000 pixels takes 176 MB."""
         options = ["--spp", 1, "--aov", "albedo,samples", "--stage", "phong"]
         whole, stats = self.drawn("whole.exr", *options, size=(700, 500))
         self.assertNotIn("parts", stats)

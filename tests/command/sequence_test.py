@@ -158,7 +158,7 @@ class Sequences(Case):
             self.assertEqual(others, [first] * 2, options)
             self.draw("--frames", "12:12", *options)
             self.assertEqual(places()[1], first, options)
-            # What is said draws the same.
+            # The options in the message draw the same.
             view = said.split("animation: ")[1].splitlines()[0].split(" ")
             self.renders(self.scene, "-o", self.folder / "x.00.exr", "--quiet", *SMALL[2:], *view, "--animation-time", 0)
             self.assertEqual(places()[0], first, options)

@@ -135,7 +135,7 @@ class ShadowCatcher(CatcherCase):
         self.assertAlmostEqual(mean, 0.5, delta=5 * math.sqrt(0.5 / (16 * 16 * 64)))
 
     def test_nothing_else_changes(self):
-        """Where nothing is in the way the background has its bits, and surfaces are lit as without the catcher."""
+        """If nothing is in the way, the background keeps its bits, and surfaces are lit as without the catcher."""
         options = ["--resolution", "24,24", "--spp", "4", "--studio"]
         for traversal in (["--traversal", "iterative"], ["--traversal", "front-to-back"]):
             plain = self.picture("sphere-plane", "a.exr", *options, *traversal, "--aov", "albedo")
@@ -190,7 +190,7 @@ class CutOutShadow(CatcherCase):
         self.assertEqual(Exr(self.folder / "f.exr").values("A"), clean.values("A"))
 
     def test_the_variance_is_that_over_white(self):
-        """Of the catcher's alpha over many seeds, where nothing but the shadow is seen."""
+        """The variance of the catcher's alpha is taken over many seeds, at pixels that show only the shadow."""
         options = [*self.VIEW, "--disable", "sobol", "--spp", 4, "--aov", "variance"]
         shots = [self.picture("mesh-15743", "v.exr", *options, "--seed", seed) for seed in range(12)]
         alphas, greens, variances = ([shot.values(name) for shot in shots] for name in ("A", "G", "variance.Y"))

@@ -66,7 +66,8 @@ def pictured(values, images):
 
 class TextureFactors(Case):
     def means(self, change):
-        """Of each square and channel. Pictures of their own, since a shader for textures reads white where there is none."""
+        """Returns the mean of each square and channel. The pictures with textures and those without are separate, since
+        a shader for textures reads white where there is none."""
         images, materials = [], copy.deepcopy(MATERIALS)
         for m in materials:
             for values in [m["pbrMetallicRoughness"], *m.get("extensions", {}).values()]:

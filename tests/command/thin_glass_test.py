@@ -17,7 +17,8 @@ TINT = [0.9, 0.7, 0.5, 1]
 
 
 def passed(cosine, walls=1, ior=IOR):
-    """What thin walls let through at an angle, without their tint: two parallel interfaces each (docs/design/surfaces.md)."""
+    """Returns the share of light that passes thin walls at an angle, without their tint: each wall has two parallel
+    interfaces (docs/design/surfaces.md)."""
     refracted = math.sqrt(ior**2 - 1 + cosine**2)
     single = 0.5 * (((ior**2 * cosine - refracted) / (ior**2 * cosine + refracted))**2 + ((cosine - refracted) / (cosine + refracted))**2)
     return (1 - 2 * single / (1 + single))**walls

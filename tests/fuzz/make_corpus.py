@@ -177,7 +177,8 @@ def pictures():
 
 
 def grids(nvdb):
-    """Of a NanoVDB file with ZIP compression: each grid as it is in memory (NanoVDB 32, io::Header and io::MetaData)."""
+    """Yields each grid of a NanoVDB file with ZIP compression, as it is in memory (NanoVDB 32, io::Header and
+    io::MetaData)."""
     count, place = struct.unpack_from("<H", nvdb, 12)[0], 16
     for _ in range(count):
         place += 176 + struct.unpack_from("<I", nvdb, place + 136)[0]

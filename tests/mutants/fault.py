@@ -4,7 +4,7 @@ import re
 from typing import NamedTuple
 
 WORD = r"[\w.]"
-# What stands before the name of a function where it is defined.
+# The words before a function's name at its definition.
 TYPES = r"(?:void|bool|u?int|float|[iu]?vec[234]|[A-Z]\w+)"
 
 

@@ -23,7 +23,7 @@ json& addChannel(GltfBuilder& builder, const json& target, const std::string& in
   return animation["channels"].back();
 }
 
-/// Of node 0, with float values of that type.
+/// Animates node 0, with float values of the accessor type `type`.
 json& animate(GltfBuilder& builder, const std::string& path, const std::string& type,
               const std::vector<float>& times, const std::vector<float>& values,
               const std::string& interpolation = "LINEAR") {

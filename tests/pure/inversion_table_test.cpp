@@ -100,7 +100,7 @@ TEST(InversionTable, DensityFollowsTheWeights) {
       if (weights[i] <= 0.0f) continue;
       EXPECT_GT(table.densities[i], 0.0f);
       moment += share * share * double(count) / double(table.densities[i]);
-      // What carries a tenth of the weight is drawn as often as it asks for.
+      // A place with a tenth of the weight is drawn in proportion to its weight.
       if (share > 0.1) {
         EXPECT_NEAR(table.densities[i] / double(count), share, 1e-3 * share)
             << "of " << count << ", place " << i;

@@ -124,7 +124,8 @@ TEST(ShaderBsdfAtRandom, NoWhiteMetalOrGlassGivesMoreThanItGets) {
   inEveryVariant([] {
     Draw draw(263);
     for (int k = 0; k < 16; ++k) {
-      // What plastic gains is glTF's own (ShaderBsdf.WhitePlasticGainsEnergyOnlyTowardsGrazing).
+      // Plastic is left out: glTF itself lets it gain energy
+      // (ShaderBsdf.WhitePlasticGainsEnergyOnlyTowardsGrazing).
       constexpr Kind kConserving[] = {Kind::Metal, Kind::SolidGlass, Kind::ThinGlass};
       const Boundary b = randomBoundary(draw, kConserving[k % 3], k % 4 == 0 ? 0.0 : 0.1, true);
       const Bsdf& side = k % 2 == 0 ? b.front : b.back;

@@ -194,8 +194,8 @@ TEST(ShaderEnvironment, DensityIntegratesToOneAndMissesNoLight) {
       dark += drawn ? 0 : 1;
       return 0.0;
     });
-    // Of the black half, all but the halves of two columns that filtering lights; half a column is no whole
-    // number of steps.
+    // The whole black half is dark, except for the halves of two columns that filtering lights. Half a column
+    // is no whole number of steps.
     EXPECT_NEAR(double(dark) / (kBands * kTurns * kInner * kInner), 15.0 / 32.0, 4e-3);
   }
 }

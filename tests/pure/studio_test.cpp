@@ -31,7 +31,7 @@ void forEachTexel(const Image& map, const Use& use) {
   }
 }
 
-/// Of a white diffuse surface.
+/// Returns the radiance of a white diffuse surface.
 double radianceOf(const Image& map, const glm::dvec3& normal) {
   double sum = 0.0;
   forEachTexel(map, [&](const glm::dvec3& direction, double solid, const float* texel) {
@@ -98,7 +98,7 @@ Image linearMap(int width) {
   return map;
 }
 
-/// What is left of X, which a mean over a neighbourhood scales by its mean cosine.
+/// Returns the factor by which a mean over a neighbourhood scales X: its mean cosine.
 double meanCosine(double sigma) {
   double cosine = 0.0;
   double all = 0.0;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What material extensions add to GltfSurface, written from their ratified texts: KHR_materials_clearcoat, _sheen, _anisotropy, _iridescence and
-_diffuse_transmission. No maps; the clearcoat's normal is the surface's."""
+"""Material extensions of GltfSurface, written from their ratified texts: KHR_materials_clearcoat, _sheen, _anisotropy,
+_iridescence and _diffuse_transmission. No maps; the clearcoat's normal is the surface's."""
 
 import drjit as dr
 import mitsuba as mi
@@ -118,7 +118,8 @@ class LayeredSurface(mi.BSDF):
         return mixed(bare, self.film.reflectance(f0, cosine), self.film_weight) if self.film_weight > 0 else bare
 
     def base(self, outgoing, image, transmitted):
-        """Of the material below sheen and clearcoat; image: the incoming direction, mirrored to the viewer's side if it is on the other."""
+        """Returns the BSDF of the material below sheen and clearcoat. `image` is the incoming direction, mirrored to
+        the viewer's side if it is on the other."""
         layer = specular_brdf(self.facets, self.turned(outgoing, self.turn), self.turned(image, self.turn))
         cosine = dr.dot(outgoing, dr.normalize(outgoing + image))
         dielectric = self.fresnel(mi.Color3f(self.f0), cosine)

@@ -33,7 +33,7 @@ def dot(a, b):
 
 @dataclass
 class Hits:
-    """What rays met; item is the index of a mesh or sphere, -1 for nothing."""
+    """The hits of rays; item is the index of a mesh or sphere, -1 for nothing."""
     distance: np.ndarray
     item: np.ndarray
     triangle: np.ndarray
@@ -147,7 +147,8 @@ class Tracer:
         return unit(local[:, :1] * tangent[:, :3] + local[:, 1:2] * bitangent + local[:, 2:] * normal)
 
     def passes(self, points):
-        """Where a ray goes on through a hole of MASK or, by chance, BLEND: decided once a crossing."""
+        """Returns true where a ray passes through a hole of MASK or, by chance, of BLEND. This is decided once for each
+        crossing."""
         mode = points.material.alpha_mode
         if mode == "MASK":
             return points.alpha < points.material.alpha_cutoff

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What makes the viewer pleasant: the first picture, the docked panel, undo, views with a name, comparison, enlarged pixels, help."""
+"""Tests of the viewer's comforts: the first picture, the docked panel, undo, views with a name, comparison, enlarged
+pixels, help."""
 import json
 import shlex
 import subprocess

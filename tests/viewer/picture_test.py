@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What the window shows and writes is what `render` draws: every toggle, camera, size and tone map."""
+"""The window shows and writes the picture that `render` draws, for every toggle, camera, size and tone map."""
 import math
 import re
 import shlex
