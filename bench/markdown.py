@@ -14,7 +14,7 @@ def wrapped(text):
 
 
 def table(head, rows):
-    """As lines, without the columns in which no row has anything but "-"."""
+    """Returns the lines of a table, without the columns in which no row has anything but "-"."""
     kept = [i for i in range(len(head)) if any(row[i] != "-" for row in rows)]
     lines = [head, ["---"] * len(head), *rows]
     return ["| " + " | ".join(line[i] for i in kept) + " |" for line in lines]

@@ -107,7 +107,7 @@ LightSample triangleLight(int emitter, float chance, vec3 point, float u, float 
   if (cosine <= 0.0f) return noLight();
   float pdf = chance * inverseArea * squared / cosine;
   vec3 radiance = emittedFrom(corner.w & kFaceMaterialMask, int(edge2.w), w, cosine);
-  // For MIS a moving one counts as large as it is at first, as emitterPdf() has it: any weights do that add up to 1.
+  // MIS uses a moving triangle's area at the beginning, as emitterPdf() does: any weights do that add up to 1.
   return makeLight(direction, distance, radiance / pdf, kMoving ? pdf * standing / inverseArea : pdf);
 }
 

@@ -33,7 +33,7 @@ constexpr int kReferenceFactor = 64;       // samples of a reference over the mo
 constexpr uint32_t kReferenceSeed = 7919;  // apart from those of the repetitions
 constexpr int kAdaptiveSteps = 6;          // goals, each half of the last
 
-/// As parsed, and what follows from it.
+/// The options as parsed, and values that follow from them.
 struct ErrorOptions {
   std::string scene;
   RawConfigurations raw;

@@ -34,7 +34,7 @@ const std::vector<std::string>& traversalNames() {
   return names;
 }
 
-/// As parsed, and what follows from it.
+/// The options as parsed, and values that follow from them.
 struct ScaleOptions {
   RawRender raw;
   RenderOptions render;  ///< resolution, device

@@ -3,7 +3,8 @@
 limits of them."""
 import re
 
-# By device: the message of the tracer's shader, and its figures by name. The first is what limits how many lanes are under way.
+# Patterns of a device's message about the tracer's shader, and of its figures by name. The first figure limits how many
+# lanes run at the same time.
 NUMBERS = {"GA102": {"registers": r"(\d+) Number of GPRs", "spills": r"(\d+) Spills to memory", "fills": r"(\d+) Fills from memory",
                      "warps": r"(\d+) Max warps/SM", "instructions": r"(\d+) Instruction count"},
            "navi21": {"registers": r"VGPRS: (\d+)", "spills": r"Spilled VGPRs: (\d+)", "waves": r"Max Waves: (\d+)", "bytes": r"Code Size: (\d+)"},

@@ -172,7 +172,7 @@ PARTS = {
 
 
 def table(results):
-    """As lines."""
+    """Returns the lines of the table."""
     rows, measured = [], {each["row"]: each for result in results["parts"].values() for each in result["rows"]}
     for name, aim in AIMS.items():
         if name not in measured and name.endswith(KEPT):

@@ -91,7 +91,7 @@ def theirs(options, described, sampler, spp):
 
 
 def measure(options, name, scene, sky, folder, known):
-    """By samples per pixel: the errors of both sides, and how far the means are apart."""
+    """Returns, for each number of samples per pixel, the errors of both sides, and how far the means are apart."""
     described = None if known else mitsuba_scene(options, scene, sky, folder)
     result = {}
     for spp in options.counts:

@@ -32,7 +32,7 @@ def lines_of(command):
 
 
 def measure(fragtrace, scene, rounds, resolution="1024,1024"):
-    """By kind of rays: (our row, Embree's row) of each turn."""
+    """Returns (our row, Embree's row) of each turn, by kind of rays."""
     turns = {}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kEnoughSamples = 64.0;  // from which on errors fall as 1 / N, or faster
 
-/// As drawn.
+/// Returns the curve of that name as it was drawn, without a filter, or null.
 const ErrorCurve* curveNamed(const ErrorReport& report, const std::string& name) {
   for (const ErrorCurve& curve : report.curves) {
     if (curve.name == name && curve.filter.empty()) return &curve;

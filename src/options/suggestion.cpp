@@ -16,7 +16,7 @@ struct OtherName {
   std::string_view ours;
 };
 
-/// As other renderers have it.
+/// Names of options in other renderers.
 constexpr std::array<OtherName, 25> kOtherNames = {{
     {"--samples", "--spp"},
     {"--samples-per-pixel", "--spp"},

@@ -70,7 +70,7 @@ std::vector<uint32_t> spacesOf(const Scene& scene) {
   return spaces;
 }
 
-/// For each vertex, the first one at the same place of the same space.
+/// Returns, for each vertex, the first vertex at the same place of the same space.
 std::vector<uint32_t> placesOf(const Scene& scene) {
   const std::vector<glm::vec3>& positions = scene.vertices.position;
   const std::vector<uint32_t> spaces = spacesOf(scene);

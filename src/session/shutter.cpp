@@ -95,7 +95,7 @@ class MomentReader {
   Moments moments_;
 };
 
-/// As few segments as keep the camera on its way.
+/// Returns the camera's segments, as few as keep it on its way.
 std::vector<CameraSegment> segmentsOfCamera(MomentReader& reader, const LoadedScene& loaded, double& off) {
   std::vector<CameraSegment> segments;
   for (uint32_t count = 1; count <= kMostSegments && reader.readEach(std::max(4u, 2 * count)); count *= 2) {

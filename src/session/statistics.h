@@ -90,7 +90,7 @@ struct Statistics {
   std::vector<Phase> phases;                 ///< up to the written picture
 };
 
-/// As JSON.
+/// Returns the statistics as JSON.
 std::string statisticsText(const Statistics& statistics);
 
 double megaPathsPerSecond(const Statistics& statistics);

@@ -182,7 +182,7 @@ class Selections(Case):
             self.assertRegex(run("info", scene).stdout, rf"(?s)GPU memory .*\n  cameras     {cameras}", scene)
 
     def test_the_up_axis_is_turned_to_y(self):
-        """As a node does that stands above all others."""
+        """--up turns the scene as a node above all others would."""
         plain = json.loads(run("info", SCENES / "transforms.gltf", "--json").stdout)["scene"]["bounds"]
         found = json.loads(run("info", SCENES / "transforms.gltf", "--json", "--up", "-z").stdout)["scene"]["bounds"]
         (x, y, z), (right, top, front) = plain["min"], plain["max"]

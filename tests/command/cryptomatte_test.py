@@ -44,7 +44,7 @@ class Cryptomatte(Case):
         return self.picture(self.scene(), "x.exr", "--resolution", "8,4", "--spp", 64, "--no-background", "--aov", "crypto-object,crypto-material", *options)
 
     def shares(self, exr, layer, x, y):
-        """By name."""
+        """Returns the shares of a pixel by name."""
         key = self.KEYS[self.NAMES.index(layer)]
         names = {number: name for name, number in json.loads(exr.texts[f"cryptomatte/{key}/manifest"]).items()}
         values = exr.pixel(x, y, *(layer + channel for channel in LAYERS))

@@ -127,7 +127,7 @@ class KnownLight(Case):
         self.assertAlmostEqual(with_sky[0] / with_sky[1], 0.1, delta=2e-3)
 
     def test_twice_the_intensity_doubles_every_value(self):
-        """As the camera sees it, too, blurred or not; for shadows on the catcher it makes no difference."""
+        """The environment that the camera sees is doubled too, blurred or not. Shadows on the catcher stay the same."""
         for scene, *options in (["environment-diffuse", "--hdri-file", SCENES / "sky.pfm"],
                                 ["environment-diffuse", "--hdri-file", SCENES / "sky.pfm", "--background-blur", "10"],
                                 ["furnace", "--studio"], ["furnace"]):

@@ -92,7 +92,8 @@ class Lens(Case):
         self.assertLess(2 * filtered, plain)
 
     def test_a_focus_beyond_all_distances(self):
-        """As far as the option goes, rays through the lens are parallel: the same picture as at a million metres."""
+        """At the largest distance of the option, rays through the lens are parallel: the picture is the same as at a
+        million metres."""
         near, far = (self.picture(str(SCENES / "cornell-box"), "x.pfm", "--resolution", "32,32", "--spp", 4, "--f-stop", 1, "--focus-distance", distance)
                      for distance in ("1e6", "1e30"))
         values = [[value for row in rows for pixel in row for value in pixel] for rows in (near, far)]

@@ -228,7 +228,7 @@ class UnevenParts(Parts):
         self.assertLess(sum(merged.values("variance.Y")), sum(Exr(adaptive).values("variance.Y")))
 
     def test_a_part_without_numbers_of_samples_is_none(self):
-        """As earlier versions wrote interrupted ones."""
+        """Earlier versions wrote interrupted pictures like this one."""
         part = self.part("a.exr", 0, 4)
         data = part.read_bytes()
         place = data.index(b"fragtrace:uniform\0string\0") + len(b"fragtrace:uniform\0string\0") + 4

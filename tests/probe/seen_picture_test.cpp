@@ -85,7 +85,7 @@ class Reprojection : public GlProbe {
     seenPasses.join(fresh.noisy, present, uploaded(past), most, passes);
     return imageOf(present.noisy, present.size);
   }
-  /// As the device keeps it.
+  /// Returns a picture as the device keeps it.
   static Image asIs(const Seen& now) {
     const SeenPicture present = uploaded(now);
     return imageOf(present.noisy, present.size);

@@ -276,7 +276,7 @@ GltfBuilder movingAndChanging() {
   return builder;
 }
 
-/// As three files: document, buffer and picture.
+/// Writes a scene as three files: document, buffer and picture.
 std::filesystem::path writeFiles(GltfBuilder& builder, const TemporaryFolder& folder) {
   builder.root["buffers"] = {{{"byteLength", builder.buffer().size()}, {"uri", "data.bin"}}};
   folder.write("data.bin", builder.buffer());

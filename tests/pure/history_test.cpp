@@ -128,7 +128,7 @@ TEST(History, AnAnimationThatHoldsTheCameraIsNoStep) {
   EXPECT_TRUE(state.posed);  // or it would be framed anew
 }
 
-/// As the loaded scene comes back with it.
+/// Changes the state as a newly loaded scene does.
 void loadAs(ViewState& state, const char* environment, const char* variant) {
   ViewedScene scene = *state.scene;
   scene.options.light.hdriFile = environment;

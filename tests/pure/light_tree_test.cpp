@@ -295,7 +295,7 @@ struct LitPlace {
   bool through = false;
 
   uint32_t packed() const { return glsl_double::packNormal(normal); }
-  /// As a light sample takes it.
+  /// Returns the normal as a light sample takes it.
   uint32_t receiver(bool tree) const { return tree && !through ? packed() : uint32_t(layout::kNoNormal); }
 };
 

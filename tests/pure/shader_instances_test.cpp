@@ -185,7 +185,7 @@ TEST(ShaderInstances, FromFarAwayEveryRayStopsAtTheFrontOfAClosedMesh) {
   }
 }
 
-/// As surfaceAt() of shaders/surface.glsl finds it.
+/// A point as surfaceAt() of shaders/surface.glsl finds it.
 struct Point {
   vec3 place;
   vec3 normal;

@@ -49,7 +49,7 @@ vec3 extremeDirection(Draw& draw) {
   return vec3(dvec3(r * std::cos(phi), r * std::sin(phi), z));
 }
 
-/// As scenes give it; the least roughness of sheen is that of material_layers.glsl.
+/// Makes a BSDF within the limits of scenes; the least roughness of sheen is that of material_layers.glsl.
 Bsdf extremeBase(Draw& draw, double metallic, double transmission) {
   const double indices[] = {1.0, 1.0004, 1.33, 1.5, 2.5};
   Bsdf b = makeBsdf(metallic, transmission, extreme(draw), indices[draw.integer(0, 4)],

@@ -124,7 +124,7 @@ class Panel(Case):
         before = viewer.rest()
         viewer.click("Environment")
         viewer.until(lambda s: s["focus"] == "popup", "the list")
-        # As many as there are files beside the scene, and the studio.
+        # The list has as many thumbnails as there are files beside the scene, and one of the studio.
         viewer.until(lambda s: s["thumbnails"] >= 1 + len(list(SCENES.glob("*.pfm"))), "pictures of them")
         viewer.click("environment sky.pfm")
         status = viewer.rest(lambda s: s["environment"].endswith("sky.pfm"), "chosen")

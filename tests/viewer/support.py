@@ -135,7 +135,7 @@ class Viewer:
         return self.wait(check, seconds, what)
 
     def wait(self, condition, seconds, what):
-        """As wait_for; an error tells what the viewer says of itself."""
+        """Does the same as wait_for; an error tells the viewer's own messages."""
         try:
             return wait_for(condition, seconds, what)
         except AssertionError as error:

@@ -109,7 +109,7 @@ bool hidesItself(const tinygltf::Node& node) {
   return !extension->second.Get("visible").Get<bool>();
 }
 
-/// By node: whether the user hides it.
+/// Returns, by node, true if the user hides it.
 std::vector<bool> chosenByUser(const Document& document, const std::vector<std::string>& toHide) {
   const auto& nodes = document.model.nodes;
   std::vector<bool> chosen(nodes.size(), false);

@@ -85,7 +85,7 @@ class Layers(dict):
         return self["color"].messages
 
     def save(self, path, *, exposure=None, tone_map=None, half=False, png_depth=8, no_dither=False):
-        """As Picture.save(); an .exr holds all layers."""
+        """Does the same as Picture.save(); an .exr holds all layers."""
         planes = {"" if name == "color" else name: np.asarray(layer) for name, layer in self.items()}
         _save(path, planes, self["color"], exposure, tone_map, half, png_depth, no_dither, self.channels)
 

@@ -87,7 +87,7 @@ class PictureMaker {
   SeenPasses seen_;
   std::unique_ptr<VarianceFilter> filter_;  ///< made when it is first needed
   GlTexture counted_;                       ///< a texel
-  // For the moment of a call.
+  // These are used within one call only.
   glm::ivec2 room_{0};
   GlTexture raw_;
   NoisyTextures fresh_;

@@ -42,7 +42,8 @@ class ViewPrograms {
   bool has(const RenderOptions& options) const;
   /// Compiles it if it is not there; what failed stays failed until forget().
   std::shared_ptr<ViewProgram> of(const RenderOptions& options);
-  /// As of(), but null if the program compiles in the background. That begins now unless another one does.
+  /// Returns the same as of(), but null if the program compiles in the background. That begins now unless
+  /// another one does.
   std::shared_ptr<ViewProgram> soon(const RenderOptions& options);
   /// Returns true if a program that was compiled aside has come since the last call.
   bool takeNews();

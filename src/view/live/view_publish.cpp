@@ -174,7 +174,7 @@ void ViewTracer::publish(Side& side) {
   if (std::optional<TracedPicture> picture = pictureOf(side)) exchange_.deliver(std::move(*picture));
 }
 
-/// As the window shows it, but for what the camera saw before.
+/// Returns a side's picture as the window shows it, but without reused samples of earlier views.
 Image ViewTracer::seenOf(Side& side) {
   const bool hasPast = side.samples < kNoPastFrom && side.memory.past.size.x > 0;
   const bool seen = denoises(side) && !hasPast && side.shownIn >= 0 &&

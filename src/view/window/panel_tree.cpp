@@ -82,7 +82,7 @@ void drawNodes(ViewState& state, Places& places, Task& task) {
   }
 }
 
-/// As high as its rows, up to the most.
+/// Begins a list that is as high as its rows, up to a limit.
 bool beginList(const char* id, size_t rows, ImGuiWindowFlags flags = 0) {
   const float line = ImGui::GetTextLineHeightWithSpacing();
   return ImGui::BeginChild(id, ImVec2(0.0f, line * std::min(float(rows) + 0.5f, kMostRows)), false, flags);

@@ -30,7 +30,7 @@ class Window {
   /// Until the window is closed. Throws what the tracing thread failed with, and InputError when the scene
   /// that was asked for could never be shown.
   void run();
-  /// For the tracing thread.
+  /// The contexts for the tracing thread.
   SharedContexts shared() const;
   /// The last of the status file: why the window is closed; empty: it was wanted.
   void end(const std::string& failure);

@@ -25,7 +25,7 @@ class FileDialog {
     return desktop_.busy() ? DialogKind::Desktop : list_ ? DialogKind::List : DialogKind::None;
   }
 
-  /// For a key that the list takes, by its code of view/key_table.h.
+  /// Handles a key that the list takes, by its code of view/key_table.h.
   void press(int code);
 
   struct News {

@@ -135,7 +135,7 @@ std::string reasonOf(const BusLibrary& library, int result, BusError& error) {
   return reason;
 }
 
-/// For extensions in any case: "*.[gG][lL][bB]".
+/// Returns a pattern that matches an extension in any case: "*.[gG][lL][bB]".
 std::string patternOf(const std::string& extension) {
   std::string pattern = "*";
   for (const char c : extension) {
