@@ -21,10 +21,10 @@ struct Wave {
   int first;     // row of the states of the first
   ivec2 corner;  // the first, in the film
   uint hits;     // the ray has hit a surface, which is to be shaded
-  uint misses;   // it has not; or the path has ended; or none has begun
+  uint misses;   // the ray has missed, the path has ended, or none has begun
   uint waiting;  // the path also waits for its shadow ray
   uint blocked;  // the shadow ray has hit something
-  uint rays;     // to be traced
+  uint rays;     // the ray is to be traced
   uint shadows;
   int steps;
   float cut;

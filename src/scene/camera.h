@@ -37,7 +37,8 @@ struct CameraOverrides {
   std::optional<glm::dvec3> viewUp{};
   std::optional<double> viewAngleDegrees{};
   std::optional<double> parallelScale{};  ///< half of the picture's height: an orthographic view
-  std::optional<glm::dvec2> lensShift{};  ///< to the right and up, in parts of the picture's width and height
+  /// Shift to the right and up, in parts of the picture's width and height.
+  std::optional<glm::dvec2> lensShift{};
   std::optional<Orbit> orbit{};
   bool fit = false;  ///< the camera is moved until the scene fills the picture; left to fitted() of fit.h
   /// A fit holds all of the space that the scene fills while it turns about the vertical axis through the

@@ -94,7 +94,7 @@ struct Material {
   std::string name;
   uint32_t number = 0;                    ///< number of the glTF material, from 1; the default one comes last
   std::string place{};                    ///< JSON pointer; empty: the default one
-  std::vector<std::string> extensions{};  ///< those that the file gives it
+  std::vector<std::string> extensions{};  ///< extensions that the file gives the material
   glm::vec4 baseColorFactor{1.0f};
   float metallicFactor = 1.0f;
   float roughnessFactor = 1.0f;
@@ -262,7 +262,7 @@ struct LightSource {
   std::string name;
   LightType type = LightType::Point;
   glm::dvec3 color{1.0};
-  double intensity = 1.0;  ///< in the file's units
+  double intensity = 1.0;  ///< intensity in the file's units
 };
 
 /// Light::intensity of such a light.
@@ -288,7 +288,7 @@ struct Camera {
   glm::dvec3 up{0.0, 1.0, 0.0};        ///< unit, orthogonal to forward
   double fovY = 0.7853981633974483;  ///< view angle, radians: vertical (perspective), of the circle (fisheye)
   double halfHeight = 1.0;           ///< half of the vertical extent, metres (orthographic)
-  glm::dvec2 shift{0.0};             ///< of the lens: to the right and up, in parts of width and height
+  glm::dvec2 shift{0.0};             ///< shift of the lens to the right and up, in parts of width and height
   double aspectRatio = 0.0;          ///< width / height; 0: not given
 };
 
@@ -335,7 +335,7 @@ struct SceneNode {
   std::string name;           ///< its name, or else its JSON pointer
   uint32_t index = 0;         ///< its place in the file
   int depth = 0;              ///< ancestors
-  bool hidden = false;        ///< it or an ancestor, by the file or by the user
+  bool hidden = false;        ///< the node or an ancestor is hidden, by the file or by the user
   bool hiddenInFile = false;  ///< hidden by the file alone
   bool mesh = false;          ///< true for a mesh, false for a sphere
   bool light = false;

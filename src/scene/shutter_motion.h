@@ -11,9 +11,9 @@ namespace fragtrace {
 /// pose in which their segment begins (scene/motion/moving_scene.h, bvh/moving_tree.h).
 struct ShutterMotion {
   uint32_t segments = 0;   ///< 0: surfaces stand still, and there is one pose
-  uint32_t vertices = 0;   ///< of one pose
-  uint32_t triangles = 0;  ///< of one segment
-  uint32_t spheres = 0;    ///< of one pose
+  uint32_t vertices = 0;   ///< number of vertices of one pose
+  uint32_t triangles = 0;  ///< number of triangles of one segment
+  uint32_t spheres = 0;    ///< number of spheres of one pose
   bool camera = false;     ///< the camera moves
 };
 

@@ -15,7 +15,7 @@ namespace fragtrace {
 namespace {
 
 constexpr uint32_t kMostSegments = layout::kMostCameraSegments;
-constexpr size_t kMostTriangles = size_t(1) << 26;  ///< of all segments
+constexpr size_t kMostTriangles = size_t(1) << 26;  ///< triangles of all segments together
 constexpr size_t kMostKeys = 64;
 constexpr double kMostPixels = 0.5;
 constexpr double kMostOfLamp = 0.005;

@@ -67,7 +67,7 @@ struct Statistics {
   bool defaultLight = false;
   std::string defaultLightReason;
   MotionStatistics motion;
-  std::optional<SunPlace> sun;  ///< of a sky
+  std::optional<SunPlace> sun;  ///< place of a sky's sun
   double clampIndirect = 0.0;   ///< 0: not clamped
   std::string lightSelection;   ///< name of the choice of lights; empty: there is none to choose
   std::string lightSelectionReason;
@@ -85,7 +85,7 @@ struct Statistics {
   int vectorWidth = 0;               ///< bits of the vectors that software computes with; 0: not known
   std::vector<std::string> skipped;  ///< "refraction: no transmissive material", ...
   std::vector<std::string> warnings;
-  double clockMs = steadyMilliseconds();     ///< when the command began
+  double clockMs = steadyMilliseconds();     ///< the time at which the command began
   double clockCpuMs = threadMilliseconds();  ///< processor time of its thread by then
   std::vector<Phase> phases;                 ///< up to the written picture
 };

@@ -158,7 +158,7 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
   const TraitSet present = traitsOf(loaded.scene, loaded.environment);
   const RenderOptions options = asDrawn(asked, present);
   const uint32_t depth = loaded.bvh.depth;
-  const BufferReads undecided = options.device.bufferReads;  // what is packed does not depend on it
+  const BufferReads undecided = options.device.bufferReads;  // packed data do not depend on it
   tracer.variant = choosePictureVariant(options, present, loaded.environment.kind, depth, undecided);
   ShaderVariant everything = tracer.variant;
   tracer.aovs.clear();

@@ -47,12 +47,12 @@ using StageSet = SetOf<Stage>;
 struct StageRow {
   Stage stage;
   const char* name;              ///< on the command line
-  const char* label;             ///< in the viewer
-  const char* sentence;          ///< in the help
+  const char* label;             ///< the name in the viewer
+  const char* sentence;          ///< the sentence in the help
   bool cumulative;               ///< --stage NAME turns on this and all cumulative rows before it
   bool standard;                 ///< a switch that is on unless turned off
   const char* constant;          ///< constant in the shader; null: always on
-  std::optional<Trait> needs{};  ///< it changes nothing without this trait
+  std::optional<Trait> needs{};  ///< the stage changes nothing without this trait
   Effect effect = Effect::Picture;
 };
 std::span<const StageRow> stageRows();

@@ -77,8 +77,8 @@ struct Sums {
   int pixels = 0;
   double a = 0;         ///< luminance of the picture
   double b = 0;         ///< luminance of the reference
-  double variance = 0;  ///< of a - b
-  double spread = 0;    ///< of each mean's variance^2 / degrees of freedom
+  double variance = 0;  ///< the variance of a - b
+  double spread = 0;    ///< the sum of each mean's variance^2 / degrees of freedom
 };
 
 bool differ(double a, double b) { return std::abs(a - b) > kFloatRounding * (std::abs(a) + std::abs(b)); }

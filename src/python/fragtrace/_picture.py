@@ -74,7 +74,7 @@ class Layers(dict):
 
     def __init__(self, *arguments, **layers):
         super().__init__(*arguments, **layers)
-        self.channels = {}  # of each layer, their names in a file
+        self.channels = {}  # the names in a file, by layer
 
     @property
     def statistics(self):

@@ -44,7 +44,7 @@ struct ShownTexture {
 /// The settings that make a side's picture.
 struct Showing {
   bool filtered = false;
-  bool byOidn = false;      ///< by OIDN, which must be there; else by variance
+  bool byOidn = false;      ///< Open Image Denoise filters, and must be there; else the variance filter
   int samples = 0;          ///< per pixel
   bool past = true;         ///< uses the picture of the view before
   double expectedMs = 0.0;  ///< time of layers and variance filter, 0: not known

@@ -16,7 +16,7 @@
 namespace fragtrace {
 
 struct ViewProgram {
-  RenderOptions options;  ///< as far as a program depends on them
+  RenderOptions options;  ///< the options on which a program depends
   Tracer tracer;
   std::string variant;
   size_t bytes = 0;                    ///< on the device

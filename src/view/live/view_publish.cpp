@@ -99,7 +99,7 @@ bool ViewTracer::show(Side& side, bool past, const std::function<bool()>& goOn) 
     throw;
   } catch (const RenderError& error) {
     if (!filtered) throw;
-    tracer.renderer->use(tracer.variant);  // it may have been at a layer
+    tracer.renderer->use(tracer.variant);  // the renderer may have drawn a layer
     exchange_.tellError(error.what());
     complete = maker_->show(*side.film, {}, side.options, tracer, side.view, side.memory, into, goOn);
   }

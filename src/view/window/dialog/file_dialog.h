@@ -53,7 +53,7 @@ class FileDialog {
   Background<FolderContent> reading_;
   std::optional<FolderList> list_;
   std::filesystem::path chosen_;
-  double asked_ = 0.0;    ///< when the desktop was, in seconds; infinite: and the user knows
+  double asked_ = 0.0;    ///< the time at which the desktop was asked, in seconds; infinite: the user knows
   bool popup_ = false;    ///< Dear ImGui has one open for the list
   bool scrolls_ = false;  ///< the next frame scrolls to the chosen entry
   int field_ = 0;         ///< a new value makes Dear ImGui reload the text that is edited
