@@ -26,7 +26,7 @@ OF_ASSETS = ([], ["--schedule", "wavefront"], ["--stage", "normal-maps"])
 
 
 def rows():
-    """(scene, options) of each picture."""
+    """Yields (scene, options) of each picture."""
     for scene in sorted((ROOT / "scenes").glob("*.gltf")):
         yield scene, []
         yield scene, ["--schedule", "wavefront"]
@@ -77,7 +77,7 @@ def differences(programs, scene, options, folder):
 
 
 def build(folder, commit):
-    """The programs by side."""
+    """Builds both programs and returns them by side."""
     clone = folder / commit
     if not clone.exists():
         subprocess.run(["git", "clone", "--quiet", ROOT, clone], check=True)

@@ -17,7 +17,7 @@ def lines_of(path):
 
 
 def brief(ms):
-    """Two figures or three."""
+    """Formats a number with two or three figures."""
     return f"{ms:,.{2 if ms < 1 else 1 if ms < 100 else 0}f}"
 
 

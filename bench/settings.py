@@ -49,7 +49,7 @@ def arguments():
 
 
 def timed(options, name, json, against):
-    """The status of bench frame."""
+    """Runs bench frame and returns its status."""
     scene, own = SETTINGS[name]
     print(f"\n{name}", flush=True)
     command = [options.program.resolve(), "bench", "frame", SCENES / f"{scene}.gltf", "--resolution", "256,256", "--rounds", str(options.rounds),

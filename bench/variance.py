@@ -57,7 +57,7 @@ def luminance(path):
 
 
 def render(options, program, more, picture):
-    """Milliseconds that drawing took."""
+    """Returns the milliseconds that drawing took."""
     told = picture.with_suffix(".json")
     subprocess.run([program.resolve(), "render", options.scene.resolve(), "-o", picture, "--stats", told, "--quiet", "--resolution", options.resolution, *more],
                    check=True, env={**os.environ, "MESA_SHADER_CACHE_DISABLE": "true"}, preexec_fn=lambda: os.sched_setaffinity(0, {min(os.sched_getaffinity(0))}))

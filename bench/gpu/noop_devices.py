@@ -67,7 +67,7 @@ def made():
 
 
 def compile_texts(system, device, files, timeout=1800):
-    """Standard output of compile_texts.py there, for files of the host. Raises RuntimeError."""
+    """Returns the standard output of compile_texts.py there, for files of the host. Raises RuntimeError."""
     kind, environment = DEVICES[device]
     folder = system.root / "root/texts"
     shutil.rmtree(folder, ignore_errors=True)

@@ -91,7 +91,7 @@ def stress_cells(seed, lines):
 
 
 def motion_rows(name, lines):
-    """A row for each mode of `bench motion`."""
+    """Yields a row for each mode of `bench motion`."""
     for line in lines:
         for row in line["rows"]:
             pictures = max(row["pictures"], 1)
@@ -112,7 +112,7 @@ def start_rows(name, lines):
 
 
 def pace_rows(name, lines):
-    """Times from one picture of `bench motion` to the next."""
+    """Yields the times from one picture of `bench motion` to the next."""
     for line in lines:
         for row in line["rows"]:
             gaps = sorted(row["gap_ms"])

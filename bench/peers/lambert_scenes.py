@@ -32,7 +32,8 @@ def bounds(root):
 
 
 def as_lambert(folder, source, keep_emission):
-    """A copy of an asset with grey matt materials and flat faces, and a camera in front of it, somewhat above."""
+    """Writes a copy of an asset with grey matt materials and flat faces, and a camera in front of it, somewhat
+    above."""
     source = Path(source).resolve()
     root = json.loads(source.read_text(encoding="utf-8"))
     for file in root["buffers"] + (root["images"] if keep_emission else []):

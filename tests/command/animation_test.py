@@ -35,7 +35,7 @@ class Gltf:
 
 
 def cylinder(around=16, along=12):
-    """Positions, normals, triangles of a tube of radius 0.5 from y = 0 to 2."""
+    """Returns positions, normals and triangles of a tube of radius 0.5 from y = 0 to 2."""
     positions, normals, triangles = [], [], []
     for j in range(along + 1):
         for i in range(around + 1):
@@ -60,7 +60,7 @@ def weight(position):
 
 
 def turned(v, degrees):
-    """About z."""
+    """Turns a vector about z."""
     c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     return (c * v[0] - s * v[1], s * v[0] + c * v[1], v[2])
 
@@ -103,7 +103,7 @@ def animated(path):
 
 
 def baked(path, seconds):
-    """The same at that time, as plain triangles."""
+    """Writes the pose at that time as plain triangles."""
     gltf = Gltf()
     positions, normals, triangles = cylinder()
     part = seconds / 2

@@ -15,7 +15,7 @@ QUICK = ["--quiet", "--rounds", "2", "--round-time", "0.001", *SIZE]
 
 class Frame(Case):
     def frame(self, *arguments, status=0, scenes=(BOX,)):
-        """The result, and the lines of --json by scene and configuration."""
+        """Returns the result, and the lines of --json by scene and configuration."""
         path = self.folder / "frames.json"
         result = run("bench", "frame", *scenes, "--json", path, *arguments)
         self.assertEqual(result.returncode, status, result.stderr)

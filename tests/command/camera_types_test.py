@@ -64,7 +64,7 @@ class CameraTypes(Case):
         self.assertIn("+fisheye", "".join(exr.texts.values()))
 
     def test_outside_of_the_circle_no_light_is_seen(self):
-        """Neither the environment nor fog, at any stage."""
+        """Neither the environment nor fog is seen there, at any stage."""
         for options in (("--sky",), ("--fog-density", "0.5"), ("--sky", "--shadow-catcher", "bottom")):
             exr = self.picture(BOX, "x.exr", "--resolution", "32,16", "--spp", 2, "--camera-type", "fisheye", "--camera-view-angle", 90, "--aov", "denoising", *options)
             for y in range(16):

@@ -20,8 +20,9 @@ class Cryptomatte(Case):
     KEYS = ("3ae39a5", "be359d6")
 
     def scene(self):
-        """Seen from the front, 8 x 4 pixels of half a metre each. The edge between left and right cuts column 4 at a quarter, and both end
-        in the middle of the top and the bottom row. A veil of alpha 0.5 covers columns 0 and 1; left begins in column 1."""
+        """Makes a scene that is seen from the front, with 8 x 4 pixels of half a metre each. The edge between left and
+        right cuts column 4 at a quarter, and both end in the middle of the top and the bottom row. A veil of alpha 0.5
+        covers columns 0 and 1; left begins in column 1."""
         gltf = quad({"name": "bunny", "doubleSided": True})
         gltf["materials"] += [{"name": "red"}, {"pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.5]}, "alphaMode": "BLEND"}]
         for material in (1, 2):

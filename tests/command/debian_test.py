@@ -62,7 +62,7 @@ class InDebian(Case):
         cls.place = Path(cls.enterClassContext(tempfile.TemporaryDirectory(dir=KEPT)))
 
     def fresh(self):
-        """One with two scenes in the user's home folder."""
+        """Returns a fresh system with two scenes in the user's home folder."""
         debian = Debian(self.enterContext(tempfile.TemporaryDirectory(dir=self.place)), self.release)
         shutil.copy(SCENES / "cornell-box.gltf", debian.home / "box.gltf")
         (debian.home / "draco.gltf").write_text(json.dumps(draco_scene()))
@@ -197,7 +197,7 @@ class OtherRelease(PackageChecks, WheelChecks, InDebian):
         cls.wheel = next((clone / "dist").glob("*.whl"))
 
     def pictures(self, driver, environment=""):
-        """All reference pictures by EGL, with that driver."""
+        """Draws all reference pictures by EGL, with that driver."""
         box = "build/fragtrace render scenes/cornell-box.gltf --spp 1 --quiet -o /tmp/box.pfm --stats -"
         self.assertIn(driver, self.does(self.builder.run(f"cd {self.clone} && {environment} {box}")))
         self.does(self.builder.run(f"cd {self.clone} && {environment} ctest --test-dir build -j 2 -R '^picture.*egl$'", timeout=5400))

@@ -65,7 +65,7 @@ class DebugViews(Case):
                 "--spp", 4, "--quiet"]
 
     def shown(self, view, *options, scale=2):
-        """Display values, rows from the top."""
+        """Returns display values, rows from the top."""
         path = self.folder / "x.pfm"
         self.renders(self.card(), "-o", path, *self.view(scale), "--debug-view", view, *options)
         return [[tuple(map(encoded, pixel)) for pixel in row] for row in read_pfm(path)]

@@ -45,7 +45,7 @@ def edge(values, reach):
 
 class DenoisedCase(Case):
     def both(self, scene, spp, *options):
-        """Luminances as drawn and filtered."""
+        """Returns the luminances as drawn and as filtered."""
         path = self.folder / "d.exr"
         self.renders(scene, "-o", path, "--quiet", "--resolution", f"{SIDE},{SIDE}", "--spp", spp, *FILTER, *options)
         exr = Exr(path)

@@ -20,7 +20,7 @@ FROM_ACES = ((1.60475, -0.53108, -0.07367), (-0.10208, 1.10813, -0.00605), (-0.0
 
 
 def shown(color):
-    """The bytes of three.js' ACESFilmicToneMapping and gamma 2.2."""
+    """Returns the bytes of three.js' ACESFilmicToneMapping and gamma 2.2."""
     v = [sum(m * c / 0.6 for m, c in zip(row, color)) for row in TO_ACES]
     v = [(x * (x + 0.0245786) - 0.000090537) / (x * (0.983729 * x + 0.4329510) + 0.238081) for x in v]
     return [255 * max(sum(m * x for m, x in zip(row, v)), 0) ** (1 / 2.2) for row in FROM_ACES]

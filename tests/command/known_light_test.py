@@ -227,7 +227,7 @@ class KnownLight(Case):
             self.assertEqual(any(text.startswith("energy-compensation of rough glass") for text in skipped), wanted, options)
 
     def glass_sphere(self, surface, *thickness):
-        """A sphere of radius 1 about a camera."""
+        """Makes a sphere of radius 1 about a camera."""
         volume = {"KHR_materials_volume": {"thicknessFactor": thickness[0]}} if thickness else {}
         return {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
                 "nodes": [{"extras": {"shape": 0, "material": 0}}, {"camera": 0}],

@@ -298,7 +298,7 @@ class LayerFiles(Case):
             return self.folder / name
 
         def told(*files):
-            """The chance; tiles with noise; tiles by their p."""
+            """Returns the chance, the number of tiles with noise, and the numbers of tiles by their p."""
             chance, noisy, _, tiles = run("diff", *files, "--metric", "bias").stdout.splitlines()
             return float(chance), int(noisy.split()[0]), [int(word) for word in tiles.split(":")[1].split()]
         aov = ("--aov", "variance")

@@ -80,7 +80,7 @@ class Encodings(Case):
 
 
 def times(point, matrix):
-    """(x, y, z, 1) M, rows of four, divided by w."""
+    """Returns (x, y, z, 1) M, rows of four, divided by w."""
     row = (*point, 1.0)
     result = [sum(row[i] * matrix[4 * i + c] for i in range(4)) for c in range(4)]
     return [value / result[3] for value in result[:3]]

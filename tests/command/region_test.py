@@ -17,7 +17,7 @@ SIZE = (60, 45)
 
 class Cut(Case):
     def drawn(self, name, *options, scene=BOX, size=SIZE):
-        """The file, and the statistics."""
+        """Returns the path of the file, and the statistics."""
         path, stats = self.folder / name, self.folder / "s.json"
         self.renders(scene, "-o", path, "--quiet", "--resolution", "%d,%d" % size, "--stats", stats, *options)
         return path, json.loads(stats.read_text())

@@ -125,7 +125,7 @@ class ShadowCatcher(CatcherCase):
         self.assertGreater(max(exr.layers["A"][24][:3]) + max(exr.layers["A"][1]), 0)  # without a catcher, the ball alone fills it
 
     def test_what_is_half_there_casts_half_a_shadow(self):
-        """A sheet of alpha 0.5 over the camera."""
+        """A sheet of alpha 0.5 lies over the camera."""
         sheet = {"mesh": 0, "rotation": [-0.70710678, 0, 0, 0.70710678], "scale": [1e4, 1e4, 1e4], "translation": [0, 1, 0]}
         half = BLACK | {"alphaMode": "BLEND", "doubleSided": True, "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 0.5]}}
         scene = self.scene("sheet", [sheet], [half], [({"rotation": [-0.7071, 0, 0, 0.7071]}, {"type": "directional", "intensity": 2})])

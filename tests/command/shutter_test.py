@@ -51,7 +51,7 @@ def animated_sphere(path, **keys):
 
 
 def wheel_with(path, name, times, values):
-    """scenes/wheel.gltf with other keys of one node."""
+    """Writes scenes/wheel.gltf with other keys of one node."""
     root = json.loads((SCENES / "wheel.gltf").read_text())
     path.with_name("wheel.bin").write_bytes((SCENES / "wheel.bin").read_bytes())
     channel = next(c for c in root["animations"][0]["channels"] if root["nodes"][c["target"]["node"]]["name"] == name)

@@ -58,7 +58,7 @@ class Studio(Case):
 
 
 def linear_map(path, width=256):
-    """Green 1 + X, blue 1 + Y of the direction."""
+    """Writes a map with green 1 + X and blue 1 + Y of the direction."""
     rows = []
     for y in reversed(range(width // 2)):
         polar = math.pi * (y + 0.5) / (width // 2)

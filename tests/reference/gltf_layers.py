@@ -109,7 +109,7 @@ class LayeredSurface(mi.BSDF):
         self.m_flags = self.m_components[0] | self.m_components[1]
 
     def turned(self, v, angle):
-        """From the shading frame to that of the facets, or back by the negative angle."""
+        """Turns a vector from the shading frame to that of the facets, or back by the negative angle."""
         c, s = float(np.cos(angle)), float(np.sin(angle))
         return mi.Vector3f(c * v.x + s * v.y, c * v.y - s * v.x, v.z)
 

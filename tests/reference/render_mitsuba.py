@@ -286,7 +286,7 @@ def check_environment(scene, texels, rotation_degrees):
 
 
 def described(scene, entry, scratch):
-    """The scene as a dictionary, without its environment."""
+    """Returns the scene as a dictionary, without its environment."""
     width, height = entry["resolution"]
     options = dict(zip(entry["options"][::2], entry["options"][1::2]))
     compensated = options.get("--disable") != "energy-compensation"

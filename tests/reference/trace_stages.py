@@ -76,7 +76,7 @@ class Tracer:
 
     @staticmethod
     def meet_triangles(hits, index, mesh, origin, direction):
-        """Moeller and Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997."""
+        """Intersects triangles by Moeller and Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997."""
         for k, (a, b, c) in enumerate(mesh.positions):
             edge1, edge2 = b - a, c - a
             p = np.cross(direction, edge2)
@@ -157,7 +157,8 @@ class Tracer:
         return np.zeros(len(points.alpha), bool)
 
     def solid_hits(self, origin, direction):
-        """Distances to the nearest surfaces without holes, and for each item the rays that met it with their points."""
+        """Returns the distances to the nearest surfaces without holes, and for each item the rays that met it with
+        their points."""
         hits = self.nearest(origin, direction)
         distance, groups = hits.distance.copy(), []
         for index in np.unique(hits.item[hits.item >= 0]):
@@ -231,7 +232,7 @@ class Tracer:
     # Paths
 
     def radiance(self, origin, direction):
-        """Expected radiance along camera rays."""
+        """Returns the expected radiance along camera rays."""
         result = np.zeros((len(origin), 3))
         ray = np.arange(len(origin))
         weight, scatterings, splits = np.ones((len(origin), 3)), np.zeros(len(origin), int), np.zeros(len(origin), int)
@@ -323,7 +324,7 @@ def select(points, kept):
 
 
 def camera_rays(camera, width, height, x, y):
-    """Rays through picture coordinates in pixels, (0, 0) the top left corner."""
+    """Returns the rays through picture coordinates in pixels, with (0, 0) at the top left corner."""
     to_world = camera.to_world
     across, up = (2 * x / width - 1) * width / height, 1 - 2 * y / height
     if camera.yfov:
