@@ -25,7 +25,7 @@ def main():
     tiles = []
     with tempfile.TemporaryDirectory() as folder:
         def draw(program, scene, name, spp):
-            """The picture's path, and the milliseconds that drawing took."""
+            """Returns the picture's path, and the milliseconds that drawing took."""
             picture, told = Path(folder) / f"{name}.png", Path(folder) / "stats.json"
             light = ["--hdri-file", "scenes/sky.pfm"] if scene == "rough-glass" else []
             subprocess.run([program.resolve(), "render", f"scenes/{scene}.gltf", "-o", picture, "--resolution", "400,300", "--spp", str(spp),

@@ -12,7 +12,7 @@ from pathlib import Path
 
 
 def commands(svg, png):
-    """The ways, best first."""
+    """Yields the commands that can convert a chart, best first."""
     yield ["rsvg-convert", "--zoom", "1.5", "-o", png, svg]
     yield ["inkscape", "--export-dpi", "144", "-o", png, svg]
     yield ["magick", "-density", "144", svg, png]

@@ -30,7 +30,7 @@ def main():
     filters = [f for f in FILTERS if f != "oidn" or a.oidn_library]
 
     def render(scene, stem, *options):
-        """As .exr, whose error is known, and as .png, which is looked at."""
+        """Draws a scene as .exr, whose error is known, and as .png, to look at."""
         files = [folder / (stem + ending) for ending in (".exr", ".png")]
         for file in files:
             if not file.exists():

@@ -35,7 +35,7 @@ TITLES = {"cornell-box": "Cornell box", "matt-ball": "matt ball under lightroom_
 
 
 def scenes(assets, folder):
-    """What `render` gets of each."""
+    """Returns the arguments of `render` for each scene."""
     room = ["--hdri-file", assets / "env/lightroom_14b.hdr"]
     own = REPOSITORY / "scenes"
     return {"cornell-box": [own / "cornell-box.gltf"],

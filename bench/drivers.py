@@ -30,7 +30,7 @@ def difference(picture, first):
 
 
 def draw(command, scene, options, folder):
-    """Million paths a second, milliseconds of compilation, the picture, the driver."""
+    """Returns million paths per second, milliseconds of compilation, the picture and the driver."""
     picture, stats = folder / "picture.pfm", folder / "stats.json"
     subprocess.run([*shlex.split(command), "render", scene, *options, "--quiet", "-o", picture, "--stats", stats], check=True,
                    env={**os.environ, "MESA_SHADER_CACHE_DISABLE": "true"})

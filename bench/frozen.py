@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Whether the program still draws what it drew at an earlier commit: pictures, the SPIR-V of its shaders, and the keys of --stats.
+"""Tells whether the program still draws the same as at an earlier commit: pictures, the SPIR-V of its shaders, and the keys of --stats.
 
 usage: frozen.py COMMIT [--folder DIR] [--only WORD]
 Builds the commit in DIR (default /tmp/fragtrace-frozen) and the working tree in build, and draws about 190 pictures by both. Where the SPIR-V of a picture's
@@ -26,7 +26,7 @@ OF_ASSETS = ([], ["--schedule", "wavefront"], ["--stage", "normal-maps"])
 
 
 def rows():
-    """(scene, options) of each picture."""
+    """Yields (scene, options) of each picture."""
     for scene in sorted((ROOT / "scenes").glob("*.gltf")):
         yield scene, []
         yield scene, ["--schedule", "wavefront"]
@@ -62,7 +62,7 @@ def draw(program, scene, options, folder):
 
 
 def differences(programs, scene, options, folder):
-    """What of a row differs, in words."""
+    """Returns in words the parts of a row that differ."""
     before, now = (draw(program, scene, options, folder / side) for side, program in programs.items())
     found = [what for what, a, b in (("picture", before[0], now[0]), ("statistics", before[2], now[2]), ("messages", before[3], now[3])) if a != b]
     if before[1] != now[1]:
@@ -77,7 +77,7 @@ def differences(programs, scene, options, folder):
 
 
 def build(folder, commit):
-    """The programs by side."""
+    """Builds both programs and returns them by side."""
     clone = folder / commit
     if not clone.exists():
         subprocess.run(["git", "clone", "--quiet", ROOT, clone], check=True)

@@ -29,7 +29,7 @@ def render(shot, assets, folder, spp):
 
 
 def reduced(path, size, curve=lambda values: values):
-    """Over black, after this curve."""
+    """Returns a picture at this size, over black, after this curve."""
     image = Image.open(path).convert("RGBA").resize(size, Image.LANCZOS)
     pixels = np.asarray(image).astype(float) / 255
     return curve(pixels[..., :3]) * pixels[..., 3:]
@@ -40,7 +40,7 @@ def psnr(a, b):
 
 
 def srgb(values):
-    """Values with the sRGB curve in place of gamma 2.2."""
+    """Returns values with the sRGB curve in place of gamma 2.2."""
     linear = values ** 2.2
     return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
 

@@ -14,19 +14,19 @@ def wrapped(text):
 
 
 def table(head, rows):
-    """As lines, without the columns in which no row has anything but "-"."""
+    """Returns the lines of a table, without the columns in which no row has anything but "-"."""
     kept = [i for i in range(len(head)) if any(row[i] != "-" for row in rows)]
     lines = [head, ["---"] * len(head), *rows]
     return ["| " + " | ".join(line[i] for i in kept) + " |" for line in lines]
 
 
 def names(text):
-    """Of the tables that a document has marks for."""
+    """Returns the names of the tables for which a document has marks."""
     return [found[1] for found in BLOCK.finditer(text)]
 
 
 def marks(text):
-    """As names(). Raises ValueError where a mark has no end or an end no mark."""
+    """Returns the same as names(). Raises ValueError where a mark has no end or an end has no mark."""
     if not len(names(text)) == text.count(BEGIN.split("{")[0]) == text.count(END):
         raise ValueError(f'"{BEGIN.format("NAME")}" and "{END}" do not come in pairs')
     return names(text)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Whether a program draws scenes slower than an older one: CPU seconds of whole renders, in turn, with intervals.
+"""Tells whether a program draws scenes slower than an older one: CPU seconds of whole renders, in turn, with intervals.
 
 usage: pairs.py BEFORE NOW SCENE... [--hdri-file FILE] [--pairs N] [--resolution W,H] [--spp N] [--jobs N] [--json FILE] [--options "..."]
 Each pair is one render by either program, start and compilation included. The table says now / before as the mean of the paired ratios (of their
@@ -46,7 +46,7 @@ def arguments():
 
 
 def cpu_seconds(program, scene, options, processor, folder):
-    """Of the process, and of those that it waits for."""
+    """Returns the CPU seconds of the process and of those that it waits for."""
     command = [program.resolve(), "render", scene, "--resolution", options.resolution, "--spp", options.spp, "--quiet",
                "-o", folder / f"{processor}.pfm", *shlex.split(options.options)]
     command += ["--hdri-file", options.hdri_file] if options.hdri_file else []

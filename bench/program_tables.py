@@ -17,7 +17,7 @@ def lines_of(path):
 
 
 def brief(ms):
-    """Two figures or three."""
+    """Formats a number with two or three figures."""
     return f"{ms:,.{2 if ms < 1 else 1 if ms < 100 else 0}f}"
 
 
@@ -62,7 +62,8 @@ def report_times(path):
 
 
 def ratios(over, under, less=None):
-    """Of two settings, round by round; the times of `less` are taken from both. Empty where no time remains."""
+    """Returns the ratios of two settings' times, round by round. The times of `less` are subtracted from both. The list
+    is empty if no time remains."""
     fixed = less["round_frame_ms"] if less else [0] * len(over["round_frame_ms"])
     pairs = [(a - c, b - c) for a, b, c in zip(over["round_frame_ms"], under["round_frame_ms"], fixed)]
     return [a / b for a, b in pairs] if all(b > 0 for _, b in pairs) else []

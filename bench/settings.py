@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Whether something got slower on this machine: ten settings, each timed by `bench frame` against a file of before.
+"""Tells whether something got slower on this machine: ten settings, each timed by `bench frame` against a file of before.
 
 usage: settings.py FRAGTRACE BASELINE [--rounds N] [--tolerance PART] [--only NAME,...] [--renew]
 BASELINE is made where there is none, and by --renew; keep it with the machine, since it holds milliseconds. Status 1: a setting takes longer
@@ -49,7 +49,7 @@ def arguments():
 
 
 def timed(options, name, json, against):
-    """The status of bench frame."""
+    """Runs bench frame and returns its status."""
     scene, own = SETTINGS[name]
     print(f"\n{name}", flush=True)
     command = [options.program.resolve(), "bench", "frame", SCENES / f"{scene}.gltf", "--resolution", "256,256", "--rounds", str(options.rounds),

@@ -6,11 +6,12 @@ FILE_ENDINGS = {"vertex": "vert", "fragment": "frag", "compute": "comp"}  # by k
 
 
 def sections(file):
-    """Kind and text of each shader. Without the names of files in #line (GL_ARB_shading_language_include), which few compilers know."""
+    """Yields kind and text of each shader, without the names of files in #line (GL_ARB_shading_language_include), which
+    few compilers know."""
     for kind, text in re.findall(r"^\[(\w+) shader\]\n(.*?)(?=^\[|\Z)", file.read_text(), re.MULTILINE | re.DOTALL):
         yield kind, re.sub(r'^(#line \d+) ".*"$', r"\1", text, flags=re.MULTILINE).rstrip("\n") + "\n"
 
 
 def captured(folder):
-    """Sections of all files."""
+    """Returns the sections of all files."""
     return {section for file in folder.iterdir() for section in sections(file)}

@@ -60,7 +60,7 @@ def denoise(filter_name, what, folder):
     return denoise_table.tables_of(folder, filter_name)[what]
 
 
-# What tables there are: the place of the data, and what makes lines of them.
+# The tables: each has the place of its data and the function that makes lines of text of them.
 TABLES = {"report": ("report.json", program_tables.report_times),
           "report shapes": ("report.json", program_tables.report_shapes),
           "scale": ("scale.json", program_tables.scale_times),
@@ -79,7 +79,8 @@ def tables_of(data, names):
 
 
 def faults_of(document, data, is_check):
-    """What is wrong with the marks of a document and, with is_check, its tables, which are written without it."""
+    """Yields the faults of a document's marks and, with is_check, of its tables. Without is_check the tables are
+    written."""
     text = document.read_text(encoding="utf-8")
     try:
         names = markdown.marks(text)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""How many times sooner one way of drawing a scene reaches an error than another, by variance x CPU seconds.
+"""Measures how many times sooner one way of drawing a scene reaches an error than another, by variance x CPU seconds.
 
 usage: variance.py SCENE [--before "OPTIONS"] [--now "OPTIONS"] [--before-program FRAGTRACE] [--program FRAGTRACE]
                    [--resolution W,H] [--spp BEFORE,NOW] [--seeds N] [--reference TIMES] [--without NODE,...] [--rough] [--part X,Y,W,H]
@@ -57,7 +57,7 @@ def luminance(path):
 
 
 def render(options, program, more, picture):
-    """Milliseconds that drawing took."""
+    """Returns the milliseconds that drawing took."""
     told = picture.with_suffix(".json")
     subprocess.run([program.resolve(), "render", options.scene.resolve(), "-o", picture, "--stats", told, "--quiet", "--resolution", options.resolution, *more],
                    check=True, env={**os.environ, "MESA_SHADER_CACHE_DISABLE": "true"}, preexec_fn=lambda: os.sched_setaffinity(0, {min(os.sched_getaffinity(0))}))

@@ -28,7 +28,7 @@ class Command:
 
 
 def sections(text):
-    """Title: (first column, description) of each entry."""
+    """Returns the sections of a help text: {title: (first column, description) of each entry}."""
     found, title, lines = {}, None, text.splitlines()
     for line, after in zip(lines, [*lines[1:], ""]):
         if re.fullmatch(r"[A-Z]\w*:", line):
@@ -50,7 +50,7 @@ def command(program, words):
 
 
 def commands(program, words=()):
-    """The program itself, then its commands, each before those that it groups."""
+    """Returns the program itself, then its commands, each before those that it groups."""
     own = command(program, list(words))
     found = [own]
     for name, _ in own.sections.get("Subcommands", []):
@@ -59,7 +59,8 @@ def commands(program, words=()):
 
 
 def readable(name):
-    """'--time FLOAT:FLOAT in [0.01 - 1e+07]' as option, values, default. CLI11 2.1 writes defaults as 'INT=64', 2.4 as 'INT [64]'."""
+    """Splits a first column, such as '--time FLOAT:FLOAT in [0.01 - 1e+07]', into option, values, default. CLI11 2.1
+    writes defaults as 'INT=64', 2.4 as 'INT [64]'."""
     option, _, kind = name.partition(" ")
     limits = re.search(r" in \[(\S+) - (\S+)\]", kind)
     default = re.search(r"=(\S*)| \[(\S*)\]", kind.replace(limits[0], "") if limits else kind)
@@ -67,13 +68,14 @@ def readable(name):
 
 
 def kind_of(name):
-    """FILE, TEXT, INT, AZIMUTH,ELEVATION[,ZOOM], ... of '--output FILE REQUIRED'; '' for a switch."""
+    """Returns the value's kind (FILE, TEXT, INT, AZIMUTH,ELEVATION[,ZOOM], ...) of '--output FILE REQUIRED'; '' for a
+    switch."""
     found = re.match(r"\S+ ([A-Z]+(?:\[?,[A-Z]+\]?)*)", name)
     return found[1] if found else ""
 
 
 def takes_several(name):
-    """Whether its value is a list with commas."""
+    """Returns true if the option's value is a list with commas."""
     return " ..." in name
 
 
@@ -92,5 +94,5 @@ def choices(name, text, others):
 
 
 def extensions(text):
-    """Of the files that a value may name, without dots."""
+    """Returns the extensions of the files that a value may name, without dots."""
     return list(dict.fromkeys(re.findall(r"(?<!\w)\.([a-z]{3,4})\b", text))) or (["json"] if "JSON" in text else [])

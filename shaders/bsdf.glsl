@@ -14,15 +14,15 @@ struct Bsdf {
   float alpha;     // GGX width, roughness squared
   bool mirrorLike; // so smooth that its specular lobes are delta lobes
   bool solid;      // glass bounds a volume, else thin-walled
-  float glassLost;  // of the light on rough glass, what facets lose and scatteredGlass() gives back
+  float glassLost;  // share of the light on rough glass that facets lose and scatteredGlass() returns
   float eta;       // index behind the surface over the index before it
-  vec3 faceNormal;    // of the flat triangle
+  vec3 faceNormal;    // normal of the flat triangle
   vec3 vertexNormal;  // interpolated, before any map (both kVertexNormals)
-  float stretch;      // of the facets along x (kAnisotropy); see ggx.glsl
+  float stretch;      // stretch of the facets along x (kAnisotropy); see ggx.glsl
   float film, filmIndex, filmThickness;  // weight, index and thickness (nm) of the thin film (kIridescence)
-  float diffuseThrough;  // of the diffuse light, what goes through, and its colour (kDiffuseTransmission)
+  float diffuseThrough;  // share of the diffuse light that is transmitted; then its colour (kDiffuseTransmission)
   vec3 throughColor;
-  vec3 diffuseColor;  // of diffuse light that is reflected (kThinScattering); else it is baseColor
+  vec3 diffuseColor;  // colour of reflected diffuse light (kThinScattering); without it, baseColor
   vec3 sheenColor;    // kSheen; see layers.glsl
   float sheenAlpha;
   float coat, coatAlpha;  // weight, GGX width and normal of the clearcoat (kClearcoat)
@@ -378,7 +378,7 @@ BsdfSample drawBase(Bsdf b, vec3 wo, float choice, float u, float v) {
     s.transmitted = true;
   }
   bool lost = false;
-  bool drawnAgain = kCompensation && glass && b.glassLost > 0.0f;  // where it is lost
+  bool drawnAgain = kCompensation && glass && b.glassLost > 0.0f;  // the facets may lose the sample
   if (specular || glass) {
     vec3 h = sampleMicrofacet(wo, b.alpha, b.stretch, u, v);
     float oh = dot(wo, h);

@@ -5,8 +5,8 @@
 // count by their shares, not by chance.
 
 const float kGuideAlpha = 0.01;    // the roughest that is followed: what it shows is hardly blurred
-const int kGuideScatterings = 16;  // at most
-const float kGuideRest = 0.01;     // of a ray: what is behind no longer counts
+const int kGuideScatterings = 16;  // largest number of scatterings
+const float kGuideRest = 0.01;     // share of a ray below which surfaces behind no longer count
 const float kGuideFog = 1e-3;      // optical depth of the thinnest fog that counts
 
 /// The share of the ray that alpha has let pass so far.

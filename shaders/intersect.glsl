@@ -35,7 +35,7 @@ struct TriangleHit {
   bool front;
   float t;
   float weight1;  // barycentric weight of v1
-  float weight2;  // of v2
+  float weight2;  // barycentric weight of v2
 };
 
 /// Returns true if all three numbers are above zero or all are below it. A product that underflows counts as zero, and

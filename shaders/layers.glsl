@@ -5,7 +5,7 @@
 // Its lobe is that of velvet (Estevez and Kulla, Production Friendly Microfacet Sheen BRDF, 2017), in a frame whose z
 // is the normal; its alpha is the square of the extension's sheenRoughness.
 
-const float kCoatF0 = float(0.04);  // of the index 1.5
+const float kCoatF0 = float(0.04);  // reflectance at normal incidence of the index 1.5
 
 /// Share of the light that the clearcoat reflects towards `wo`.
 float coatShare(Bsdf b, vec3 wo) {

@@ -81,7 +81,8 @@ const uint kPixelTargetShift = 3u;  // above: the most samples this pixel is to 
 const int kTraversalDone = -2147483647 - 1;
 const uint kNodeRows = 2u;
 const uint kLeafRows = 5u;
-// Where surfaces move (kMoving), nodes and leaves have these rows twice: when their segment begins and when it ends.
+// If surfaces move (kMoving), nodes and leaves have these rows twice: for the beginning and for the end of their
+// segment.
 const uint kLeafBlock = 4u;  // the iterative traversal tests this many leaves in one loop iteration
 
 // An instance is a leaf of the upper tree whose index is from here on: kInstanceLeaf + its number, which is that of its
@@ -92,7 +93,7 @@ const uint kLeafBlock = 4u;  // the iterative traversal tests this many leaves i
 const int kInstanceLeaf = 0x40000000;
 const int kInstanceEnd = -2147483647;
 const uint kInstanceRows = 8u;
-const float kAlbedoFloor = 0.04f;  // of white, in the albedo that denoising divides light by
+const float kAlbedoFloor = 0.04f;  // part of white in the albedo by which denoising divides light
 const float kMeshReach = 1.75f;  // a shared mesh lies within this distance of its origin: coordinates are at most 1
 
 // Primitive words in a leaf: index and flags.
@@ -152,7 +153,7 @@ const uint kMaterialIridescence = kMaterialAnisotropy + 1u;           // weight,
 const uint kMaterialDiffuseTransmission = kMaterialIridescence + 1u;  // colour, weight
 // A solid has the albedo of one scattering here, a thin wall its multiscatter colour; w: anisotropy
 const uint kMaterialScatter = kMaterialDiffuseTransmission + 1u;
-const uint kMaterialScatterStrength = kMaterialScatter + 1u;  // of a thin wall
+const uint kMaterialScatterStrength = kMaterialScatter + 1u;  // strength of a thin wall
 const uint kMaterialRows = kMaterialScatterStrength + 1u;
 
 // Cells along each axis of the tables of energy and of sheen, which stand behind the materials and the transforms of
@@ -217,11 +218,11 @@ const uint kLightBothSides = 0x40000000u;
 const uint kLightSharp = 0x20000000u;  // nothing shines beyond the spread; else up to a right angle more
 const uint kLightIndex = 0x1fffffffu;
 const uint kNoLightNode = 0xffffffffu;
-const uint kNoNormal = 0xffffffu;  // in place of a normal as three 8-bit numbers (packNormal)
+const uint kNoNormal = 0xffffffu;  // replaces a normal as three 8-bit numbers (packNormal)
 
 // Light rows: intensity + type, position + range, direction + spot scale, spot offset.
 const uint kLightRows = 4u;
-const uint kLightCandidates = 4u;  // of which a light sample is one (reuse/candidates.glsl)
+const uint kLightCandidates = 4u;  // number of candidates for a light sample (reuse/candidates.glsl)
 // Spatial reuse (reuse/reservoir.glsl): neighbours of a pixel that take part, and how far away they are, pixels; what
 // is kept of the numbers that draw a direction of the environment, as a number of 24 bits; the first of its two texture
 // units, behind those of the scene buffers.
@@ -242,9 +243,9 @@ struct Frame {
   float firstInMiddle;  // 1 when the first sample is in the middle of its pixel
   vec3 cameraUp;        // half of the view's height
   float cameraMedium;   // 1 + the material of the scattering solid that the camera stands in, or 0
-  vec3 cameraForward;   // unit
+  vec3 cameraForward;   // size of the unit of local space
   float metresPerUnit;  // of local space
-  vec4 gridOrigin;      // of the quantised boxes, local space
+  vec4 gridOrigin;      // origin of the grid of the quantised boxes, local space
   vec4 gridCell;        // size of a grid step, local space
   vec3 background;      // radiance that camera rays see
   float backgroundShows;    // 1 when they see the environment instead; -1 when they see nothing
@@ -252,9 +253,9 @@ struct Frame {
   vec2 environmentRotation;  // cosine, sine
   float environmentChance;  // probability that a light sample takes the environment
   float emitterCount;
-  float energyRow;      // of the energy table among the materials
+  float energyRow;      // row of the energy table among the materials
   float punctualCount;  // lights
-  ivec2 pictureSize;    // of the whole picture; the film may be a part of it
+  ivec2 pictureSize;    // size of the whole picture; the film may be a part of it
   int samplesWanted;
   int seed;
   ivec4 tile;           // x, y (from the bottom), width, height
@@ -265,14 +266,14 @@ struct Frame {
   int firstSample;  // index in the seed's sequence
   int clampBits;    // bits of the largest indirect radiance
   int tileGoesOn;   // 1 when the draw before had this tile, too (wavefront)
-  int objectRow;    // of the numbers of objects among the materials
+  int objectRow;    // row of the numbers of objects among the materials
   ivec2 filmOffset;    // x, y (from the bottom) of the film's first pixel in the picture
   ivec2 backdropSize;  // width, height
-  vec3 worldOrigin;    // of local space, in world space, metres
-  float catcherHeight;      // of the shadow catcher, local space
-  vec3 catcherIrradiance;   // of the shadow catcher by the environment when nothing is in the way
+  vec3 worldOrigin;    // origin of local space in world space, metres
+  float catcherHeight;      // height of the shadow catcher, local space
+  vec3 catcherIrradiance;   // irradiance of the shadow catcher by the environment when nothing is in the way
   float environmentScale;   // factor of the environment's radiance
-  vec4 lens;                // of the camera, local space: radius, distance in focus along the view; blades
+  vec4 lens;                // the camera's lens, local space: radius, distance in focus along the view; blades
   vec4 lensShift;           // x, y: the middle of the picture, in halves of its width and height
   // Surfaces move in straight pieces: their number, and nodes and leaves of each; vertices of one pose.
   ivec4 segments;
@@ -289,7 +290,7 @@ struct CameraSegment {
 };
 const int kMostCameraSegments = 32;
 struct Shutter {
-  ivec4 count;  // of the segments
+  ivec4 count;  // number of segments
   CameraSegment camera[kMostCameraSegments];
 };
 
@@ -306,15 +307,15 @@ struct Volume {
   vec4 toBricksY;
   vec4 toBricksZ;
   vec4 medium;      // albedo of one scattering, anisotropy
-  vec4 extinction;  // of the largest density (1 / local space); factor of the radiance, 0: it does not emit
+  vec4 extinction;  // extinction at the largest density (1 / local space); factor of the radiance, 0: no emission
   ivec4 table;      // numbers of bricks along X, Y, Z; the first texel of the table
 };
 const int kBrickTexels = 128;
-const int kMostVolumeSteps = 1024;  // of one walk through the grid
+const int kMostVolumeSteps = 1024;  // limit of steps of one walk through the grid
 const float kFaintVolume = 0.05f;   // transmittance from which on roulette decides
 
 // The report of one draw.
-const float kCutUnits = 65536.0f;  // of throughput 1
+const float kCutUnits = 65536.0f;  // units for a throughput of 1
 struct Progress {
   uint unfinished;  // pixels that have samples left
   uint stuck;       // of these, pixels that completed none, so that their path has to be suspended to come to an end

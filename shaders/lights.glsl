@@ -4,7 +4,7 @@
 /// Light that reaches a point from one direction. pdf 0: no ray can find it (punctual), so it has no MIS partner.
 struct LightSample {
   vec3 direction;
-  float distance;   // to the light, kFarAway for the environment and directional lights
+  float distance;   // distance to the light, kFarAway for the environment and directional lights
   vec3 irradiance;  // radiance / pdf, or the punctual light's intensity / d^2; zero when there is none
   float pdf;    // over solid angle, the chance of choosing this light counted in
 };
@@ -107,7 +107,7 @@ LightSample triangleLight(int emitter, float chance, vec3 point, float u, float 
   if (cosine <= 0.0f) return noLight();
   float pdf = chance * inverseArea * squared / cosine;
   vec3 radiance = emittedFrom(corner.w & kFaceMaterialMask, int(edge2.w), w, cosine);
-  // For MIS a moving one counts as large as it is at first, as emitterPdf() has it: any weights do that add up to 1.
+  // MIS uses a moving triangle's area at the beginning, as emitterPdf() does: any weights do that add up to 1.
   return makeLight(direction, distance, radiance / pdf, kMoving ? pdf * standing / inverseArea : pdf);
 }
 
@@ -160,11 +160,11 @@ LightSample lightOfEmitter(int emitter, float chance, vec3 point, float u, float
 /// The point or direction of the lights that is sampled.
 struct LightChoice {
   int emitter;   // kFromEnvironment: the environment
-  float chance;  // of the emitter or the environment; 0: no light reaches the point
+  float chance;  // probability of the emitter or the environment; 0: no light reaches the point
   uvec2 bits;    // a direction of the environment
   float u;       // a point on an emissive triangle
   float v;
-  float time;    // of the path (kMoving)
+  float time;    // time of the path (kMoving)
 };
 
 const int kFromEnvironment = -1;
@@ -228,7 +228,7 @@ int lightSampleCount() {
 struct LightNumbers {
   uint choice;
   uvec2 bits;
-  float time;  // of the path (kMoving)
+  float time;  // time of the path (kMoving)
 };
 
 LightNumbers lightNumbers(Sampler sampler, uint dimension) {

@@ -38,7 +38,7 @@ struct SurfaceMaterial {
   float transmission;
   float ior;
   float specular;      // f90 of the dielectric layer
-  vec3 dielectricF0;   // of the dielectric layer, specular factors counted in
+  vec3 dielectricF0;   // f0 of the dielectric layer, with the specular factors
   bool solid;          // bounds a volume, else thin-walled
 };
 

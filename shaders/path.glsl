@@ -20,28 +20,28 @@ const uint kBounceDimensions = 16u;  // a bounce uses 16 dimensions from 16 (bou
 const uint kLobeDimension = 0u;
 const uint kDirectionDimension = 1u;
 const uint kRouletteDimension = 3u;
-const uint kLightDimension = 4u;  // to 7
-const uint kReuseDimension = 8u;  // to 10
+const uint kLightDimension = 4u;  // the light's dimensions are 4 to 7
+const uint kReuseDimension = 8u;  // these are 8 to 10
 const uint kGlassDimension = 12u;
 const uint kFlightDimension = 13u;
 const uint kFlightDimensions = 0x80000000u;  // hashed; 4,096 a bounce
-const uint kShadowFlights = 0x40000000u;      // of shadow rays, on top of these
+const uint kShadowFlights = 0x40000000u;      // shadow rays add this to kFlightDimensions
 
 /// The most that roulette lets a path at smooth glass survive by, and the scattering from which on it always decides.
 /// Paths through glass that absorbs nothing get fewer by a factor from each scattering to the next; were that factor
 /// above the survival, their variance would be infinite.
 const float kGlassSurvival = 0.99;
 const int kLatestRoulette = 1000;
-const float kMediumSurvival = 0.999;  // from kLatestRoulette on
+const float kMediumSurvival = 0.999;  // largest probability to survive from kLatestRoulette on
 
 /// Dimensions of light paths; their bounces have the dimensions of camera paths.
-const uint kAimDimensions = 0u;     // to 1
-const uint kEmitterPointDimensions = 4u;  // to 5
+const uint kAimDimensions = 0u;     // these are 0 and 1
+const uint kEmitterPointDimensions = 4u;  // these are 4 and 5
 const uint kEmitterDimension = 6u;
 const uint kCasterDimension = 7u;
-const uint kSplatDimension = 8u;    // of a bounce
-const uint kSplatLensDimensions = 9u;  // of a bounce, to 10
-const uint kSurvivalDimension = 11u;   // of a bounce
+const uint kSplatDimension = 8u;    // dimension within a bounce
+const uint kSplatLensDimensions = 9u;  // dimensions 9 and 10 within a bounce
+const uint kSurvivalDimension = 11u;   // dimension within a bounce
 
 TreeFrame treeFrame() { return TreeFrame(frame.gridOrigin.xyz, frame.gridCell.xyz, frame.leafCount); }
 

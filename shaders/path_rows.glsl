@@ -5,7 +5,7 @@
 
 const int kRowRay = 0;              // origin, tie
 const int kRowDirection = 1;        // direction, medium
-const int kRowHit = 2;              // of the ray: distance, slot, weights
+const int kRowHit = 2;              // the ray's hit: distance, slot, weights
 const int kRowThroughput = 3;       // throughput, pdf
 const int kRowRadiance = 4;         // radiance, flags
 const int kRowCounts = 5;           // sample, rays, scatterings (scatteringsOf), free and straight ones (bounceCounts)
@@ -14,8 +14,9 @@ const int kRowShadow = 6;           // shadow ray's origin, limit
 const int kRowShadowDirection = 7;  // its direction, etaScale
 const int kRowContribution = 8;     // contribution, instance of the hit
 // kPassingRows:
-const int kRowShadowHit = 9;        // of the shadow ray, or of a traversal that is suspended: distance, slot, weights
-const int kRowTMin = 10;            // what the ray and the shadow ray have passed through: distance and slot of each
+const int kRowShadowHit = 9;        // the hit of the shadow ray, or of a suspended traversal: distance, slot, weights
+// The last surfaces that the ray and the shadow ray have passed: distance and slot of each.
+const int kRowTMin = 10;
 // crossings, instance of the row of the shadow ray's hit, instance that is walked, medium of the shadow ray
 const int kRowCrossings = 11;
 // kResumable:

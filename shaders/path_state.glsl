@@ -5,8 +5,8 @@ const int kPhaseExtend = 0;  // the path's ray is being traced
 const int kPhaseShade = 1;   // its ray is traced; light sample `lightSampleIndex` is next
 const int kPhaseShadow = 2;  // the shadow ray of that light sample is being traced
 const int kPhaseEnd = 3;     // the sample is complete
-const int kPhaseCut = 4;     // it is complete because the path has scattered more than --bounces times
-const int kPhaseNone = 5;    // no path: the pixel's next one is to begin (wavefront)
+const int kPhaseCut = 4;     // the sample is complete because the path has scattered more than --bounces times
+const int kPhaseNone = 5;    // there is no path: the pixel's next path has yet to begin (wavefront)
 const int kPhasePass = 6;    // a value of `after` alone: the ray goes on behind the thin wall that it has met
 
 const float kTie = 9.5367431640625e-7;  // 2^-20: 16 roundings of a distance
@@ -26,16 +26,16 @@ struct Guide {
   vec3 albedo;
   vec3 normal;
   float depth;
-  float share;      // of the ray that surfaces have taken so far
+  float share;      // share of the ray that surfaces have taken so far
   vec3 lastNormal;
 };
 
 /// A light path until the camera sees it (kLightPaths).
 struct LightPath {
   vec3 flux;
-  float range;       // of its punctual light; 0: unlimited
+  float range;       // range of the path's punctual light; 0: unlimited
   float travelled;   // distance since the light, up to the surface that was passed last
-  bool glassFirst;   // it has met smooth glass first
+  bool glassFirst;   // the path has met smooth glass first
   vec2 splatPixel;   // the place in the picture at which the camera sees the point of the shadow ray
   float waiting;     // sum of the light that the camera may see later; one part waits as the shadow ray (reservoir)
 };
@@ -45,24 +45,24 @@ struct Path {
   int after;       // the phase that follows once the shadow ray is settled
   int lightSampleIndex;
   int bounce;      // scatterings so far, also one whose ray roulette ends
-  int freeBounces;  // of these, at smooth glass (kTransmission) and in media: --bounces does not limit them
-  int straightBounces;  // of these, straight through glass (kThroughGlass)
+  int freeBounces;  // the part of `bounce` at smooth glass (kTransmission) and in media, which --bounces does not limit
+  int straightBounces;  // the part of `bounce` that went straight through glass (kThroughGlass)
   int crossings;   // meetings with surfaces, where there is alpha; see nextCrossing
   int rays;        // traced so far
-  ivec2 pixel;     // of the film (kStoresReservoirs, kNeighbours), or the record of a light path
+  ivec2 pixel;     // the pixel in the film (kStoresReservoirs, kNeighbours), or the index of a light path's record
   Sampler sampler;
   float time;      // 0..1 while the shutter is open (kTimed)
   bool oneChannel; // dispersion has left one of red, green and blue (kDispersion)
   bool cameraRay;  // nothing but alpha has touched the path yet
-  bool caught;     // it has met the shadow catcher (kShadowCatcher)
+  bool caught;     // the path has met the shadow catcher (kShadowCatcher)
   bool throughGlass;  // the shadow ray passes glass that does not bend it (kThroughGlass)
   int prefix;         // kPrefix* of caustics/form.glsl (kCaustics)
   bool covered;    // a camera ray has hit a surface
   vec3 radiance;
   vec3 throughput;
   float etaScale;       // the product of squared indices by which refraction has scaled radiance down
-  float pdf;            // of the last scattering over solid angle; 0: a delta lobe or the camera
-  uint normal;          // of the surface that it left, as light sampling took it (kLightTree)
+  float pdf;            // pdf of the last scattering over solid angle; 0: a delta lobe or the camera
+  uint normal;          // normal of the surface that the ray left, as light sampling used it (kLightTree)
   uint medium;          // material of the solid the ray is inside of, or kPrimitiveNone
   vec3 origin;
   vec3 direction;
@@ -75,9 +75,9 @@ struct Path {
   Guide guide;
   LightPath fromLight;
   vec3 contribution;  // added if the shadow ray meets nothing
-  int hitSlot;        // what the ray has hit, or -1
+  int hitSlot;        // slot that the ray has hit, or -1
   float hitT;         // since the last scattering
-  int hitInstance;  // that shows it, or -1
+  int hitInstance;  // instance that shows the slot, or -1
   vec2 hitWeights;  // barycentric (kWeights)
   Traversal traversal;
 };

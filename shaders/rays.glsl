@@ -12,7 +12,7 @@ layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frame; };
 // These buffers use bindings that the tracer uses for others.
 const uint kRaysBinding = kPathStatesBinding;
 const uint kRayHitsBinding = kProgressBinding;
-const uint kRayUnfinished = 0xfffffffeu;  // in place of a slot: the step limit ended it
+const uint kRayUnfinished = 0xfffffffeu;  // replaces a slot: the step limit ended the ray
 
 layout(std430, binding = kRaysBinding) readonly restrict buffer RaysBlock { vec4 rays[]; };  // origin, limit; direction
 layout(std430, binding = kRayHitsBinding) writeonly restrict buffer RayHitsBlock { uvec2 rayHits[]; };  // slot, t

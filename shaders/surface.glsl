@@ -64,10 +64,10 @@ struct MovingTriangle {
 /// The number of leaf slots in the segments before the one of a path's time.
 int slotsBefore(float time) { return 2 * frame.segments.z * momentAt(time, frame.segments.x).segment; }
 
-/// The slot of a triangle in the segment of a time of the path, from that in the first segment.
+/// Converts a leaf slot of the first segment to the slot of the same triangle in the segment of a path's time.
 int slotInSegment(int slot, float time) { return slot + slotsBefore(time); }
 
-/// And back: lamps are listed by those in the first segment.
+/// Converts a leaf slot to that of the same triangle in the first segment, by which lamps are listed.
 int slotInFirst(int slot, float time) { return slot - slotsBefore(time); }
 
 /// The triangle of a leaf slot at a time of the path.

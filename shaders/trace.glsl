@@ -209,7 +209,7 @@ void tracePixel(ivec2 pixel) {
   int budget = frame.stepBudget;
   TreeFrame tree = treeFrame();
   bool advanced = false;
-  float cut = 0.0;  // what kBounces took of the throughput
+  float cut = 0.0;  // throughput that was lost to kBounces
   Path p;
   p.phase = kPhaseEnd;
   p.traversal.steps = 0;

@@ -8,7 +8,7 @@ struct Traversal {
   int slot;   // its leaf slot (leaf * 2 + side), or -1
   vec2 weights;  // barycentric, of its second and third vertex (kWeights)
   int instance;  // whose mesh is being walked, or -1; node and stack are of its tree then
-  int hitInstance;  // that shows slot, or -1
+  int hitInstance;  // instance that shows the slot, or -1
   int steps;  // loop iterations so far in this draw
   // kCreases: part of t by which hits on front faces count as nearer, those on back faces as farther; negative: the
   // other way
@@ -170,7 +170,7 @@ MeshRay rayInMesh(int instance, vec3 origin, vec3 direction) {
 struct TreeRay {
   vec3 origin;
   vec3 direction;
-  float start;  // as in MeshRay
+  float start;  // the start of MeshRay
   float from;   // boxes that end before this distance hold nothing
   RayShear shear;
   vec3 scale;

@@ -114,7 +114,7 @@ Corners cornersIn(LeafPair l, bool second) {
 /// The transform of an instance, from local space to its mesh's space.
 struct InstanceSpace {
   vec3 place;  // the mesh's origin in local space
-  vec3 row0;   // of the matrix from local space into the mesh's
+  vec3 row0;   // rows of the matrix from local space into the mesh's space
   vec3 row1;
   vec3 row2;
 };
@@ -134,7 +134,7 @@ InstanceSpace loadInstanceSpace(int instance) {
 
 /// The transform of an instance from its mesh's space to local space.
 struct InstanceReturn {
-  vec3 row0;  // of the matrix into local space
+  vec3 row0;  // rows of the matrix into local space
   vec3 row1;
   vec3 row2;
   float handedness;   // -1 where it mirrors, else 1

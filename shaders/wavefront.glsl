@@ -21,10 +21,10 @@ struct Wave {
   int first;     // row of the states of the first
   ivec2 corner;  // the first, in the film
   uint hits;     // the ray has hit a surface, which is to be shaded
-  uint misses;   // it has not; or the path has ended; or none has begun
+  uint misses;   // the ray has missed, the path has ended, or none has begun
   uint waiting;  // the path also waits for its shadow ray
   uint blocked;  // the shadow ray has hit something
-  uint rays;     // to be traced
+  uint rays;     // the ray is to be traced
   uint shadows;
   int steps;
   float cut;
@@ -314,7 +314,7 @@ void traceWave(ivec2 lane) {
   Wave v;
   v.corner = tileOfDraw().xy + ivec2(lane.x, lane.y * int(kWaveSlots));
   fetchFrame(loadFilm(v.corner).flags);
-  int own = (lane.y * frame.tile.z + lane.x) * int(kWaveLaneRows);  // the row of what is left of the lane's own
+  int own = (lane.y * frame.tile.z + lane.x) * int(kWaveLaneRows);  // the lane's first row; it holds masks
   v.first = own + 1;
   int count = min(int(kWaveSlots), frame.tile.w - lane.y * int(kWaveSlots));
   int budget = frame.stepBudget;

@@ -22,7 +22,7 @@ def sources(folder):
 
 
 def wrong_includes(files, root):
-    """Of files whose includes of their own kind are relative to `root`."""
+    """Yields the wrong includes of files whose includes of their own kind are relative to `root`."""
     for file in files:
         own = str(file.parent.relative_to(root))
         if own not in LAYERS:

@@ -21,7 +21,7 @@ struct NamedConfiguration {
   std::string_view options;
 };
 
-/// What the questions "what does it cost, what does it bring?" are asked of most.
+/// The configurations for which cost and benefit are asked most.
 constexpr std::array<NamedConfiguration, 13> kNamedConfigurations = {{
     {"default", ""},
     {"baseline", "--disable light-sampling,sobol"},

@@ -48,7 +48,7 @@ BenchConfiguration configurationOf(const CLI::App& app, const std::string& name,
 /// The files that they read, but for the pictures that scenes refer to.
 std::vector<std::filesystem::path> inputsOf(std::span<const BenchConfiguration> configurations);
 
-/// What the options ask for.
+/// Makes the context that the options ask for.
 std::unique_ptr<Context> contextOf(const RenderOptions& options);
 
 }  // namespace fragtrace

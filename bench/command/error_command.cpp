@@ -33,7 +33,7 @@ constexpr int kReferenceFactor = 64;       // samples of a reference over the mo
 constexpr uint32_t kReferenceSeed = 7919;  // apart from those of the repetitions
 constexpr int kAdaptiveSteps = 6;          // goals, each half of the last
 
-/// As parsed, and what follows from it.
+/// The options as parsed, and values that follow from them.
 struct ErrorOptions {
   std::string scene;
   RawConfigurations raw;
@@ -98,7 +98,7 @@ struct Contender {
   ErrorCurve filtered;  ///< of --denoise
 };
 
-/// One picture on the way to a filter.
+/// A picture that has been drawn and may still be filtered.
 struct Draw {
   Drawing drawing;
   int layerSamples = 0;
@@ -166,7 +166,7 @@ Draw drawWhole(Contender& c, const View& view, int samples, double& compileMs) {
   return draw;
 }
 
-/// What the driver compiles at a first picture is done.
+/// Draws and filters once, so that all that the driver compiles at a first picture is compiled.
 double warmUpFilter(Contender& c, const View& view, const Judge& judge) {
   double compileMs = c.filter->compileMs;
   const Draw draw = drawWhole(c, view, 1, compileMs);

@@ -19,7 +19,7 @@ namespace fragtrace {
 
 namespace {
 
-/// As parsed, and what follows from it.
+/// The options as parsed, and values that follow from them.
 struct FrameOptions {
   std::vector<std::string> sceneNames;
   RawConfigurations raw;

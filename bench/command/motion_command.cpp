@@ -141,7 +141,8 @@ Image enlarged(const Image& image, glm::ivec2 size) {
   return large;
 }
 
-/// Draws what `render` draws of the pictures that were kept, and what the window shows of these.
+/// Draws references for the pictures that were kept: a reference is the picture that `render` draws with the
+/// same options. shown() returns a kept picture as the window shows it.
 class References {
  public:
   References(const MotionOptions& o) : options_(o), context_(contextOf(o.render)) {

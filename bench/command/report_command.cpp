@@ -20,7 +20,7 @@ struct DrawnRow {
   BenchConfiguration configuration;
 };
 
-/// As parsed, and what follows from it.
+/// The options as parsed, and values that follow from them.
 struct ReportOptions {
   std::string folder = "scenes";
   std::vector<std::string> parts;

@@ -34,7 +34,7 @@ const std::vector<std::string>& traversalNames() {
   return names;
 }
 
-/// As parsed, and what follows from it.
+/// The options as parsed, and values that follow from them.
 struct ScaleOptions {
   RawRender raw;
   RenderOptions render;  ///< resolution, device
@@ -94,7 +94,7 @@ std::vector<size_t> sizesOf(const ScaleOptions& options) {
   std::vector<size_t> sizes;
   for (int i = 0;; ++i) {
     const double size = double(options.from) * std::pow(10.0, double(i) / options.perDecade);
-    // What is left to the last one is not worth a size of its own.
+    // If less than 5 % remains up to the last size, there is no size in between.
     if (size > 0.95 * double(options.to)) break;
     sizes.push_back(size_t(std::llround(size)));
   }
@@ -118,7 +118,7 @@ struct Runner {
   size_t differing = 0;  ///< pixels that differ from those of the first traversal
 };
 
-/// What all measurements of one run share; the camera is that of the size.
+/// The data that all measurements of one run share. The camera is that of the size.
 struct Setting {
   const ScaleOptions& options;
   const Context& context;
@@ -191,7 +191,7 @@ void timeFrames(const Setting& setting, Runner& runner) {
   runner.frameMs.push_back(times.renderMs / runner.frames);
 }
 
-/// What is written of a traversal.
+/// Returns the JSON of a traversal's frame times.
 Json framesJson(const Runner& runner) {
   return {{"traversal", runner.name},
           {"variant", variantName(runner.variant)},
@@ -203,7 +203,7 @@ Json framesJson(const Runner& runner) {
           {"differing_pixels", runner.differing}};
 }
 
-/// What is written in place of the figures where a frame would take, or takes, too long.
+/// Returns the JSON that replaces the figures if a frame would take, or takes, too long.
 Json tooLongJson() {
   return {{"traversal", "iterative"}, {"left_out", "a frame takes longer than --longest"}};
 }
@@ -230,7 +230,7 @@ Json measureIterative(const Setting& setting, const Scene& scene, std::span<cons
   return framesJson(runner);
 }
 
-/// What times the traversals of the tree that are asked for; without a renderer yet.
+/// Makes a runner for each traversal of the tree that is asked for. The runners have no renderer yet.
 std::vector<Runner> treeRunners(const Setting& setting, const Scene& scene, uint32_t depth) {
   const ScaleOptions& options = setting.options;
   std::vector<Runner> runners;

@@ -35,7 +35,7 @@ namespace fragtrace {
 
 namespace {
 
-/// As parsed, and what follows from it.
+/// The options as parsed, and values that follow from them.
 struct StartOptions {
   RawRender raw;
   std::string format = "png";

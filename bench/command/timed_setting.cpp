@@ -15,7 +15,7 @@ namespace {
 
 /// Far from a GPU's watchdog, and so long that what is done between draws does not count.
 constexpr double kTimedDrawMs = 250.0;
-/// How many times a round's time its least frames may take.
+/// the least number of frames may take up to this many times a round's time
 constexpr double kMostOverTime = 5.0;
 
 /// Adds samples [from, to), by draws as the timing wants them. Milliseconds go into `times`.

@@ -17,7 +17,7 @@ class App;
 
 namespace fragtrace {
 
-/// How long and how often.
+/// The length and number of the rounds.
 struct FrameTiming {
   int rounds = 10;
   double roundSeconds = 0.5;  ///< as many frames a round as take this long, unless --spp says how many
@@ -46,7 +46,7 @@ struct TimedSetting {
 /// Loads and uploads. Throws InputError, UsageError, RenderError.
 TimedSetting makeSetting(const Context& context, const BenchConfiguration& configuration,
                          const FrameTiming& timing);
-/// Of what is loaded and uploaded already.
+/// Makes a setting of a scene that is already loaded and uploaded.
 TimedSetting makeSetting(const Context& context, const BenchConfiguration& configuration,
                          const FrameTiming& timing, std::shared_ptr<const LoadedScene> loaded, Tracer tracer);
 

@@ -24,7 +24,7 @@ namespace fragtrace {
 
 namespace {
 
-/// As parsed, and what follows from it.
+/// The options as parsed, and values that follow from them.
 struct TraversalOptions {
   RawRender raw;
   RenderOptions render;  ///< scene, camera, traversal, device

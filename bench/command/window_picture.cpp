@@ -11,7 +11,7 @@ namespace fragtrace {
 
 namespace {
 
-// As shaders/entry/window.frag has them.
+// Locations of the uniforms of shaders/entry/window.frag.
 constexpr GLint kPictureSize = 0;
 constexpr GLint kBar = 1;
 constexpr GLint kPart = 3;

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""What drivers of GPUs say of the programs that they compile (bench/gpu/compilers), as figures, a table and limits."""
+"""Reads figures from the messages of GPU drivers about compiled programs (bench/gpu/compilers), and makes a table and
+limits of them."""
 import re
 
-# By device: the message of the tracer's shader, and its figures by name. The first is what limits how many lanes are under way.
+# Patterns of a device's message about the tracer's shader, and of its figures by name. The first figure limits how many
+# lanes run at the same time.
 NUMBERS = {"GA102": {"registers": r"(\d+) Number of GPRs", "spills": r"(\d+) Spills to memory", "fills": r"(\d+) Fills from memory",
                      "warps": r"(\d+) Max warps/SM", "instructions": r"(\d+) Instruction count"},
            "navi21": {"registers": r"VGPRS: (\d+)", "spills": r"Spilled VGPRs: (\d+)", "waves": r"Max Waves: (\d+)", "bytes": r"Code Size: (\d+)"},
            "DG2": {"lanes": r"SIMD(\d+) shader", "spills": r"(\d+):\d+ spills:fills", "fills": r"\d+:(\d+) spills:fills", "instructions": r"(\d+) inst,"}}
 LIMITED = ("registers", "spills", "fills")
-# In a table, one cell a device.
+# The text of each device's cell in a table.
 CELLS = {"GA102": "{registers}, {spills} + {fills}; {warps} warps; {instructions}", "navi21": "{registers}, {spills}; {waves} waves; {bytes} B",
          "DG2": "{spills} + {fills}; {instructions}"}
 
@@ -33,7 +35,7 @@ def table(result):
 
 
 def over(result, limits):
-    """What takes more than the limits let it, a line each."""
+    """Yields a line for each figure that is above its limit."""
     for name, row in result["rows"].items():
         for device, now in row.items():
             most = limits["rows"].get(name, {}).get(device, {})

@@ -39,7 +39,7 @@ EDITS = {
 
 
 def write_edited(shaders, folder):
-    """A folder of shaders for each, named after it, in `folder`."""
+    """Writes a folder of shaders for each edit, named after it, into `folder`."""
     folder.mkdir()
     for name, edits in EDITS.items():
         target = folder / name

@@ -17,7 +17,7 @@ RELEASE = "trixie"
 SHIMS = {kind: f"/root/shims/src/{place}/lib{kind}_noop_drm_shim.so" for kind, place in
          (("intel", "intel/tools"), ("amdgpu", "amd/drm-shim"), ("nouveau", "nouveau/drm-shim"))}
 
-# By name: which device the shim plays, and the driver that compiles for it.
+# The devices that the shim plays, by name: the driver that compiles for each, and its environment.
 DEVICES = {"GA102": ("nouveau", {"NOUVEAU_CHIPSET": "172", "ZINK_DEBUG": "shaderdb", "MESA_LOADER_DRIVER_OVERRIDE": "zink",
                                  "VK_DRIVER_FILES": "/usr/share/vulkan/icd.d/nouveau_icd.json"}),
            "navi21": ("amdgpu", {"AMDGPU_GPU_ID": "navi21", "MESA_LOADER_DRIVER_OVERRIDE": "radeonsi"}),
@@ -46,7 +46,7 @@ rm -rf /root/mesa-* /root/mesa_*
 
 
 def why_not():
-    """What is missing for the system, or ''."""
+    """Returns a text that names what the system lacks, or ''."""
     return "" if os.geteuid() == 0 and (FOLDER / "finished").exists() else debian.why_not(RELEASE)
 
 
@@ -67,7 +67,7 @@ def made():
 
 
 def compile_texts(system, device, files, timeout=1800):
-    """Standard output of compile_texts.py there, for files of the host. Raises RuntimeError."""
+    """Returns the standard output of compile_texts.py there, for files of the host. Raises RuntimeError."""
     kind, environment = DEVICES[device]
     folder = system.root / "root/texts"
     shutil.rmtree(folder, ignore_errors=True)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What bench/gpu/run measures: one entry a call of the program. Seconds are for a GPU, where the whole takes at most 540."""
+"""The measurements of bench/gpu/run: each entry is one call of the program. Seconds are for a GPU, where the whole
+takes at most 540."""
 from dataclasses import dataclass, field
 
 WHOLE_SECONDS = 540
@@ -15,7 +16,8 @@ WAVEFRONT = ["--schedule", "wavefront"]  # by a tree
 
 GPU_TEXT = ["--tune", "gpu"]
 
-# How reference pictures are drawn: the name, options of `render`, and the stage that it draws alone.
+# The ways to draw reference pictures: the name, the options of `render`, and the only stage that this way draws, or
+# None.
 ENTRIES = (
     ("fragment entry", FRAGMENT, None),
     ("compute entry", COMPUTE, None),
@@ -110,7 +112,8 @@ FRAMES = (
       for title, options, wants in (("compute", COMPUTE, {"compute"}), ("wavefront", WAVEFRONT, {"wavefront"}))),
     *(row(f"{entry}, text for software", [*options, "--tune", "software"], wants) for row in (mesh, ball, helmet)
       for entry, options, wants in (("fragment", FRAGMENT, {"fragment"}), ("compute", COMPUTE, {"compute"}))),
-    # By the folders of edits.py, beside "FlightHelmet ..., compute" and "room with the ball, compute".
+    # These rows use the folders of edits.py. They are compared with "FlightHelmet ..., compute" and "room with the
+    # ball, compute".
     *(row(f"compute, {title}", [*COMPUTE, *GPU_TEXT, "--shader-folder", f"edited/{name}"], {"compute", "gpu"}) for row in (mesh, ball, helmet)
       for name, title in (("copied-frame", "uniforms copied"), ("kept-film", "film in registers"), ("two-traversals", "a traversal for each kind of ray"),
                           ("array-stack", "stack in an array"), ("128-lanes", "groups of 128 lanes"), ("256-lanes", "groups of 256 lanes"), ("film-and-128-lanes", "film in registers, groups of 128 lanes"))),

@@ -49,7 +49,8 @@ def aim_text(aim):
 
 
 def frame_cells(frame, line, compiled_before):
-    """Of a row of rows.FRAMES; the driver may have compiled its program before, in so many milliseconds."""
+    """Returns the cells of a row of rows.FRAMES. If the driver compiled the program before, `compiled_before` is its
+    time in milliseconds."""
     ms = line["frame_ms"]["median"] * frame.samples
     each = f"ms a picture of {frame.samples} samples" if frame.samples > 1 else "ms per frame"
     notes = [verdict(line["picture"]), f"compiled in {max(line['compile_ms'], compiled_before) / 1000:.1f} s"]
@@ -80,7 +81,7 @@ def report_rows(lines):
 
 
 def stress_cells(seed, lines):
-    """Of the rows of `bench stress` with this seed."""
+    """Returns the cells for the rows of `bench stress` with this seed."""
     over = [f"{line['row']} ({line['failures']} of {line['cases']})" for line in lines if line["over"]]
     wrong = [f"{line['row']} ({line['failures']}, limit {line['limit']:g})" for line in lines if line["failures"] and not line["over"]]
     fast = sum(line.get("fast_failures", 0) for line in lines)
@@ -90,7 +91,7 @@ def stress_cells(seed, lines):
 
 
 def motion_rows(name, lines):
-    """A row for each mode of `bench motion`."""
+    """Yields a row for each mode of `bench motion`."""
     for line in lines:
         for row in line["rows"]:
             pictures = max(row["pictures"], 1)
@@ -111,7 +112,7 @@ def start_rows(name, lines):
 
 
 def pace_rows(name, lines):
-    """Times from one picture of `bench motion` to the next."""
+    """Yields the times from one picture of `bench motion` to the next."""
     for line in lines:
         for row in line["rows"]:
             gaps = sorted(row["gap_ms"])

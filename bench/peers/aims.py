@@ -150,7 +150,7 @@ def kept(options):
 
 
 def cold(options):
-    """Of the whole process."""
+    """Measures the seconds of the whole process."""
     scenes = {"cornell-box": [REPOSITORY / "scenes/cornell-box.gltf", "--resolution", "16,16"],
               "room-ball": [REPOSITORY / "scenes/room-ball.gltf", "--resolution", "16,16"],
               "asset": [options.asset, "--resolution", "64,64", "--hdri-file", options.environment]}
@@ -172,7 +172,7 @@ PARTS = {
 
 
 def table(results):
-    """As lines."""
+    """Returns the lines of the table."""
     rows, measured = [], {each["row"]: each for result in results["parts"].values() for each in result["rows"]}
     for name, aim in AIMS.items():
         if name not in measured and name.endswith(KEPT):

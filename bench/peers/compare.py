@@ -95,7 +95,7 @@ def close(running):
 
 
 def machine():
-    """What the figures hold for."""
+    """Describes the machine for which the figures hold."""
     model = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo", encoding="utf-8") if line.startswith("model name")), "?")
     return f"{time.strftime('%Y-%m-%d')}, {model}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f} before"
 
@@ -111,7 +111,8 @@ def median_and_range(values, form="{:.2f}"):
 
 
 def draw_in_turn(title, running, folder, spp, options):
-    """By engine: the seconds of each round's picture, as if a pixel had exactly `spp` samples; and the pictures' blocks."""
+    """Draws one picture in each round with each engine, in turn. Returns, by engine, the seconds of each round's
+    picture, scaled as if a pixel had exactly `spp` samples, and the blocks of the pictures."""
     seconds, seen = [{key: [] for key in running} for _ in range(2)]
     for k in range(options.rounds):
         for key, engine in running.items():
@@ -159,7 +160,8 @@ def samples_to_goal(engine, folder, goal):
 
 
 def time_to_error(name, scene, folder, options):
-    """Of each engine: samples to the goal, told by small pictures, and the seconds that as many take in a picture of the size asked for, drawn in turn."""
+    """Returns, for each engine, the number of samples that reach the goal, estimated from small pictures, and the
+    seconds for as many samples in a picture of the requested size. The engines draw in turn."""
     running, figures, samplers = start(options, name, scene, ERROR_RESOLUTION, False), {}, {}
     try:
         for key, engine in running.items():
@@ -198,7 +200,7 @@ def agree(name, figures):
 
 
 def print_table(name, figures, options):
-    """Of speed() or time_to_error()."""
+    """Prints the table of speed() or time_to_error()."""
     error = "seconds" in figures["fragtrace"]
     unit = "samples | seconds" if error else "Mpaths/s" if options.clock == "wall" else "Mpaths/CPU s"
     print(f"\n{name}, {options.resolution} x {options.resolution}, {options.rounds} rounds" +

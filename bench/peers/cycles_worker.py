@@ -40,7 +40,7 @@ def plastic(mesh):
 
 
 def matt(mesh):
-    """A diffuse surface; a lamp shines to the front only, as in the other renderers."""
+    """Makes a diffuse surface. A lamp shines to the front only, as in the other renderers."""
     material, nodes, links = node_material(mesh["name"])
     output, diffuse = nodes.new("ShaderNodeOutputMaterial"), nodes.new("ShaderNodeBsdfDiffuse")
     diffuse.inputs["Color"].default_value = (*mesh["color"], 1)
@@ -80,7 +80,7 @@ def add_mesh(mesh):
 
 
 def add_light(light):
-    """KHR_lights_punctual: points in W/sr, suns in W/m^2, both with hard shadows."""
+    """Adds a light of KHR_lights_punctual: points in W/sr, suns in W/m^2, both with hard shadows."""
     data = bpy.data.lights.new(light["name"], "POINT" if "position" in light else "SUN")
     data.color = light["color"]
     item = add_object(light["name"], data)
@@ -147,7 +147,7 @@ def exr_attributes(path):
 
 
 def seconds_of(text):
-    """Of 01:02.34 or 1:01:02.34."""
+    """Returns the seconds of a text such as 01:02.34 or 1:01:02.34."""
     total = 0.0
     for part in text.split(":"):
         total = 60 * total + float(part)

@@ -25,7 +25,7 @@ class Absent(Exception):
 
 
 def run_cold(command):
-    """Seconds of a whole process of ours by both clocks, the shader cache off."""
+    """Returns the seconds of a whole fragtrace process by both clocks, with the shader cache off."""
     before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
     subprocess.run(list(map(str, command)), check=True, env={**os.environ, "MESA_SHADER_CACHE_DISABLE": "true"})
     wall, after = time.perf_counter() - start, resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -83,7 +83,7 @@ class Worker:
         raise RuntimeError("ended: " + " | ".join(filter(None, self.lines)))
 
     def using(self, sampler):
-        """The same process, asked for another sampler of Mitsuba's."""
+        """Returns the same process with another one of Mitsuba's samplers."""
         other = copy.copy(self)
         other.more, other.name, other.version = {"sampler": sampler}, f"{self.name}, {sampler}", f"{self.version}, {sampler}"
         return other

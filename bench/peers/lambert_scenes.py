@@ -25,13 +25,15 @@ def flat_quad(folder):
 
 
 def bounds(root):
-    """Of the positions as the meshes have them; these assets turn and scale little."""
+    """Returns the bounds of the positions in the meshes' own spaces; the nodes of these assets turn and scale
+    little."""
     boxes = [root["accessors"][p["attributes"]["POSITION"]] for m in root["meshes"] for p in m["primitives"]]
     return [[pick(box[end][k] for box in boxes) for k in range(3)] for end, pick in (("min", min), ("max", max))]
 
 
 def as_lambert(folder, source, keep_emission):
-    """A copy of an asset with grey matt materials and flat faces, and a camera in front of it, somewhat above."""
+    """Writes a copy of an asset with grey matt materials and flat faces, and a camera in front of it, somewhat
+    above."""
     source = Path(source).resolve()
     root = json.loads(source.read_text(encoding="utf-8"))
     for file in root["buffers"] + (root["images"] if keep_emission else []):

@@ -129,7 +129,7 @@ def camera_with(sampler, camera, resolution):
 
 
 def draw(scene, sensor, resolution, spp, seed):
-    """The picture, and the seconds it took by both clocks."""
+    """Returns the picture, and the seconds it took by both clocks."""
     step = min(spp, 1 << max(0, (PASS_SAMPLES // resolution ** 2).bit_length() - 1))  # both are powers of two
     dr.sync_thread()
     wall, cpu, total = time.perf_counter(), time.process_time(), 0

@@ -54,7 +54,8 @@ def boxes():
 
 
 def ball(middle=(0, -0.35, 0), radius=0.6, bump=0.05, cells=BALL_CELLS):
-    """A cube's faces cut into cells, blown up to a ball with bumps; corners on edges are shared by place."""
+    """Cuts a cube's faces into cells and blows it up to a ball with bumps. Corners at the same place are one vertex,
+    also on the cube's edges."""
     places, positions, indices = {}, [], []
 
     def corner(origin, right, up, i, j):
@@ -77,7 +78,7 @@ def ball(middle=(0, -0.35, 0), radius=0.6, bump=0.05, cells=BALL_CELLS):
 
 
 def ball_on_ground():
-    """Smooth and matt, for an environment."""
+    """Returns the meshes of a smooth matt ball on the ground, for an environment."""
     return [{**ball(middle=(0, 0.6, 0), bump=0)[0], "color": GREY}, quad_mesh("ground", [geometry.ground(4, 4)], GREY)]
 
 
@@ -133,7 +134,7 @@ def write_scene(folder, description):
 
 
 def matt_scene(folder, kind, environment=None):
-    """Any of the kinds but an asset."""
+    """Makes a scene of any kind except an asset."""
     camera = CAMERA
     if kind == "many-lights":
         kept = MattMeshes()
@@ -149,7 +150,8 @@ def matt_scene(folder, kind, environment=None):
 
 
 def asset_scene(folder, program, asset, environment):
-    """Framed as we frame a scene without a camera, seen from the front and somewhat above."""
+    """Makes the scene of an asset. The camera is where fragtrace puts it in a scene without one: in front, somewhat
+    above."""
     info = json.loads(subprocess.run([program, "info", asset, "--json"], check=True, capture_output=True, text=True).stdout)
     low, high = (info["scene"]["bounds"][end] for end in ("min", "max"))
     middle = [(a + b) / 2 for a, b in zip(low, high)]

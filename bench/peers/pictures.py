@@ -36,7 +36,7 @@ def blocks(path):
 
 
 def mean_and_variance(pictures):
-    """Of each place, over independent pictures: the mean, and the variance of that mean."""
+    """Returns, for each pixel and channel of independent pictures, the mean and the variance of that mean."""
     n = len(pictures)
     means = [math.fsum(values) / n for values in zip(*pictures)]
     return means, [math.fsum((v - m) ** 2 for v in values) / (n * (n - 1)) for m, values in zip(means, zip(*pictures))]
@@ -57,8 +57,8 @@ def apart(ours, theirs):
 
 
 def relative_mse(paths):
-    """That of one of some independent pictures of the same expectation, from their spread: sample variance over
-    mean^2 + 0.01 (picture's mean)^2, as `fragtrace diff --metric relmse` weighs it."""
+    """Estimates the relative MSE of one picture from the spread of independent pictures with the same expectation:
+    sample variance over mean^2 + 0.01 (picture's mean)^2, as `fragtrace diff --metric relmse` weighs it."""
     pictures = [read_pfm(path)[1] for path in paths]
     n = len(pictures)
     means = [math.fsum(values) / n for values in zip(*pictures)]

@@ -54,7 +54,8 @@ def arguments():
 
 
 def relative_mse(pictures):
-    """Of one of some independent pictures: their variance over mean^2 + 0.01 (mean of all)^2."""
+    """Estimates the relative MSE of one of several independent pictures: their variance over mean^2 + 0.01 (mean of
+    all)^2."""
     pictures = np.asarray(pictures, float)
     mean = pictures.mean(0)
     return float((pictures.var(0, ddof=1) / (mean ** 2 + 0.01 * mean.mean() ** 2)).mean())
@@ -90,7 +91,7 @@ def theirs(options, described, sampler, spp):
 
 
 def measure(options, name, scene, sky, folder, known):
-    """By samples per pixel: the errors of both sides, and how far the means are apart."""
+    """Returns, for each number of samples per pixel, the errors of both sides, and how far the means are apart."""
     described = None if known else mitsuba_scene(options, scene, sky, folder)
     result = {}
     for spp in options.counts:
@@ -119,7 +120,8 @@ def slope(rows, counts):
 
 
 def error_at(rows, sampler, counts, spp):
-    """Of a sampler that rounds its number of samples up (orthogonal: squares of primes), the error at `spp` is taken from its own power law."""
+    """Returns a sampler's error at `spp`. If the sampler rounds its number of samples up (orthogonal: squares of
+    primes), the error follows from the sampler's own power law."""
     points = [(rows[str(n)]["mitsuba"][sampler]["samples"], rows[str(n)]["mitsuba"][sampler]["error"]) for n in counts]
     place = counts.index(spp)
     (count, error), (other, second) = points[place], points[place - 1 if place else min(1, len(points) - 1)]

@@ -32,7 +32,7 @@ def lines_of(command):
 
 
 def measure(fragtrace, scene, rounds, resolution="1024,1024"):
-    """By kind of rays: (our row, Embree's row) of each turn."""
+    """Returns (our row, Embree's row) of each turn, by kind of rays."""
     turns = {}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -49,7 +49,8 @@ def measure(fragtrace, scene, rounds, resolution="1024,1024"):
 
 
 def figures_of(pairs):
-    """Of one kind: milliseconds of both sides turn by turn, and how many rays there are and differ."""
+    """Returns, for one kind of rays, the milliseconds of both sides turn by turn, the number of rays, and the number
+    that differ."""
     return [(statistics.median(a["ms"]), statistics.median(b["ms"])) for a, b in pairs], pairs[0][0]["rays"], pairs[0][1]["differing"]
 
 

@@ -18,7 +18,7 @@ Scene grid();
 Scene scattered();
 /// A metre long and a micrometre wide, some along axes.
 Scene slivers();
-/// Of no area, twenty times the same, and overlapping in one plane.
+/// Triangles without area, twenty identical ones, and some that overlap in one plane.
 Scene flatAndDouble();
 /// Ten kilometres beside a micrometre.
 Scene hugeAndTiny();
@@ -37,7 +37,7 @@ Scene hugeRoom();
 
 constexpr int kTiles = 24;  ///< along each side of a wall of the tiled room
 
-/// Where the tiled room is cut along an axis; line 0 and kTiles are its walls.
+/// Returns the coordinate at which the tiled room is cut along an axis; lines 0 and kTiles are its walls.
 double tileLine(int axis, int line);
 
 std::array<glm::dvec3, 3> corners(const Scene& scene, size_t triangle);

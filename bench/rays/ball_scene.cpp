@@ -22,7 +22,7 @@ glm::dvec3 surfacePoint(double longitude, double latitude) {
                              std::sin(latitude) * std::sin(longitude));
 }
 
-/// Which of the eight materials a triangle has: the signs of its centroid.
+/// Returns which of the eight materials a triangle has, by the signs of its centroid.
 uint32_t octantOf(const glm::vec3& p) {
   return (p.x > 0.0f ? 1u : 0u) | (p.y > 0.0f ? 2u : 0u) | (p.z > 0.0f ? 4u : 0u);
 }

@@ -17,7 +17,7 @@ struct FoundHit {
   float t = 0.0f;
 };
 
-/// What the last rays have hit, on this tree.
+/// Returns the hits of the last rays on this tree.
 std::vector<FoundHit> foundBy(const RayCaster& caster, const Bvh& bvh);
 
 /// Rays whose nearest hit is another one: a miss for a hit or the other way round, or another primitive at
@@ -30,7 +30,7 @@ size_t countWrongNearest(std::span<const Ray> rays, std::span<const FoundHit> fo
 size_t countWrongAny(std::span<const Ray> rays, std::span<const FoundHit> found,
                      std::span<const ExactHit> exact);
 
-/// How many of so many rays may be wrong: ties at edges and silhouettes, which rounding decides.
+/// Returns the number of rays that may be wrong: ties at edges and silhouettes, which rounding decides.
 size_t wrongRaysAllowed(size_t rays);
 
 /// Holds nearest() against nearestOfAll() on rays spread evenly over the set, as many as take about a second.

@@ -39,7 +39,7 @@ dvec3 pointOnRim(const Scene& scene, size_t triangle, Dice& dice) {
   return p[i] + along * (p[(i + 1) % 3] - p[i]);
 }
 
-/// As many rays as are wanted, one after the other from the same dice.
+/// Makes `count` rays, one after the other from the same random numbers.
 template <typename MakeRay>
 AttackRays raysFrom(size_t count, uint32_t seed, const MakeRay& makeRay) {
   Dice dice(seed);

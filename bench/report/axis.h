@@ -26,7 +26,7 @@ bool isShown(double value);
 /// factor of 5 at least. Without any value it is 1 to 10.
 Axis fitAxis(std::span<const double> values);
 
-/// Where a value lies: 0 at low, 1 at high. The value is one that can be shown.
+/// Returns the position of a value on the axis: 0 at low, 1 at high. The axis can show the value.
 double positionOn(const Axis& axis, double value);
 
 /// In increasing order, from low to high: the decades, while there is room with labels at 2 and 5 and further

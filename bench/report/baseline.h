@@ -25,7 +25,7 @@ struct BaselineEntry {
 /// The lines of such a file. Throws InputError with its name and the line that is none of schema 1.
 std::vector<BaselineEntry> parseBaseline(const std::string& text, const std::string& name);
 
-/// What became of one setting, or of one entry that no setting matches.
+/// The change of one setting, or of an entry that no setting matches.
 struct BaselineChange {
   std::string name;    ///< scene and options
   double ratio = 0.0;  ///< of the medians, now over then; 0: one of the two is missing

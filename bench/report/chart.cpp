@@ -74,7 +74,7 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-/// Of UTF-8.
+/// Returns the number of characters of a UTF-8 text.
 size_t characterCount(std::string_view text) {
   return size_t(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
 }
@@ -111,11 +111,11 @@ struct Point {
   double y = 0;
 };
 
-/// Where everything goes.
+/// The positions of all parts of a chart.
 struct Layout {
   Axis x;
   Axis y;
-  double left = 0;  ///< of the plot
+  double left = 0;  ///< the plot's left edge
   double legendLeft = 0;
   double width = 0;
   double height = 0;

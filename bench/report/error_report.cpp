@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kEnoughSamples = 64.0;  // from which on errors fall as 1 / N, or faster
 
-/// As drawn.
+/// Returns the curve of that name as it was drawn, without a filter, or null.
 const ErrorCurve* curveNamed(const ErrorReport& report, const std::string& name) {
   for (const ErrorCurve& curve : report.curves) {
     if (curve.name == name && curve.filter.empty()) return &curve;
@@ -45,7 +45,7 @@ std::string csvField(const std::string& text) {
   return quoted + '"';
 }
 
-/// How many times sooner, and with how many times fewer samples, `curve` reaches the goal than `slower`.
+/// The factors by which `curve` needs less time and fewer samples than `slower` to reach the goal.
 struct Gain {
   double time = 0.0;
   double samples = 0.0;
@@ -66,7 +66,7 @@ std::string gainText(const ErrorReport& report, const ErrorCurve& slower, const 
               : "";
 }
 
-/// What a curve's entry holds in any case.
+/// Returns the members that every curve's entry has.
 Json measuredJson(const ErrorReport& report, const ErrorCurve& curve) {
   Json entry;
   entry["compile_ms"] = curve.compileMs;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What `bench error` measured, and what follows from it: tables, curves, and the time to a given error.
+// The measurements of `bench error`, and what follows from them: tables, curves, and the time to a given
+// error.
 #pragma once
 
 #include <optional>

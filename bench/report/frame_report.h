@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What was measured of frame times, as a table for people and as lines of JSON for programs.
+// Measured frame times, as a table for people and as lines of JSON for programs.
 #pragma once
 
 #include <optional>
@@ -12,10 +12,10 @@
 
 namespace fragtrace {
 
-/// How the picture of a setting was judged.
+/// The result of comparing the picture of a setting.
 struct PictureVerdict {
   std::string against;  ///< what it was compared with
-  double rmse = 0.0;    ///< these as in bench/report/picture_check.h
+  double rmse = 0.0;    ///< the differences are defined in bench/report/picture_check.h
   double differing = 0.0;
   double meanErrors = 0.0;
   double farBlocks = 0.0;
@@ -44,11 +44,11 @@ struct FrameSetting {
   size_t budgetHits = 0;
   PictureVerdict picture;
 
-  /// Of the median frame.
+  /// Returns the millions of paths per second of the median frame.
   double megaPathsPerSecond() const;
 };
 
-/// How many times as long as another, round by round. Nothing when there is no round.
+/// Ratios of a setting's times to another one's, round by round. There is none without a round.
 struct PairedRatio {
   Summary summary;
   double most = 0.0;
@@ -70,8 +70,8 @@ const FrameSetting& firstOfScene(const std::vector<FrameSetting>& settings, cons
 
 // The table of `bench variants`.
 
-/// Whether it is faster without something: "saves", "costs", or "no difference" where the middle half of the
-/// ratios holds 1.
+/// Says whether frames are faster without a feature: "saves", "costs", or "no difference" where the middle
+/// half of the ratios holds 1.
 std::string gainText(const std::vector<double>& withMs, const std::vector<double>& withoutMs);
 
 /// The first setting is the scene's own variant, each other has something turned on; `notForced` holds what

@@ -10,7 +10,7 @@ namespace fragtrace {
 
 namespace {
 
-/// As Linux names it; empty elsewhere.
+/// Returns the processor's name as Linux reports it, or an empty text on other systems.
 std::string processorName() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {

@@ -7,7 +7,7 @@
 
 namespace fragtrace {
 
-/// Where and when; the same for all settings of a run.
+/// The place and the time of a run; they are the same for all its settings.
 struct BenchMachine {
   std::string processor;
   int cores = 0;

@@ -31,7 +31,7 @@ void fitExponents(Growth& growth) {
 
 double numberOf(const Json& json, const char* key) { return json.at(key).get<double>(); }
 
-/// Of what is above 0; what was not measured is not.
+/// Fits the growth of a value over all sizes at which it was measured, which are those where it is above 0.
 template <typename Value>
 Growth growthOf(std::span<const Json> sizes, const std::string& name, const std::string& unit,
                 const Value& valueOf) {
@@ -54,7 +54,7 @@ Json framesOf(const Json& size, const std::string& traversal) {
   return nullptr;
 }
 
-/// What stands before the figures: all that the lines have in common.
+/// Returns the text above the figures: the data that all lines have in common.
 std::string headOf(const Json& size) {
   return formatted("%d x %d, stage flat", int(numberOf(size, "width")), int(numberOf(size, "height")));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What `bench scale` measured: how time and memory grow with the number of triangles. A size is the line of
-// JSON that is written of it; docs/measurements/figures.md explains its members.
+// The measurements of `bench scale`: the growth of time and memory with the number of triangles. Each size is
+// a line of JSON; docs/measurements/figures.md explains its members.
 #pragma once
 
 #include <span>

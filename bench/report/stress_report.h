@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `bench stress` found.
+// The findings of `bench stress`.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,8 @@
 
 namespace fragtrace {
 
-/// What one case found: rays, pixels or scenes that were tried, and how many were wrong.
+/// The result of one case: the number of rays, pixels or scenes that were tried, and the number of wrong
+/// ones.
 struct StressOutcome {
   size_t cases = 0;
   size_t failures = 0;

@@ -14,7 +14,7 @@
 
 namespace fragtrace {
 
-/// Which rows belong together.
+/// The parts of the report; rows of one part belong together.
 enum class ReportPart : uint8_t { Primitives, Traversal, Gi };
 inline constexpr std::array<std::string_view, 3> kReportPartNames{"primitives", "traversal", "gi"};
 
@@ -34,7 +34,7 @@ struct ReportRow {
 };
 std::span<const ReportRow> reportRows();
 
-/// What was measured of a row: with a draw for every sample, as a viewer draws, and with many samples a draw.
+/// The measurements of a row: with a draw for every sample, as in a viewer, and with many samples per draw.
 /// Either may be missing.
 struct MeasuredRow {
   const ReportRow* row = nullptr;
@@ -46,8 +46,8 @@ struct MeasuredRow {
 /// report's.
 std::string reportTable(const BenchMachine& machine, std::span<const MeasuredRow> rows);
 
-/// What the shapes are: iterative against the number of triangles, the trees against it, shadows against
-/// flat.
+/// Returns the ratios that show the shape of the curves: iterative against the number of triangles, the trees
+/// against iterative, shadows against flat.
 std::string reportRatios(std::span<const MeasuredRow> rows);
 
 /// Figure 9: frame time against faces, both axes logarithmic, as SVG.

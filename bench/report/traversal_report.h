@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What `bench traversal` measured. A kind of rays is the line of JSON that is written of it;
-// docs/measurements/figures.md explains its members.
+// The measurements of `bench traversal`. Each kind of rays is a line of JSON; docs/measurements/figures.md
+// explains its members.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace fragtrace {
 
-/// Of the median round; 0 without any.
+/// Returns the millions of rays per second of the median round, or 0 without a round.
 double megaRaysPerSecond(size_t rays, const std::vector<double>& ms);
 
 std::string traversalTable(std::span<const Json> kinds);

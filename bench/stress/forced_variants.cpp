@@ -19,7 +19,8 @@ std::vector<ForcedVariant> forcedVariants(const RenderOptions& options, const Tr
                                           Surroundings surroundings, uint32_t treeDepth, BufferReads reads) {
   const ShaderVariant own = chooseVariant(options, present, surroundings, treeDepth, reads);
   const auto chosenWith = [&](const TraitSet& traits) {
-    // The default light is drawn as if it were a map where its sampling is asked for.
+    // Only a map can be sampled. So if the traits force sampling of the environment, the default light is
+    // treated as a map.
     const bool map = has(traits, Trait::EnvironmentSampling) && !has(own.traits, Trait::EnvironmentSampling);
     return chooseVariant(options, traits, map ? Surroundings::Map : surroundings, treeDepth, reads);
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether equivalent forms of a scene show the same.
+// Tests whether equivalent forms of a scene give the same picture.
 #pragma once
 
 #include "bench/stress/forms.h"
@@ -7,8 +7,8 @@
 
 namespace fragtrace {
 
-/// How much the drawings of a sketch and of its form have in common. Scaled and moved scenes are drawn with
-/// the same random numbers, the others with their own, since theirs pick other lights with the same number.
+/// The likeness of the drawings of a sketch and of its form. Scaled and moved scenes are drawn with the same
+/// random numbers, the others with their own, since theirs pick other lights with the same number.
 struct Likeness {
   uint32_t seed = 0;
   Form form = Form::Scaled;

@@ -22,8 +22,8 @@ StressOutcome lookOutOfFarShell(const StressSetting& setting);
 /// A white one with one point of its surface at the origin, path traced; cases are paths, failures pixels
 /// that are not black.
 StressOutcome scatterInWhiteShell(const StressSetting& setting);
-/// Inside white shells of spikes, instances of one mesh, turned, evenly scaled and up to a kilometre away;
-/// the same cases and failures.
+/// Traces paths inside white shells of spikes. The shells are instances of one mesh, turned, evenly scaled
+/// and up to a kilometre away. Cases and failures are those of scatterInWhiteShell().
 StressOutcome scatterInSharedShells(const StressSetting& setting);
 
 // Closed prisms in a bright world: wedges that are cut into slivers, boxes, and boxes with see-through skins.
@@ -76,8 +76,8 @@ StressOutcome castAtShrinking(const StressSetting& setting);
 /// 16 million samples of 1/3 (quick: a million) in each of 4 pixels: channels that are more than 1e-6 off.
 StressOutcome addThirds(const StressSetting& setting);
 
-/// Scenes with a number in a file that is NaN, infinite or as large as floats can be: those that are neither
-/// refused nor drawn without a sample that is not finite.
+/// Scenes whose file holds a number that is NaN, infinite or as large as floats can be. A scene fails if it
+/// is not refused and its picture has samples that are not finite.
 StressOutcome drawNoNumbers(const StressSetting& setting);
 
 }  // namespace fragtrace

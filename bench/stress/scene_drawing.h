@@ -24,9 +24,9 @@ class SceneDrawing {
 
   /// options.spp samples of options.seed.
   FilmPixels picture(const GoOn& goOn);
-  /// Metres along the view axis, one sample per pixel, of seed 0.
+  /// Draws depths in metres along the view axis, with one sample per pixel and seed 0.
   FilmPixels depth(const GoOn& goOn);
-  /// From another place. Throws RenderError where the driver ended loops early.
+  /// Draws from another point of view. Throws RenderError where the driver ended loops early.
   FilmPixels draw(const GoOn& goOn, const View& view, glm::ivec2 size, int samples);
 
  private:

@@ -16,7 +16,7 @@ namespace {
 using glm::dvec3;
 using glm::vec3;
 
-/// Rounding of a path of many reflections that lose nothing.
+/// The largest relative rounding error that is allowed for a path of many reflections that lose nothing.
 constexpr double kRounding = 1e-4;
 
 /// Scattered rays alone find the world, so that no sample is brighter than it.
@@ -38,7 +38,8 @@ View furnaceView(const dvec3& position, const dvec3& towards) {
   return view;
 }
 
-/// Pixels of a picture in a white world that are not between `least` and `most`.
+/// Counts the pixels of a picture of a white world, and as failures those that are not between `least` and
+/// `most`.
 void judgeFurnace(const FilmPixels& film, double least, double most, const char* what,
                   StressOutcome& outcome) {
   for (const FilmPixel& p : film.pixels) {

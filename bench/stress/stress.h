@@ -15,7 +15,7 @@
 
 namespace fragtrace {
 
-/// What a row runs with.
+/// The data with which a row runs.
 struct StressSetting {
   const Context& context;
   std::filesystem::path shaderFolder;  ///< shaders from disk in place of the built-in ones

@@ -136,7 +136,7 @@ Prism makeBox(double degrees, double length, bool turned, Dice& dice) {
   return w;
 }
 
-/// What lies on the walls, or this part of the way to the middle inside of them.
+/// A see-through surface that lies on the walls, or inside of them by a share of the way to the middle.
 struct Skin {
   AlphaMode mode;
   float alpha;

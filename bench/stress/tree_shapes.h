@@ -12,8 +12,8 @@ Scene sceneWithoutTriangles();
 /// All of the second material. No box is ever farther away than a hit: a ray that hits visits every leaf.
 Scene identicalTriangles(size_t count);
 
-/// Of the three materials in turn, their sizes a geometric progression from 1 to 1e-6, side by side towards
-/// the point (1, 0, 0).
+/// Makes triangles side by side towards the point (1, 0, 0), of the three materials in turn. Their sizes are
+/// a geometric progression from 1 to 1e-6.
 Scene shrinkingTriangles(size_t count);
 
 }  // namespace fragtrace

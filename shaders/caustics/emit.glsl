@@ -4,7 +4,8 @@
 
 layout(location = 0) uniform vec4 casters[kMostCasters];  // local space: middle, radius
 layout(location = kMostCasters) uniform int casterCount;
-layout(location = kMostCasters + 1) uniform float sunChance;  // that a light path begins at the sun; 1: no lamps
+// Probability that a light path begins at the sun; 1: no lamps.
+layout(location = kMostCasters + 1) uniform float sunChance;
 
 #include "caustics/aim.glsl"
 
@@ -13,7 +14,7 @@ struct Emission {
   vec3 origin;
   vec3 direction;
   vec3 flux;
-  float range;  // of a punctual light; 0: unlimited
+  float range;  // range of a punctual light; 0: unlimited
 };
 
 Emission noEmission() {

@@ -12,7 +12,7 @@ const bool kSunPaths = kCaustics && kSun && kEnvironmentSampling;
 /// camera's side. A lamp's path that meets so narrow a lobe by chance would leave a bright dot.
 const float kNarrow = 5.0;
 
-const int kPrefixNone = 0;     // from the camera: another form; from the lamp: no caster yet
+const int kPrefixNone = 0;     // camera path: another form; light path: no caster yet
 const int kPrefixDiffuse = 1;  // the last surface was rough (from the lamp: one of them after the run of casters)
 const int kPrefixCaustic = 2;  // casters since (from the lamp: since the start)
 const int kPrefixSmooth = 3;   // delta lobes since, not all of casters (from the camera)

@@ -7,8 +7,8 @@
 struct SeenFrom {
   vec3 direction;  // towards it
   float distance;
-  vec2 place;        // of the point in the picture, in pixels; y from the bottom
-  float importance;  // of the light it sends there, a unit of its area seen from there; 0: it is not seen
+  vec2 place;        // place of the point in the picture, in pixels; y from the bottom
+  float importance;  // importance of the light towards the camera, per unit of projected area; 0: not seen
 };
 
 /// The panorama or the fisheye as seen from a point.
@@ -41,7 +41,7 @@ SeenFrom cameraFrom(vec3 point, vec2 lens) {
   vec3 offset = lens.x * normalize(right) + lens.y * normalize(up);
   float pixelArea = 4.0 * length(right) * length(up) / (float(frame.pictureSize.x) * float(frame.pictureSize.y));
   SeenFrom c;
-  vec3 onFilm;  // in units of right and up
+  vec3 onFilm;  // place on the film, in units of right and up
   if (frame.orthographic != 0.0) {
     // An orthographic camera has no lens.
     onFilm = point - frame.cameraPosition;

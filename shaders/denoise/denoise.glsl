@@ -3,8 +3,8 @@
 // pixel. Light is divided by the albedo, so that textures stay sharp, and is in units of the picture's mean.
 #include "picture/picture.glsl"
 
-const float kDarkSquared = 0.01;   // of light: what relative differences are relative to at least, squared
-const float kBrightest = 1e12;     // of light
+const float kDarkSquared = 0.01;   // dark light, squared, which is added to the divisors of relative differences
+const float kBrightest = 1e12;     // largest light
 const int kWindow = 2;             // pixels each way, of the passes that look at noise
 
 // The steps of summary.frag and their sums: light, pixels that have any, samples; logarithms of light; observed

@@ -10,12 +10,13 @@ layout(location = 1) uniform int stride;
 
 layout(location = 0) out vec4 filtered;
 
-const float kDeviationsSquared = 2.5 * 2.5;  // of light, in standard deviations
+const float kDeviationsSquared = 2.5 * 2.5;  // difference of light, in standard deviations, squared
 // A quiet pixel assumes at most so many times its own variance for a noisy one, and the other way round, so that no
 // light is lost.
 const float kUnlike = 20.0;
-const float kRounding = 1e-6;                // of light, squared: what is not noise
-const float kTint = 0.2;                     // of luminance: what a channel's difference is relative to at least
+const float kRounding = 1e-6;                // rounding of light, squared: such a difference is no noise
+// Share of luminance that is added to the divisor of a channel's difference.
+const float kTint = 0.2;
 
 /// The squared difference of luminance, or the one that it would be if all channels differed as much relative to their
 /// size, whichever is larger. Noise is known for luminance only, and most of it is as coloured as the light itself.

@@ -8,7 +8,7 @@ layout(binding = 1) uniform sampler2D filtered;
 layout(binding = 2) uniform sampler2D moved;
 layout(binding = 3) uniform usampler2D guides;
 layout(binding = 4) uniform sampler2D albedos;
-layout(binding = 5) uniform sampler2D means;     // of summary.frag
+layout(binding = 5) uniform sampler2D means;     // output of summary.frag
 layout(binding = 6) uniform sampler2D logarithms;
 
 layout(location = 0) out vec4 denoised;

@@ -4,13 +4,13 @@
 // towards the whole picture's share where the window is small.
 #include "denoise/denoise.glsl"
 
-layout(binding = 0) uniform sampler2D lights;     // as prepare.frag leaves these
+layout(binding = 0) uniform sampler2D lights;     // these are outputs of prepare.frag
 layout(binding = 1) uniform sampler2D observed;
 layout(binding = 2) uniform usampler2D guides;
-layout(binding = 3) uniform sampler2D shares;     // of summary.frag
+layout(binding = 3) uniform sampler2D shares;     // output of summary.frag
 layout(location = 1) uniform bool wasObserved;
 
-layout(location = 0) out vec4 light;   // with the variance that the filter goes by
+layout(location = 0) out vec4 light;   // alpha: the variance that the filter uses
 layout(location = 1) out float noise;  // the variance that the pixel's own samples tell
 
 const float kPrior = 8.0;  // pixels that the whole picture's share counts for

@@ -7,7 +7,7 @@ layout(binding = 1) uniform sampler2D albedos;  // albedo, coverage
 layout(binding = 2) uniform sampler2D normals;  // normal, depth; means that count misses as 0, as albedo does
 // samples; one observation of the variance (observedVariance() of src/render/film/noise.h), negative: none
 layout(binding = 3) uniform sampler2D counts;
-layout(binding = 4) uniform sampler2D means;    // of summary.frag
+layout(binding = 4) uniform sampler2D means;    // output of summary.frag
 layout(binding = 5) uniform sampler2D logarithms;
 
 layout(location = 0) out vec4 light;      // without albedo; variance of its luminance, -1: not known

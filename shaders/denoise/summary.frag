@@ -3,7 +3,7 @@
 // 16 x 16 pixels; sums.frag continues until one texel is left.
 #include "denoise/denoise.glsl"
 
-layout(binding = 0) uniform sampler2D noisy;    // as in prepare.frag
+layout(binding = 0) uniform sampler2D noisy;    // the input of prepare.frag
 layout(binding = 1) uniform sampler2D albedos;
 layout(binding = 2) uniform sampler2D counts;
 layout(binding = 3) uniform sampler2D means;    // the steps before this one

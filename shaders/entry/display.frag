@@ -6,7 +6,7 @@
 
 layout(binding = 0) uniform sampler2D traced;
 layout(location = 0) uniform float factor;  // 2^EV
-layout(location = 1) uniform int toneMap;   // in the order of ToneMap
+layout(location = 1) uniform int toneMap;   // index of the curve in ToneMap
 layout(location = 2) uniform bool dithers;
 
 layout(location = 0) out vec4 displayed;

@@ -8,8 +8,8 @@ layout(binding = 0) uniform sampler2D leftPicture;
 layout(binding = 1) uniform sampler2D rightPicture;
 layout(location = 0) uniform vec2 pictureSize;  // pixels
 layout(location = 1) uniform float bar;         // pixels from the left
-layout(location = 2) uniform vec2 corner;       // of the pictures, pixels from the bottom left of the window
-layout(location = 3) uniform vec3 part;         // of the pictures that is shown: its middle, and how large it is
+layout(location = 2) uniform vec2 corner;       // bottom left corner of the pictures in the window, pixels
+layout(location = 3) uniform vec3 part;         // part of the pictures that is shown: its middle, and its size
 layout(location = 4) uniform float difference;  // factor of the difference of radiances; 0: pictures are shown
 
 layout(location = 0) out vec4 shown;

@@ -93,7 +93,8 @@ float shareOf(LightNode node, LightNode sibling) {
   return node.importance > 0.0f ? node.importance / (node.importance + sibling.importance) : 0.0f;
 }
 
-/// The emitter that `choice` draws by the tree, with `chance` that any is.
+/// Chooses an emitter by the tree, with the random number `choice`. `chance` is the probability that the light sample
+/// goes to an emitter at all; the result's probability includes it.
 LightChoice emitterByTree(float chance, Receiver to, uint choice, uvec2 bits) {
   uint child = readEmitters(lightNodes() + 1).w;
   float own = 1.0f;

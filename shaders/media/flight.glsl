@@ -5,7 +5,7 @@
 
 struct Medium {
   vec3 extinction;  // 1 / local space
-  vec3 albedo;      // of one scattering
+  vec3 albedo;      // albedo of one scattering
   float g;          // anisotropy (phase.glsl)
 };
 

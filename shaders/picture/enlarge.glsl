@@ -3,11 +3,11 @@
 // across it removes the stairs. Its direction is that of the luma's structure tensor (Foerstner and Guelch 1987). AMD's
 // FSR 1 (2021) enlarges by the same idea, from the same twelve pixels.
 
-const float kAlong = 0.4;    // of the distance that counts
+const float kAlong = 0.4;    // factor of distances along the edge
 const float kAcross = 1.4;
 const float kReach = 0.5;    // 1 / square of the distance, in pixels, at which the kernel ends
-const float kFullStep = 0.25;  // of luma, over two pixels: an edge that counts in full
-const float kFlat = 0.02;      // of a channel: no edge passes
+const float kFullStep = 0.25;  // step of luma over two pixels that counts in full as an edge
+const float kFlat = 0.02;      // range of a channel below which there is no edge
 
 // The twelve pixels are four by four without corners, from the row before; the middle ones are 3, 4, 7 and 8.
 const int kTaps = 12;

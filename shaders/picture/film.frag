@@ -10,8 +10,8 @@ layout(location = 0) out vec4 raw;       // linear R, G, B, and alpha
 // Radiance is laid over white where a shadow is in alpha alone; alpha holds the variance of the mean's luminance.
 layout(location = 1) out vec4 radiance;
 layout(location = 2) out vec2 counts;    // samples; of the variance nothing was observed: -1
-layout(location = 3) out vec4 albedo;    // with coverage
-layout(location = 4) out vec4 normal;    // with depth
+layout(location = 3) out vec4 albedo;    // albedo and coverage
+layout(location = 4) out vec4 normal;    // normal and depth
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);

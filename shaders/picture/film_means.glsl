@@ -11,7 +11,7 @@ layout(location = 1) uniform float lightPaths;  // whose light is in the splats
 struct FilmMeans {
   vec3 radiance;
   float alpha;
-  float variance;  // of the mean's luminance
+  float variance;  // variance of the mean's luminance
   float samples;
 };
 

@@ -2,9 +2,9 @@
 // Adds the samples of a past picture to those of the present one, as far as noise explains their difference.
 #include "picture/picture.glsl"
 
-layout(binding = 0) uniform sampler2D radiances;  // of the present, as film.frag leaves these
+layout(binding = 0) uniform sampler2D radiances;  // the present, from film.frag
 layout(binding = 1) uniform sampler2D counts;
-layout(binding = 2) uniform sampler2D pasts;      // as reproject.frag leaves these
+layout(binding = 2) uniform sampler2D pasts;      // these are outputs of reproject.frag
 layout(binding = 3) uniform sampler2D aparts;
 layout(location = 1) uniform float most;          // samples that the past counts for
 

@@ -6,7 +6,7 @@
 
 const int kBlock = 16;  // texels a side that a sum takes into one
 
-layout(location = 0) uniform ivec2 size;  // of what is read
+layout(location = 0) uniform ivec2 size;  // size of the textures that are read
 
 bool inside(ivec2 pixel) { return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, size)); }
 

@@ -5,7 +5,7 @@
 #include "sampling.glsl"
 #include "camera.glsl"
 
-layout(binding = 0) uniform sampler2D radiances;  // of the present, as film.frag leaves these
+layout(binding = 0) uniform sampler2D radiances;  // the present, from film.frag
 layout(binding = 1) uniform sampler2D counts;
 layout(binding = 2) uniform sampler2D albedos;
 layout(binding = 3) uniform sampler2D normals;
@@ -24,10 +24,10 @@ layout(location = 0) out vec4 past;   // light at the present albedo, and the va
 // known; samples of the past, 0 if it has no value here; 1 if such a pixel is compared, else 0.
 layout(location = 1) out vec4 apart;
 
-const float kDepthApart = 0.02;    // of the depth: the same surface
+const float kDepthApart = 0.02;    // relative difference of depths on the same surface
 const float kNormalAlike = 0.9;    // cosine
 const float kAlbedoApart = 0.15;   // a channel
-const float kCovered = 0.5;        // of the samples of a pixel: it shows a surface
+const float kCovered = 0.5;        // share of a pixel's samples that makes it show a surface
 const float kEnoughOfFour = 0.25;  // weight of the taps that fit, for the past to count
 
 const float kPerspectiveType = 0.0;
@@ -75,7 +75,7 @@ struct Known {
   vec3 light;  // without albedo
   float variance;
   float samples;
-  float weight;  // of the taps that fit
+  float weight;  // the sum of the weights of the taps that show the same surface
 };
 
 Known knownOf(Surface now, vec3 point) {

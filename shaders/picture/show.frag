@@ -6,12 +6,12 @@
 layout(binding = 0) uniform sampler2D raw;       // linear R, G, B, and alpha
 layout(binding = 1) uniform sampler2D filtered;  // linear R, G, B
 layout(location = 1) uniform float share;        // of the latter
-layout(location = 2) uniform bool background;    // it is seen: nothing shows through
-layout(location = 3) uniform bool overWhite;     // what is filtered is
+layout(location = 2) uniform bool background;    // the background is seen: nothing shows through
+layout(location = 3) uniform bool overWhite;     // the filtered picture is over white
 
 layout(location = 0) out vec4 shown;
 
-const float kRounding = 1e-6;  // of alpha: nothing
+const float kRounding = 1e-6;  // rounding of alpha: it counts as 0
 
 /// The same as liftedFromWhite() of src/image/over_white.h.
 vec4 liftedFromWhite(vec4 own, vec3 seen) {

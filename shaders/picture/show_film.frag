@@ -2,7 +2,7 @@
 // Shows the film in the window, without a filter; its first row is at the top.
 #include "picture/film_means.glsl"
 
-layout(location = 2) uniform bool background;  // it is seen: nothing shows through
+layout(location = 2) uniform bool background;  // the background is seen: nothing shows through
 
 layout(location = 0) out vec4 shown;
 

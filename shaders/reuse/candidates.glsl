@@ -37,8 +37,8 @@ float numberLeft(float number, float share) {
 struct Candidate {
   LightChoice light;
   LightSample lit;  // the same
-  float own;        // what it may bring; 0: no candidate brings light
-  float sum;        // what all may
+  float own;        // target of the chosen candidate; 0: no candidate brings light
+  float sum;        // sum of all targets
 };
 
 /// normal: of the surface, packedNormal as lightFrom takes it. Uses four dimensions from `dimension` on.

@@ -16,7 +16,7 @@ struct Reservoir {
   LitSurface surface;
   bool known;         // a camera ray has met a surface that is lit
   LightChoice light;  // its chance is of no use
-  float weight;       // in the mean 1 / the pdf with which it is chosen; 0: no light reaches the surface
+  float weight;       // an estimate of 1 / the pdf of the choice; 0: no light reaches the surface
 };
 
 Reservoir makeReservoir(LitSurface on, uint packedNormal, Sampler sampler, uint dimension) {
@@ -62,7 +62,7 @@ float targetOf(LightChoice light, LitSurface on) {
 struct Reuse {
   LightChoice light;
   float target;  // on the pixel's own surface
-  float sum;     // of the weights so far
+  float sum;     // sum of the weights so far
   float share;   // sum over the neighbours of the own sample's MIS weight against each
   float left;    // random number that chooses; rescaled after each choice
 };

@@ -5,8 +5,8 @@ layout(std140, binding = kShutterBinding) uniform ShutterBlock { Shutter shutter
 
 /// The motion of the camera from its pose in Frame, as two turns one after the other, to its position.
 struct CameraPose {
-  RigidMotion first;  // to the middle of the segment
-  RigidMotion then;   // from there
+  RigidMotion first;  // motion up to the middle of the segment
+  RigidMotion then;   // motion from the middle on
   vec3 position;
 };
 

@@ -3,9 +3,9 @@
 // (src/pack/pack_environment.h).
 
 struct Sun {
-  vec3 direction;  // of its middle, in the scene
-  float chance;    // that a light sample of the environment takes the sun
-  vec3 radiance;   // of its middle, before the environment's factor
+  vec3 direction;  // direction of the disc's middle, in the scene
+  float chance;    // probability that a light sample of the environment takes the sun
+  vec3 radiance;   // radiance of the disc's middle, before the environment's factor
   float pdf;       // over solid angle, of a direction to its middle when the sun is taken
 };
 

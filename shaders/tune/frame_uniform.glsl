@@ -3,6 +3,6 @@
 
 layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frame; };
 
-/// As in frame_variable.glsl.
+/// The same functions are in frame_variable.glsl.
 ivec4 tileOfDraw() { return frame.tile; }
 void fetchFrame(uint filmFlags) {}

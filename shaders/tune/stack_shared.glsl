@@ -2,9 +2,9 @@
 // The traversal stack for compute on GPUs, with the functions of stack_text.h. Entries lie in shared memory, so a stack
 // takes one register. Each lane has one stack, so only one of its traversals may be in progress.
 
-const int kGroupLanes = 64;  // of all compute entries
+const int kGroupLanes = 64;  // size of all compute entries' groups
 
-shared int stackEntries[kStackSize * kGroupLanes];  // a row of lanes an entry
+shared int stackEntries[kStackSize * kGroupLanes];  // each entry has a row of all lanes
 
 struct Stack {
   int count;

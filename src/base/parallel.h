@@ -11,7 +11,7 @@
 
 namespace fragtrace {
 
-/// For std::async: a thread of its own, or where none can be had (ulimit -u, ulimit -v), the call waits for
+/// A launch policy for std::async: a new thread, or if there is none (ulimit -u, ulimit -v), the call runs in
 /// get() instead of failing.
 constexpr std::launch kThreadIfGranted = std::launch::async | std::launch::deferred;
 

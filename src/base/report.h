@@ -8,7 +8,7 @@
 
 namespace fragtrace {
 
-/// From now on all messages are JSON; quiet: errors alone.
+/// From now on all messages are JSON. If `quiet`, only errors are reported.
 void reportAsJson(bool quiet);
 /// Returns true after reportAsJson(). Any thread or signal handler may call it.
 bool reportsAsJson();

@@ -19,9 +19,9 @@ struct Summary {
 /// In any order, without NaN; all zero when there are none.
 Summary summarize(std::vector<double> values);
 
-/// The slope of the line through (log x, log y) that has the least squares of errors in log y: the exponent p
-/// of y ~ x^p. Points that are not positive and finite in both are left out, as are those of the longer
-/// list that have no partner; NaN where what remains has fewer than two different x.
+/// Returns the slope of the line that fits (log x, log y) best by least squares of the errors in log y: the
+/// exponent p of y ~ x^p. Points that are not positive and finite in both are left out. So is what the longer
+/// list has beyond the shorter one. Returns NaN if fewer than two different x remain.
 double logLogSlope(std::span<const double> xs, std::span<const double> ys);
 
 }  // namespace fragtrace

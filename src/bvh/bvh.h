@@ -46,7 +46,7 @@ struct BvhMesh {
 struct Bvh {
   std::vector<BvhNode> nodes;
   std::vector<BvhLeaf> leaves;
-  /// Where surfaces move, the boxes of each node when its segment ends (bvh/moving_tree.h).
+  /// The boxes of each node at the end of its segment, if surfaces move (bvh/moving_tree.h).
   std::vector<std::array<Bounds, 2>> endBounds{};
   uint32_t besideTree = 0;  ///< leaves at the end to which no node refers: see large_first.h
   uint32_t depth = 0;  ///< inner nodes on the longest path from the root, at most kMaxBvhDepth; with meshes

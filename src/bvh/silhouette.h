@@ -9,7 +9,7 @@
 
 namespace fragtrace {
 
-/// By place in the file (SceneNode::index): true if the node is meant.
+/// True for the nodes that are meant, by their place in the file (SceneNode::index).
 using NodeSet = std::vector<bool>;
 
 /// The node, and all that is below it; nothing where the scene has no such node.

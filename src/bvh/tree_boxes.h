@@ -10,8 +10,8 @@
 
 namespace fragtrace {
 
-/// The boxes of all nodes and leaves so many steps below the root, in local space. The root, without the
-/// triangles beside the tree, is level 0. Instances are leaves.
+/// Returns the boxes of all nodes and leaves `level` steps below the root, in local space. The root is level
+/// 0; it does not hold the triangles beside the tree. Instances are leaves.
 std::vector<Bounds> boxesAtLevel(const Bvh& bvh, uint32_t level);
 
 /// A line between two places of the picture (scene/projection.h); it may reach beyond.

@@ -20,7 +20,8 @@ RunCommand addDenoise(CLI::App& app);
 /// For --help alone: the program has become another one before it asks for this command's options.
 RunCommand addBench(CLI::App& app);
 
-inline constexpr const char* kBenchSentence = "measure speed and error";  ///< of --help
+/// The command's sentence in --help.
+inline constexpr const char* kBenchSentence = "measure speed and error";
 
 /// In the order of --help.
 inline constexpr std::array kCommandRows{

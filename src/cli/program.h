@@ -18,8 +18,8 @@ int runProgram(const MainFunction& run, int argc, char** argv);
 /// `user` is the command that needs it.
 std::filesystem::path ownProgram(const std::string& name, const std::string& user);
 
-/// Returns true if standard output was closed before the program began. A line about a file that was written
-/// is of no use there; a result is an error (checkPrinted).
+/// Returns true if standard output was closed before the program began. Then lines about written files are
+/// left out, and a command that prints a result fails (checkPrinted).
 bool standardOutputIsClosed();
 
 /// Throws RenderError where standard output could not take all that was printed; ends the process with

@@ -17,7 +17,7 @@ struct Video;
 
 /// A finished picture goes to a video, or to the output of the options.
 struct Destination {
-  std::string name;        ///< for messages
+  std::string name;        ///< the name in messages
   Video* video = nullptr;  ///< none: the output of the options
 };
 

@@ -35,7 +35,7 @@ struct SequenceRun {
   std::optional<RefittableTree> tree;      ///< the latest tree, where the next picture may refit it
   std::shared_ptr<KeptDocument> document;  ///< the document that is posed for each picture
   Statistics prepared;                     ///< time spent on a turntable's scene
-  std::unique_ptr<Video> video;            ///< that all pictures go to, if they do
+  std::unique_ptr<Video> video;            ///< the file that all pictures go to; null: there is none
 };
 
 /// Returns true if the next picture may refit this one's tree. `merge` tells scenes apart by their arrays,
@@ -162,7 +162,7 @@ void drawFrames(const RenderOptions& options, SequenceRun& run, SequenceCounts& 
     try {
       counts.drawn += drawFrame(run, frame, sequence) == Outcome::Complete;
     } catch (const UsageError&) {
-      throw;  // it would be the same for every picture
+      throw;  // the same error would follow for every picture
     } catch (const ContextLost&) {
       throw;
     } catch (const std::exception& reason) {

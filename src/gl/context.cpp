@@ -24,7 +24,7 @@ bool loadFunctions(Context& context, GetProcAddress getProcAddress, std::string&
   for (const char* name : {"llvmpipe", "softpipe", "swrast", "SwiftShader", "Software"}) {
     context.software = context.software || context.renderer.find(name) != std::string::npos;
   }
-  // As many threads as the driver likes compile programs that are started together.
+  // The driver may use as many threads as it likes to compile programs that are started together.
   if (GLAD_GL_KHR_parallel_shader_compile) glMaxShaderCompilerThreadsKHR(~0u);
   return true;
 }

@@ -20,7 +20,7 @@ class DebugLog {
   std::vector<std::string> messages_;
 };
 
-/// As checkGl(), with what the driver says of the error.
+/// Does the same as checkGl(), with the driver's message about the error.
 void checkGl(const char* where, DebugLog& log);
 
 }  // namespace fragtrace

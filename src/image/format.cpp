@@ -20,7 +20,7 @@ bool beginsWith(std::span<const uint8_t> bytes, std::string_view signature) {
 
 std::string extensionOf(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
-  // By hand, since tolower depends on the locale.
+  // Letters are converted by hand, since tolower depends on the locale.
   for (char& c : extension)
     if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
   return extension;

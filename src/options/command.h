@@ -16,7 +16,7 @@ using RunCommand = std::function<int()>;
 
 struct CommandRow {
   const char* name;
-  const char* sentence;              ///< of --help
+  const char* sentence;              ///< the sentence in --help
   RunCommand (*add)(CLI::App& app);  ///< declares the command's options
 };
 

@@ -39,8 +39,8 @@ Json parseFile(const std::filesystem::path& path) {
   try {
     json = Json::parse(bytes, watch);
   } catch (const Json::exception& error) {
-    // "[json.exception...] parse error at line 1, column 2: ..."; of numbers that are too large without a
-    // place
+    // The message is "[json.exception...] parse error at line 1, column 2: ...". For numbers that are too
+    // large it names no place.
     const std::string text = error.what();
     const size_t line = text.find("at line");
     throw InputError(path.string() + ": " +
@@ -109,7 +109,7 @@ std::set<std::string> applyFile(const std::filesystem::path& path, CLI::App& com
     if (isFlag && !value.is_boolean()) throw InputError(place + ": is neither true nor false");
     if (!isFlag && value.is_array() && value.empty()) throw InputError(place + ": is empty");
     std::vector<std::string> values = isFlag ? std::vector<std::string>{"true"} : spelledValues(value, place);
-    // Numbers of an option that takes one word, such as "up".
+    // An option that takes one word, such as "up", gets a list of numbers as one word with commas.
     if (option->get_type_name() == "TEXT" && option->get_items_expected_max() == 1 && value.is_array() &&
         std::ranges::all_of(value, &Json::is_number))
       values = {joined(values, ",")};
@@ -150,7 +150,7 @@ int runConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App&
   try {
     return run(finishRender(raw));
   } catch (const UsageError& error) {
-    // Options are named first in what is said of them: "--region: ..." or "--output -: ...".
+    // Messages about options begin with the option's name: "--region: ..." or "--output -: ...".
     const std::string text = error.what();
     for (const std::string& name : taken) {
       const std::string option = "--" + name;

@@ -53,7 +53,7 @@ struct OptionTraits {
 };
 
 struct OptionRow {
-  const char* name = "";  ///< with its dashes
+  const char* name = "";  ///< the name with its dashes
   std::string help{};
   OptionTraits traits{};
   std::vector<std::string>

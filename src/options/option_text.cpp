@@ -32,7 +32,7 @@ std::string quoted(const std::string& word) {
 }
 
 void appendOption(std::string& text, const char* option, const std::string& value) {
-  // A value that looks like an option is taken for one, unless it is joined to its own.
+  // The parser takes a value that begins with a dash for an option, unless "=" joins it to the option before.
   const bool isNumber =
       value.size() > 1 && (std::isdigit(static_cast<unsigned char>(value[1])) != 0 || value[1] == '.');
   const char* join = value.starts_with('-') && !isNumber ? "=" : " ";

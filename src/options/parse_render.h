@@ -29,7 +29,8 @@ struct RawRender {
   std::string stage = "gi";
   std::vector<std::string> enable{};
   std::vector<std::string> disable{};
-  std::vector<std::string> fileEnable{};  ///< of --config: what the command line switches counts more
+  /// The switches of --config; those of the command line take precedence.
+  std::vector<std::string> fileEnable{};
   std::vector<std::string> fileDisable{};
   bool noDefaultLight = false;
   bool anyOutput = false;  ///< pictures get their names later, so what any format holds may be asked for

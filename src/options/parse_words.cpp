@@ -15,7 +15,7 @@ namespace fragtrace {
 
 namespace {
 
-constexpr const char* kEndOfOptions = "--";  // as POSIX has it: files follow, whatever they are called
+constexpr const char* kEndOfOptions = "--";  // by POSIX, all words after it are files
 
 /// The command that was given.
 const CLI::App& chosenCommand(const CLI::App& app) {

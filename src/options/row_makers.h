@@ -113,7 +113,7 @@ OptionRow numberRow(const char* name, std::string help, Member member,
   return row;
 }
 
-/// Has a default.
+/// A number that has a default.
 template <typename Number, typename Member>
 OptionRow number(const char* name, std::string help, Member member, NumberRange<Number> range,
                  OptionTraits traits) {
@@ -171,7 +171,7 @@ OptionRow choice(const char* name, std::string help, Member member, const Names&
   return row;
 }
 
-/// Text, or a path: `type` is TEXT, FILE or FOLDER in --help.
+/// A word: text, or a path. --help shows `type`, which is TEXT, FILE or FOLDER.
 template <typename Member>
 OptionRow word(const char* name, std::string help, Member member, OptionTraits traits,
                const char* type = "TEXT") {
@@ -190,7 +190,7 @@ OptionRow word(const char* name, std::string help, Member member, OptionTraits t
   return row;
 }
 
-/// How a colour is written, for messages.
+/// The form of a colour, for messages.
 inline constexpr const char* kColorForm = "1,1,1 for white";
 
 /// Numbers in one word, separated by commas, which `take` puts into the options; it throws UsageError. `form`

@@ -16,7 +16,7 @@ struct OtherName {
   std::string_view ours;
 };
 
-/// As other renderers have it.
+/// Names of options in other renderers.
 constexpr auto kOtherNames = std::to_array<OtherName>({
     {"--samples", "--spp"},
     {"--samples-per-pixel", "--spp"},

@@ -12,10 +12,10 @@ struct ViewOptions {
   bool watch = false;    ///< reload when the scene's files or the shaders change
   std::filesystem::path statusFile;
   std::filesystem::path reference;  ///< a picture that is shown as side B; empty: none
-  // For measurements alone.
-  /// A picture in motion may take so long; 0: it has full resolution; none: the device decides.
+  // These members are for measurements alone.
+  /// The most milliseconds of a picture in motion; 0: it has full resolution; none: the device decides.
   std::optional<double> movingMs{};
-  bool waitsForPasses = false;  ///< so that each has its time
+  bool waitsForPasses = false;  ///< wait for each pass, so that its time can be measured
   bool keepsPast = true;        ///< pictures of moving views reuse the view before
 };
 

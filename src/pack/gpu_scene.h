@@ -85,7 +85,8 @@ struct GpuScene {
   uint32_t objectRow = 0;       ///< row of the numbers of objects
   glm::vec3 upwardIrradiance{
       0.0f};  ///< irradiance by the environment of a plane that faces up, for shadow catchers
-  std::array<bool, layout::kSceneBufferCount> unchanged{};  ///< those that are as packed before: empty here
+  /// The arrays that are the same as packed before: these are empty here.
+  std::array<bool, layout::kSceneBufferCount> unchanged{};
 
   size_t bytes() const;
   /// The part of these that the primitives take: tree, leaves, faces and vertex attributes.

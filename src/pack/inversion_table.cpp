@@ -43,8 +43,8 @@ std::vector<uint64_t> numbersOf(std::span<const float> weights, double sum, uint
   return numbers;
 }
 
-/// Appends those of the places [first, last], at which the density changes within one step, at which it
-/// changes most.
+/// The density changes at each of the places [first, last], all within one step of the table. Appends the two
+/// places at which it changes most.
 void appendChanges(Runs& runs, std::span<const float> weights, const std::vector<uint64_t>& numbers,
                    size_t first, size_t last) {
   static_assert(kMostChanges == 2);

@@ -22,7 +22,7 @@ struct PlacedTexels {
   int height = 0;
   glm::vec4 mean{1.0f};
 };
-/// By the index of the scene's image.
+/// The key is the index of the scene's image, and the transfer curve.
 using PlacedTextures = std::map<std::pair<uint32_t, TransferCurve>, PlacedTexels>;
 
 struct KeptArrays {

@@ -15,10 +15,10 @@ struct LiteralOptions {
   bool backFaces = false;  ///< light paths ask for the backs of single-sided faces
 };
 
-/// traverseLiterals() of shaders/literals.glsl for this mesh: Woop, Benthin and Wald's test
-/// (shaders/intersect.glsl) of all its faces, unrolled. Points are projected once for all faces that share
-/// them and edge functions made once for both sides, so no ray passes between neighbours, whatever the
-/// compiler fuses.
+/// Returns the text of traverseLiterals() of shaders/literals.glsl for this mesh: the test of Woop, Benthin
+/// and Wald (shaders/intersect.glsl) of all its faces, unrolled. Points are projected once for all faces that
+/// share them, and an edge function is computed once for both faces of its edge. So no ray passes between
+/// neighbours, even if the compiler fuses operations.
 std::string literalTraversal(const LiteralMesh& mesh, const LiteralOptions& options);
 
 }  // namespace fragtrace

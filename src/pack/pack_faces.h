@@ -14,8 +14,9 @@ glm::vec4 planeOf(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2)
 /// can name.
 Words packFaces(const Scene& scene, const Bvh& bvh, bool creases);
 
-/// Appends the numbers of the glTF nodes that show the primitives in leaf slots, and then those of instances:
-/// from 1 on, 0 where there is none, four a row (shaders/layout.glsl).
+/// Appends numbers of glTF nodes, four in a row: first of the nodes that show the primitives, in the order of
+/// leaf slots, then of those that show the instances. Numbers begin with 1; 0 means that there is no node
+/// (shaders/layout.glsl).
 void appendObjectNumbers(const Scene& scene, const Bvh& bvh, Words& words);
 
 }  // namespace fragtrace

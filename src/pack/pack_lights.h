@@ -10,7 +10,7 @@ struct PackedEmitters {
   Words entries;  ///< layout.glsl: emitters
   uint32_t count = 0;
   double power = 0.0;               ///< sum, watts of luminance
-  std::vector<double> materialPdf;  ///< for each material, probability per square metre of its triangles
+  std::vector<double> materialPdf;  ///< for each material, the pdf per square metre of its triangles
 };
 
 /// materialRadiance: mean radiance of each material's surface; slots: leaf slot of each triangle; slotCount:

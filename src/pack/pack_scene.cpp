@@ -80,7 +80,8 @@ glm::vec3 scatteringAlbedo(const Material& m, TexturePacker& textures) {
   return glm::vec3(glm::clamp((1.0 - s * s) / (1.0 - g * s * s), 0.0, 1.0));
 }
 
-constexpr std::array kCasterFlags{0u, layout::kMaterialCaster, layout::kMaterialGlossyCaster};  // as Caster
+// The flags are in the order of Caster.
+constexpr std::array kCasterFlags{0u, layout::kMaterialCaster, layout::kMaterialGlossyCaster};
 uint32_t materialFlags(const Material& m) {
   uint32_t flags = 0;
   if (m.alphaMode == AlphaMode::Mask) flags |= layout::kMaterialMask;

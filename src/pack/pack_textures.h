@@ -10,8 +10,8 @@ namespace fragtrace {
 /// The largest width and height at which all of the scene's pictures together take at most so many bytes.
 int textureSideWithin(const Scene& scene, int64_t mostBytes);
 
-/// Decodes textures on demand into one array of texels (RGBA as linear half floats); each image once for each
-/// curve.
+/// Decodes textures on demand into one array of texels (RGBA as linear half floats). An image is decoded once
+/// for each transfer curve with which the scene uses it.
 class TexturePacker {
  public:
   /// Pictures wider or higher than `side` are scaled down to it. The array already holds `known`, of a scene

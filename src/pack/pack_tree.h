@@ -20,7 +20,7 @@ Words packLeaves(const Scene& scene, const Bvh& bvh, bool moving = false);
 /// layout::Frame::segments.
 glm::ivec4 segmentsOf(const Scene& scene, const Bvh& bvh);
 
-/// For each triangle, its leaf slot (leaf * 2 + side).
+/// Returns the leaf slot of each triangle (leaf * 2 + side).
 std::vector<uint32_t> leafSlots(const Scene& scene, const Bvh& bvh);
 
 /// Leaves of two primitives in file order, without a tree, for the iterative traversal.

@@ -174,7 +174,7 @@ nb::tuple readFile(const std::string& path) {
   return pictureTuple(image);
 }
 
-/// As readFile(), and what the picture consists of.
+/// Returns the same as readFile(), and the parts of which the picture consists.
 nb::tuple merge(const std::vector<std::string>& paths) {
   if (paths.empty()) throw UsageError("merge: no parts");
   Part joined;

@@ -124,7 +124,7 @@ std::vector<uint32_t> targetsOf(Blocks& blocks) {
 
 /// The draws that lead to the targets, by tiles and numbers of samples.
 std::vector<Work> workOf(Blocks& blocks) {
-  std::map<std::tuple<int, int, int, int>, int> busy;  // samples, target, tile y, tile x: pixels
+  std::map<std::tuple<int, int, int, int>, int> busy;  // number of pixels by samples, target, tile y, tile x
   for (int y = 0; y < blocks.picture.y; ++y) {
     for (int x = 0; x < blocks.picture.x; ++x) {
       const Block& b = blocks.ofPixel(x, y);
@@ -250,7 +250,7 @@ AdaptivePicture renderAdaptively(Renderer& renderer, AdaptiveRun& run, const Vie
     const bool blind = goal.seconds > 0.0 && std::ranges::all_of(errors, [](double e) { return e == 0.0; });
     // Errors fall with the root of the samples.
     roundsDone = goal.noise > 0.0 ? std::pow(goal.noise / std::max(picture.error, goal.noise), 2.0) : 0.0;
-    if (!more) run.state.rounds -= 1;  // it goes on where it stopped
+    if (!more) run.state.rounds -= 1;  // the next call continues here
     if (!more || (goal.noise > 0.0 && picture.share >= kPartUnderGoal && !(picture.black && blind)))
       return picture;
 

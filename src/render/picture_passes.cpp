@@ -12,7 +12,7 @@ namespace fragtrace {
 
 namespace {
 
-constexpr int kBlock = 16;  // as in shaders/picture/picture.glsl
+constexpr int kBlock = 16;  // the same as in shaders/picture/picture.glsl
 
 glm::ivec2 blocksOf(glm::ivec2 size) { return (size + kBlock - 1) / kBlock; }
 

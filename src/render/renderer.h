@@ -48,9 +48,9 @@ bool canSplat();
 /// Settings that can change from picture to picture without touching program or buffers.
 struct View {
   Camera camera;                      ///< world space
-  std::vector<CameraSegment> motion;  ///< of the camera, when the variant has one
-  LocalSpace space;                   ///< of the scene
-  Lens lens;                          ///< when the variant has one
+  std::vector<CameraSegment> motion;  ///< the camera's motion, if the variant has one
+  LocalSpace space;                   ///< the scene's local space
+  Lens lens;                          ///< the lens, if the variant has one
   double hdriRotation = 0.0;          ///< radians about +Y
   double hdriIntensity = 1.0;         ///< factor of the environment's radiance
   float surroundings = 1.0f;          ///< factor of all light from outside the scene, also where the camera
@@ -58,8 +58,8 @@ struct View {
   glm::vec3 background{0.0f};         ///< seen by camera rays that miss
   bool showEnvironment = true;  ///< camera rays that miss see the environment map instead, or its backdrop
   bool seesNothing = false;     ///< they see nothing: the picture is to be laid over another one
-  Fog fog;                      ///< when the variant has one
-  Volume volume;                ///< when the variant has one; its grid is packed
+  Fog fog;                      ///< the fog, if the variant has one
+  Volume volume;                ///< the volume, if the variant has one; its grid is packed
   std::optional<uint32_t> cameraMedium{};  ///< material of the scattering solid that the camera stands in
   double catcherHeight = 0.0;  ///< Y of the shadow catcher in world space, when the variant has one
   bool firstInMiddle = false;  ///< the first sample of each pixel is in its middle, for edges without chance
@@ -224,8 +224,8 @@ class Renderer {
   layout::Frame frame_{};
   LightShare lightShare_;
   PackedGrid grid_;
-  std::vector<glm::vec4> casters_;     ///< as in GpuScene
-  float sunChance_ = 0.0f;             ///< that a light path of the frame begins at the sun
+  std::vector<glm::vec4> casters_;     ///< the casters of GpuScene
+  float sunChance_ = 0.0f;             ///< probability that a light path of the frame begins at the sun
   std::optional<Film> lightPathFilm_;  ///< two texels per light path (storeRecord of film.glsl)
   std::optional<Film> reservoirs_;  ///< a reservoir a pixel, for this sample (shaders/reuse/neighbours.glsl)
   GlBuffer frameBuffer_;

@@ -14,7 +14,8 @@ namespace fragtrace {
 
 /// A place on a sphere around the point at which an upright camera looks.
 struct Orbit {
-  double azimuthDegrees = 0.0;    ///< 0: in front of it (+Z); positive: to the right of a viewer there
+  /// 0 is in front of the point (towards +Z); positive angles are to the right of a viewer in front
+  double azimuthDegrees = 0.0;
   double elevationDegrees = 0.0;  ///< -90 to 90, up
   double zoom = 1.0;              ///< factor by which things are larger in the picture
 
@@ -36,7 +37,8 @@ struct CameraOverrides {
   std::optional<glm::dvec3> viewUp{};
   std::optional<double> viewAngleDegrees{};
   std::optional<double> parallelScale{};  ///< half of the picture's height: an orthographic view
-  std::optional<glm::dvec2> lensShift{};  ///< to the right and up, in parts of the picture's width and height
+  /// Shift to the right and up, in parts of the picture's width and height.
+  std::optional<glm::dvec2> lensShift{};
   std::optional<Orbit> orbit{};
   bool fit = false;  ///< the camera is moved until the scene fills the picture; left to fitted() of fit.h
   /// A fit holds all of the space that the scene fills while it turns about the vertical axis through the

@@ -70,7 +70,7 @@ std::vector<uint32_t> spacesOf(const Scene& scene) {
   return spaces;
 }
 
-/// For each vertex, the first one at the same place of the same space.
+/// Returns, for each vertex, the first vertex at the same place of the same space.
 std::vector<uint32_t> placesOf(const Scene& scene) {
   const std::vector<glm::vec3>& positions = scene.vertices.position;
   const std::vector<uint32_t> spaces = spacesOf(scene);
@@ -106,7 +106,7 @@ Fans fansOf(const Scene& scene) {
   return fans;
 }
 
-/// A triangle seen from one of its corners.
+/// The angle of a triangle at one of its corners.
 struct Sector {
   glm::dvec3 normal, toSecond, toThird;  // unit; (0, 0, 0) for the normal of a triangle without area
   std::array<double, 3> altitude;        // over the edge opposite to the corner, the second, the third vertex

@@ -23,7 +23,7 @@ struct SceneDescription {
   size_t instances = 0;  ///< mesh primitives, counted once for each node that shows them
   size_t sharedMeshes = 0;
   size_t sharedInstances = 0;  ///< instances of shared meshes
-  size_t trianglesDrawn = 0;   ///< those of shared meshes counted for each instance
+  size_t trianglesDrawn = 0;   ///< number of triangles; those of shared meshes count for each instance
   std::string sharing;         ///< why meshes are shared, or are not
   size_t materials = 0;
   size_t textures = 0;

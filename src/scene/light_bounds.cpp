@@ -66,7 +66,7 @@ double importanceOf(const LightBounds& lights, const glm::dvec3& point) {
   const auto angleOf = [](double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); };
   double beyond = 0.0;
   if (lights.falloff > 0.0) {
-    // For lights in one plane, their extent along the axis tells if the point is in front of them. From
+    // If lights are in one plane, their extent along the axis tells if the point is in front of them. From
     // behind, they may be twice as far away.
     const double front = along + thicknessOf(lights);
     beyond = angleOf(front / (front > 0.0 ? most : 2.0 * most)) - lights.spread;

@@ -35,7 +35,8 @@ LightBounds unite(const LightBounds& a, const LightBounds& b);
 /// there. It is the same as lightNodeFrom of shaders/lights/light_tree.glsl.
 double importanceOf(const LightBounds& lights, const glm::dvec3& point);
 
-/// Luminous power. That of an `everywhere` light is what crosses a disc of that radius, the scene's.
+/// Returns the luminous power. For an `everywhere` light it is the power that crosses a disc with the scene's
+/// `radius`.
 double powerOf(const LightBounds& lights, double radius);
 
 LightBounds boundsOfTriangle(const std::array<glm::dvec3, 3>& corners, double radiance, bool bothSides);

@@ -33,7 +33,7 @@ std::optional<Ray> rayThrough(const Projection& projection, const LocalSpace& sp
   if (projection.type == CameraType::Orthographic)
     return Ray{glm::vec3(position + offset / space.unit), glm::vec3(projection.forward), kFar};
   glm::dvec3 direction = projection.forward + offset;
-  // As in shaders/camera.glsl.
+  // Shaders/camera.glsl computes the same.
   if (projection.type == CameraType::Panorama) {
     const glm::dvec2 angles = glm::dvec2(glm::pi<double>(), glm::half_pi<double>()) * shifted;
     direction = std::cos(angles.y) * (std::cos(angles.x) * projection.forward +

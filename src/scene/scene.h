@@ -94,7 +94,7 @@ struct Material {
   std::string name;
   uint32_t number = 0;                    ///< number of the glTF material, from 1; the default one comes last
   std::string place{};                    ///< JSON pointer; empty: the default one
-  std::vector<std::string> extensions{};  ///< those that the file gives it
+  std::vector<std::string> extensions{};  ///< extensions that the file gives the material
   glm::vec4 baseColorFactor{1.0f};
   float metallicFactor = 1.0f;
   float roughnessFactor = 1.0f;
@@ -160,8 +160,8 @@ struct Material {
   bool transmissive() const { return transmissionFactor > 0.0f; }
   /// Light of any kind passes through, so rays see the back.
   bool passesLight() const { return transmissive() || diffuseTransmissionFactor > 0.0f; }
-  /// By the roughness factor alone the surface is so smooth that it scatters light in single directions
-  /// (kMirrorAlpha of shaders/bsdf.glsl).
+  /// Returns true if the surface, judged by its roughness factor without the texture, is so smooth that it
+  /// scatters light in single directions (kMirrorAlpha of shaders/bsdf.glsl).
   bool mirrorLike() const { return roughnessFactor * roughnessFactor < 0.001f; }
   bool clearcoated() const { return clearcoatFactor > 0.0f; }
   bool hasSheen() const { return sheenColorFactor != glm::vec3(0.0f); }
@@ -262,7 +262,7 @@ struct LightSource {
   std::string name;
   LightType type = LightType::Point;
   glm::dvec3 color{1.0};
-  double intensity = 1.0;  ///< in the file's units
+  double intensity = 1.0;  ///< intensity in the file's units
 };
 
 /// Light::intensity of such a light.
@@ -288,7 +288,7 @@ struct Camera {
   glm::dvec3 up{0.0, 1.0, 0.0};        ///< unit, orthogonal to forward
   double fovY = 0.7853981633974483;  ///< view angle, radians: vertical (perspective), of the circle (fisheye)
   double halfHeight = 1.0;           ///< half of the vertical extent, metres (orthographic)
-  glm::dvec2 shift{0.0};             ///< of the lens: to the right and up, in parts of width and height
+  glm::dvec2 shift{0.0};             ///< shift of the lens to the right and up, in parts of width and height
   double aspectRatio = 0.0;          ///< width / height; 0: not given
 };
 
@@ -335,7 +335,7 @@ struct SceneNode {
   std::string name;           ///< its name, or else its JSON pointer
   uint32_t index = 0;         ///< its place in the file
   int depth = 0;              ///< ancestors
-  bool hidden = false;        ///< it or an ancestor, by the file or by the user
+  bool hidden = false;        ///< the node or an ancestor is hidden, by the file or by the user
   bool hiddenInFile = false;  ///< hidden by the file alone
   bool mesh = false;          ///< true for a mesh, false for a sphere
   bool light = false;
@@ -369,7 +369,7 @@ struct Scene {
   std::vector<LightSource> lightSources;  ///< all of the file
   std::vector<Camera> cameras;            ///< cameras in the order in which nodes are visited; world space
   std::vector<PrimitiveOrigin> origins;
-  std::vector<SceneNode> nodes;          ///< parents before what is below them
+  std::vector<SceneNode> nodes;          ///< a parent stands before its children
   std::vector<SharedMesh> sharedMeshes;  ///< their triangles and vertices stand behind all others
   std::vector<Instance> instances;
   std::string sharing;  ///< why meshes are shared or are not, in a few words

@@ -19,15 +19,15 @@ struct SetNumber {
 /// The parts of a file that are shown, and what is changed in it. A part is selected by its name or, where
 /// none has that name, by its index.
 struct SceneSelection {
-  std::string scene{};                     ///< empty: the file's default scene
-  std::string animation{};                 ///< empty: the first one; only with a time
-  std::optional<double> animationTime{};   ///< seconds; none: the pose that the file stands in
-  std::string camera{};                    ///< name of a camera; empty: the one of the index, or the first
-  std::string materialVariant{};           ///< empty: the materials that the file shows by default
-  std::vector<std::string> hiddenNodes{};  ///< by name (all that have it), JSON pointer or index; not drawn,
-                                           ///< nor what is below them
-  std::vector<SetNumber> set{};            ///< of several for one place the last counts
-  glm::dvec3 up{0.0, 1.0, 0.0};            ///< turns the whole file, so that this direction, not 0, is +Y
+  std::string scene{};                    ///< empty: the file's default scene
+  std::string animation{};                ///< empty: the first one; only with a time
+  std::optional<double> animationTime{};  ///< seconds; none: the pose that the file stands in
+  std::string camera{};                   ///< name of a camera; empty: the one of the index, or the first
+  std::string materialVariant{};          ///< empty: the materials that the file shows by default
+  /// Nodes by name (all that have it), JSON pointer or index; they are not drawn, nor what is below them.
+  std::vector<std::string> hiddenNodes{};
+  std::vector<SetNumber> set{};  ///< numbers that are set; the last one for a place counts
+  glm::dvec3 up{0.0, 1.0, 0.0};  ///< turns the whole file, so that this direction, not 0, is +Y
 
   bool operator==(const SceneSelection&) const = default;
 };

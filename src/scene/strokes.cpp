@@ -77,7 +77,7 @@ class StrokeSize {
   bool round_;  ///< a panorama or a fisheye, whose pixels are even in angle
   glm::dvec3 position_;
   glm::dvec3 forward_;
-  double radius_ = 0.0;  ///< at depth 1, or anywhere if parallel
+  double radius_ = 0.0;  ///< the radius at depth 1, or everywhere in a parallel view
 };
 
 /// The material of the solid of a point or line. Without normals it shows the sum of base colour and emission

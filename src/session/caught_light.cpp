@@ -20,7 +20,7 @@ void appendEnvironment(const Environment& environment, const RenderOptions& opti
   Image withSun;
   const MapRows map = resized(wholeMap(environment, withSun), kRows);
   const double rotation = glm::radians(environmentTurn(options.light));
-  const double side = glm::pi<double>() / kRows;  // of a texel, radians
+  const double side = glm::pi<double>() / kRows;  // height of a texel, radians
   for (int y = 0; y < kRows / 2; ++y) {           // the upper half
     const double polar = side * (y + 0.5);
     for (int x = 0; x < map.width; ++x) {

@@ -66,7 +66,7 @@ Lens lensOf(const RenderOptions& options, const Camera& camera, const BoundsDoub
 }  // namespace
 
 Fog fogOf(const FogOptions& options, const BoundsDouble& bounds) {
-  constexpr double kReach = 1.5;  // in radii of the ball round the scene's box
+  constexpr double kReach = 1.5;  // the reach in radii of the ball round the scene's box
   Fog fog;
   fog.extinction = options.density;
   fog.albedo = options.color.value_or(glm::vec3(1.0f));

@@ -13,7 +13,7 @@ namespace fragtrace {
 
 namespace {
 
-constexpr double kBeside = 1.1;  ///< of the picture: so far beside it points still count
+constexpr double kBeside = 1.1;  ///< points within so many times the picture's size still count
 
 /// Places of points in a camera's picture, in pixels.
 class PixelMeasure {
@@ -180,7 +180,7 @@ double cameraOff(const Moments& moments, std::span<const CameraSegment> segments
     const auto check = [&](const glm::dvec3& point) {
       if (right.sees(point)) most = std::max(most, right.between(point, measure, point));
     };
-    // Points far away tell every turn; points as far away as the scene is, all else.
+    // Points far away show turns of the camera. Points at the distance of the scene show its other motion.
     const double focal = glm::distance(moment.camera.position, focalPointOf(moment.camera, scene.bounds));
     for (const double distance : {focal, kFar * focal}) {
       check(moment.camera.position + distance * moment.camera.forward);

@@ -17,8 +17,8 @@ void say(const RenderOptions& options, const std::string& text);
 /// what a viewer does again and again says the same. The listener is called from any thread.
 void passOnWhatIsSaid(std::function<void(const std::string&)> listener);
 
-/// While it lives, what the thread that made it says is appended there and is said nowhere else. One a
-/// thread.
+/// While an object of this class exists, say() of the thread that made it appends to `lines`, and the text
+/// goes nowhere else. A thread has at most one.
 class SaidHere {
  public:
   explicit SaidHere(std::vector<std::string>& lines);

@@ -64,7 +64,7 @@ CameraOverrides overridesOfAllPoses(const RenderOptions& options, std::shared_pt
   Environment environment;
   if (shadow) {
     std::vector<std::string> repeated;
-    const SaidHere silence(repeated);  // it is said with the first picture
+    const SaidHere silence(repeated);  // the first picture's messages say it
     std::future<LinearImage> map;
     if (!options.light.hdriFile.empty())
       map = std::async(std::launch::deferred, [&] { return readMap(options); });

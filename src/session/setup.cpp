@@ -159,7 +159,7 @@ namespace {
 
 /// Warns of lights of the scene that a shadow catcher cannot show.
 void checkCatcher(const RenderOptions& options, OwnLight light, Scene& scene) {
-  constexpr size_t kMostLights = 1000;  // it asks each of them at every point
+  constexpr size_t kMostLights = 1000;  // each of them is asked at every point
   if (!options.light.shadowCatcher) return;
   if (!has(options.stages, Stage::Gi)) {
     scene.warnings.emplace_back("--shadow-catcher: only stage gi has it");
@@ -168,7 +168,7 @@ void checkCatcher(const RenderOptions& options, OwnLight light, Scene& scene) {
   if (scene.lights.size() > kMostLights)
     throw UsageError("--shadow-catcher: the scene has " + std::to_string(scene.lights.size()) +
                      " lights, at most " + std::to_string(kMostLights) + " can be caught");
-  if (light == OwnLight::Dim) return;  // it is as good as none
+  if (light == OwnLight::Dim) return;  // such a light counts as none
   const auto emits = [&](const auto& primitive) { return scene.materials[primitive.material].emissive(); };
   if (std::ranges::any_of(scene.triangles, emits) || std::ranges::any_of(scene.spheres, emits))
     scene.warnings.push_back(options.scene.string() +

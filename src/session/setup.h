@@ -21,11 +21,12 @@ struct LoadedScene {
   Scene scene;
   Environment environment;
   Camera camera;
-  CameraOverrides overrides;            ///< the camera was chosen by these (settledOverrides())
-  std::optional<int> cameraIndex;       ///< index of that camera in the scene, if one was asked for
-  std::vector<CameraSegment> motion{};  ///< of the camera, while the shutter is open; none: it stands still
-  glm::ivec2 size{0};                   ///< size of the picture
-  Region region;                        ///< part of the picture that is drawn
+  CameraOverrides overrides;       ///< the camera was chosen by these (settledOverrides())
+  std::optional<int> cameraIndex;  ///< index of that camera in the scene, if one was asked for
+  /// The camera's motion while the shutter is open; empty: it stands still.
+  std::vector<CameraSegment> motion{};
+  glm::ivec2 size{0};  ///< size of the picture
+  Region region;       ///< part of the picture that is drawn
   Bvh bvh;
   View view;
   DecodeProgress decoding{};  ///< told when the textures are, which is later

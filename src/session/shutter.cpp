@@ -15,7 +15,7 @@ namespace fragtrace {
 namespace {
 
 constexpr uint32_t kMostSegments = layout::kMostCameraSegments;
-constexpr size_t kMostTriangles = size_t(1) << 26;  ///< of all segments
+constexpr size_t kMostTriangles = size_t(1) << 26;  ///< triangles of all segments together
 constexpr size_t kMostKeys = 64;
 constexpr double kMostPixels = 0.5;
 constexpr double kMostOfLamp = 0.005;
@@ -95,7 +95,7 @@ class MomentReader {
   Moments moments_;
 };
 
-/// As few segments as keep the camera on its way.
+/// Returns the camera's segments, as few as keep it on its way.
 std::vector<CameraSegment> segmentsOfCamera(MomentReader& reader, const LoadedScene& loaded, double& off) {
   std::vector<CameraSegment> segments;
   for (uint32_t count = 1; count <= kMostSegments && reader.readEach(std::max(4u, 2 * count)); count *= 2) {

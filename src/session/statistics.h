@@ -30,7 +30,7 @@ struct DenoiseStatistics {
   std::string skipped;     ///< why none ran
   double compileMs = 0.0;  ///< programs, built anew
   double filterMs = 0.0;   ///< wall clock, with the way to the device and back
-  std::string library;     ///< the file that did it; empty: we did
+  std::string library;     ///< the file of the library that filtered; empty: the built-in filter
   double loadMs = 0.0;     ///< time to open the library
 };
 
@@ -67,7 +67,7 @@ struct Statistics {
   bool defaultLight = false;
   std::string defaultLightReason;
   MotionStatistics motion;
-  std::optional<SunPlace> sun;  ///< of a sky
+  std::optional<SunPlace> sun;  ///< place of a sky's sun
   double clampIndirect = 0.0;   ///< 0: not clamped
   std::string lightSelection;   ///< name of the choice of lights; empty: there is none to choose
   std::string lightSelectionReason;
@@ -85,12 +85,12 @@ struct Statistics {
   int vectorWidth = 0;               ///< bits of the vectors that software computes with; 0: not known
   std::vector<std::string> skipped;  ///< "refraction: no transmissive material", ...
   std::vector<std::string> warnings;
-  double clockMs = steadyMilliseconds();     ///< when the command began
+  double clockMs = steadyMilliseconds();     ///< the time at which the command began
   double clockCpuMs = threadMilliseconds();  ///< processor time of its thread by then
   std::vector<Phase> phases;                 ///< up to the written picture
 };
 
-/// As JSON.
+/// Returns the statistics as JSON.
 std::string statisticsText(const Statistics& statistics);
 
 double megaPathsPerSecond(const Statistics& statistics);

@@ -37,7 +37,7 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
     if (asked) throw UsageError("--traversal literals: not with --aov light:NAME, whose light is no literal");
     return;
   }
-  // Who asks for the wavefront gets it, which needs a tree.
+  // A wavefront that was asked for needs a tree, so there are no literals then.
   if (!asked && options.device.schedule == Schedule::Wavefront && has(variant.stages, Stage::Gi)) return;
   const std::string reason = asked ? whyNoLiterals(loaded.scene, packed) : "";
   if (!reason.empty()) throw UsageError("--traversal literals: " + reason);
@@ -129,7 +129,7 @@ bool lightPathsGiveWay(const ShaderVariant& variant, const TraitSet& present, co
          has(variant.stages, Stage::Shadows);
 }
 
-/// Says what was asked for and changes nothing, and what gives way to it.
+/// Warns of options that change nothing in this picture, and of options that are turned off by others.
 void warnOfNoEffect(const ShaderVariant& variant, const TraitSet& present, const RenderOptions& options,
                     Statistics& stats) {
   const auto warn = [&](const std::string& text) {
@@ -158,7 +158,7 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
   const TraitSet present = traitsOf(loaded.scene, loaded.environment);
   const RenderOptions options = asDrawn(asked, present);
   const uint32_t depth = loaded.bvh.depth;
-  const BufferReads undecided = options.device.bufferReads;  // what is packed does not depend on it
+  const BufferReads undecided = options.device.bufferReads;  // packed data do not depend on it
   tracer.variant = choosePictureVariant(options, present, loaded.environment.kind, depth, undecided);
   ShaderVariant everything = tracer.variant;
   tracer.aovs.clear();

@@ -14,13 +14,13 @@ namespace fragtrace {
 /// The scene on the device, and the variant that the options ask for.
 struct Tracer {
   ShaderVariant variant;
-  std::vector<ShaderVariant> aovs;  ///< in the order of options.aovs
+  std::vector<ShaderVariant> aovs;  ///< the layers' variants, in the order of options.aovs
   std::unique_ptr<Renderer> renderer;
   double programMs = 0.0;  ///< time to build the variant's program
   uint64_t sceneHash = 0;  ///< hash of all that was uploaded; only for .exr and checkpoints, which keep it
   KeptArrays kept;         ///< arrays that the next scene of a sequence need not upload
   std::array<uint64_t, layout::kSceneBufferCount> arrayHashes{};  ///< set if sceneHash is
-  Words materials;  ///< as packed; only where light groups are asked for, which scale the light
+  Words materials;  ///< the packed materials; only with light groups, which scale the light
   Words lights;     ///< the same of punctual lights
   BufferReads reads = BufferReads::Auto;
   int textureSide = kLargestTextureSide;

@@ -80,7 +80,7 @@ enum class DebugView : uint8_t {
 
 struct DebugViewRow {
   std::string_view name;   ///< on the command line
-  std::string_view label;  ///< in the viewer
+  std::string_view label;  ///< the name in the viewer
   std::string_view sentence;
   Aov aov;  ///< drawn for it; None: it shows counts, of samples drawn as ever or of nodes
 };

@@ -147,7 +147,7 @@ struct SamplingOptions {
 /// A clear sky with its sun (scene/sky/sky.h).
 struct SkyOptions {
   bool on = false;
-  SunPlace sun{};                     ///< where `time` does not say it
+  SunPlace sun{};                     ///< the sun's place, if `time` does not give it
   std::string time{};                 ///< daysOf() reads it; empty: `sun` is the place
   std::optional<glm::dvec2> place{};  ///< latitude and longitude in degrees, north and east positive
   double turbidity = 3.0;
@@ -181,8 +181,9 @@ struct FogOptions {
   double density = 0.0;            ///< extinction, 1/m; 0: there is none
   std::optional<glm::vec3> color;  ///< albedo of one scattering; none: 1
   double anisotropy = 0.0;
-  std::optional<double> height;    ///< it falls by the factor e over this, metres; none: it does not
-  std::optional<double> base;      ///< it falls above this Y, metres; none: the bottom of the scene
+  /// Metres over which the density falls by the factor e; none: it does not fall.
+  std::optional<double> height;
+  std::optional<double> base;      ///< Y above which the density falls, metres; none: the bottom of the scene
   std::optional<double> distance;  ///< radius, metres; none: in proportion to the scene
 
   bool operator==(const FogOptions&) const = default;

@@ -7,12 +7,12 @@
 
 namespace fragtrace {
 
-/// The text of `struct Stack` with so many vectors e0, e1, ..., where e0.x is the top, emptyStack() and
-/// stepStack(). kStackSize is the number of entries: a multiple of four and at least eight. The tree is no
-/// deeper, so nothing is ever lost at the bottom.
+/// Returns the text of emptyStack(), stepStack() and `struct Stack`, which has as many members as `vectors`:
+/// e0, e1 and so on. e0.x is the top of the stack. kStackSize is the number of entries, a multiple of four
+/// and at least eight. The tree is no deeper than that, so no entry is lost at the bottom.
 std::string stackText(int vectors);
 
-/// saveStack() and loadStack(): a row of the buffer of path states a vector.
+/// Returns the text of saveStack() and loadStack(). Each vector takes a row of the buffer of path states.
 std::string stackRowsText(int vectors);
 
 }  // namespace fragtrace

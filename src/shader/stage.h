@@ -14,7 +14,7 @@ namespace fragtrace {
 
 /// The kind of change that a change of an option or a stage makes.
 enum class Effect : uint8_t {
-  Report,   ///< messages, files beside the picture, or permission
+  Report,   ///< messages, files beside the picture, or whether a picture is allowed
   Method,   ///< the way in which the same samples are drawn: their time and rounding
   Layers,   ///< content of a file beside the picture
   Count,    ///< number of samples
@@ -47,12 +47,12 @@ using StageSet = SetOf<Stage>;
 struct StageRow {
   Stage stage;
   const char* name;              ///< on the command line
-  const char* label;             ///< in the viewer
-  const char* sentence;          ///< in the help
+  const char* label;             ///< the name in the viewer
+  const char* sentence;          ///< the sentence in the help
   bool cumulative;               ///< --stage NAME turns on this and all cumulative rows before it
   bool standard;                 ///< a switch that is on unless turned off
   const char* constant;          ///< constant in the shader; null: always on
-  std::optional<Trait> needs{};  ///< it changes nothing without this trait
+  std::optional<Trait> needs{};  ///< the stage changes nothing without this trait
   Effect effect = Effect::Picture;
 };
 std::span<const StageRow> stageRows();

@@ -11,7 +11,7 @@ namespace fragtrace {
 
 struct Token {
   std::string_view text;  ///< a name, a number, an operator or a whole preprocessor line
-  size_t partner = 0;     ///< for a bracket: the index of its partner
+  size_t partner = 0;     ///< the index of a bracket's partner
   bool live = true;       ///< false: taken out
 };
 

@@ -85,14 +85,14 @@ struct Coordinates {
 struct TraitRow {
   Trait trait;
   const char* name;      ///< shown in the statistics and the variant's name
-  const char* constant;  ///< in the shader
+  const char* constant;  ///< the constant's name in the shader
   const char* absence;   ///< why something that needs it is off
-  StageSet stages{};     ///< it is off where one of these is
-  TraitSet needs{};      ///< it is off where one of these is
+  StageSet stages{};     ///< the trait is off if one of these stages is off
+  TraitSet needs{};      ///< the trait is off if one of these traits is off
   TraitSet brings{};     ///< traits that a scene must also have to show it
   /// The textures that the shader reads where it is on; the rest null.
   std::array<TextureRef Material::*, 2> textures{};
-  bool texcoords = false;  ///< it reads texture coordinates without a texture
+  bool texcoords = false;  ///< the trait reads texture coordinates without a texture
   /// Returns true if a material has the trait. Null: a material with one of the trait's textures has it, and
   /// without textures the scene as a whole has it or not (traitsOf).
   bool (*ofMaterial)(const Material& material, const Coordinates& coordinates) = nullptr;

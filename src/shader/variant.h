@@ -31,7 +31,7 @@ struct ShaderVariant {
   bool shadowCatcher = false;
   bool lens = false;  ///< else a pinhole
   bool lensShift = false;
-  CameraType camera = CameraType::Perspective;  ///< which stands for orthographic cameras, too
+  CameraType camera = CameraType::Perspective;  ///< Perspective stands for orthographic cameras, too
   bool lightPaths = false;  ///< light paths are traced in place of camera paths (shaders/caustics/)
   bool gpu = false;         ///< the text suits the compilers of GPUs, else that of llvmpipe
   bool wavefront = false;   ///< else the megakernel

@@ -15,7 +15,7 @@ struct CameraPose {
   glm::dvec3 viewUp{0.0, 1.0, 0.0};  ///< unit, orthogonal to the view
   CameraType type = CameraType::Perspective;
   double viewAngleDegrees = 45.0;  ///< vertical, of a perspective; kept while it is none
-  double fisheyeDegrees = 180.0;   ///< of a fisheye's circle
+  double fisheyeDegrees = 180.0;   ///< angle of a fisheye's circle
   double halfHeight = 1.0;         ///< metres, of an orthographic view
   glm::dvec2 lensShift{0.0};       ///< Camera::shift; kept while the view is not rectilinear
 

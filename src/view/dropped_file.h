@@ -15,7 +15,8 @@ namespace fragtrace {
 
 enum class DroppedFile : uint8_t { Scene, Environment, Unknown };
 
-/// By its extension, in any case: .gltf and .glb are scenes, .hdr, .exr and .pfm environments.
+/// Returns the kind of a file by its extension, in upper or lower case: .gltf and .glb are scenes, .hdr, .exr
+/// and .pfm environments.
 DroppedFile kindOfDropped(const std::filesystem::path& path);
 
 /// Returns true if the file may be a picture to compare with: an .exr or .pfm.

@@ -103,14 +103,15 @@ struct ViewedScene {
   BoundsDouble bounds;
   TraitSet present;
   SceneDescription description;
-  bool defaultLight = false;                        ///< it has no light of its own
-  Surroundings surroundings = Surroundings::None;   ///< what lights it beside its own light
+  bool defaultLight = false;                        ///< the scene has no light of its own
+  Surroundings surroundings = Surroundings::None;   ///< the light beside the scene's own
   bool refersToFiles = false;                       ///< its file can only be written into its own folder
   std::vector<std::filesystem::path> environments;  ///< files near it that may
   std::vector<SceneNode> nodes;                     ///< nodes as they were loaded
-  std::vector<Material> materials;                  ///< those of the file, without what is set in their place
-  std::vector<LightSource> lights;                  ///< as the materials
-  std::vector<std::string> sceneNames;              ///< as in Scene, as are the next three
+  /// The file's materials, without the numbers that the user has set.
+  std::vector<Material> materials;
+  std::vector<LightSource> lights;      ///< the file's lights, in the same way
+  std::vector<std::string> sceneNames;  ///< this and the next three are those of Scene
   std::vector<std::string> materialVariants;
   std::vector<std::string> animationNames;
   std::vector<std::optional<double>> animationSeconds;
@@ -173,7 +174,8 @@ struct PickAnswer {
 /// A small picture of an environment.
 struct EnvironmentThumbnail {
   std::filesystem::path file;  ///< empty: the studio
-  Image image;                 ///< as a display shows it: R, G, B, 0..1; without pixels: it cannot be read
+  /// The picture as a display shows it: R, G, B, 0..1; without pixels: it cannot be read.
+  Image image;
 };
 
 /// News for the window since it asked last.
@@ -186,9 +188,9 @@ struct Delivery {
   std::optional<std::vector<SetNumber>> saved;  ///< numbers that a model has just been written with
   LoadStatus load;
   uint64_t request = 0;               ///< the latest that the tracing thread has seen
-  bool resting = false;               ///< it has nothing to do
+  bool resting = false;               ///< the tracing thread has nothing to do
   std::string note;                   ///< reason why the tracing thread does not draw; empty: it does
-  std::string error;                  ///< why the latest wish could not be met; empty: it was
+  std::string error;                  ///< why the latest request could not be met; empty if it was met
   std::vector<std::string> messages;  ///< messages about the driver and about files written
   std::exception_ptr failure;         ///< ends the program
 };

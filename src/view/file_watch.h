@@ -28,7 +28,7 @@ class FileWatch {
   std::map<std::filesystem::path, int> away_;  ///< number of looks in turn that have missed it
 };
 
-/// All files in a folder whose names end so. Empty where there is no such folder.
+/// Returns all files in a folder whose names end with `extension`, or nothing if there is no such folder.
 std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder, std::string_view extension);
 
 /// All files in a folder and in those in it. Empty where there is no such folder.

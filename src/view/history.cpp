@@ -54,7 +54,7 @@ void take(ViewState& state, const Settings& settings) {
     state.sides[i].selection.set = settings.sides[i].selection.set;
   }
   if (state.scene) state.scene->options.selection = state.sides[0].selection;
-  // As in showAnimation(): nothing but the user moves the camera of a scene that is posed.
+  // This is the same as in showAnimation(): only the user moves the camera of a posed scene.
   const bool held = state.sides[0].selection.animationTime && state.scene && state.scene->cameras.empty();
   state.pose = settings.pose;
   state.posed = settings.posed || held;

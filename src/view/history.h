@@ -30,8 +30,8 @@ struct History {
   std::deque<Settings> past;  ///< the latest last
   std::deque<Settings> future;
   std::optional<Settings> now;
-  bool waits =
-      false;     ///< for a scene that belongs to the latest step; until it is loaded, nothing is recorded
+  /// True for a scene that belongs to the latest step; until it is loaded, nothing is recorded.
+  bool waits = false;
   int step = 0;  ///< the scene's step: -1 undo(), 1 redo(), 0 neither
 };
 

@@ -7,7 +7,7 @@ namespace fragtrace {
 
 namespace {
 
-// As GLFW numbers them.
+// GLFW's numbers.
 constexpr int kPress = 1;
 constexpr int kFirstOther = 256;  // the first that types no character
 constexpr int kFirstModifier = 340;

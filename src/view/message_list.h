@@ -9,7 +9,7 @@ namespace fragtrace {
 
 struct Message {
   std::string text;
-  double latest = 0.0;  ///< when it was said last, seconds
+  double latest = 0.0;  ///< the time of the latest repetition, seconds
   bool closed = false;
 };
 

@@ -12,7 +12,7 @@ namespace fragtrace {
 /// A view with a name.
 struct Bookmark {
   std::string name;
-  std::string camera;  ///< as options of the command line
+  std::string camera;  ///< the camera as options of the command line
 
   bool operator==(const Bookmark&) const = default;
 };

@@ -32,8 +32,8 @@ void keepMoving(ResolutionController& controller, glm::ivec2 full);
 /// it can have; ten frames a second where software draws, since there samples are worth more than frames.
 ResolutionController controllerFor(bool software);
 
-/// How many samples more a moving frame may have within the target, given the samples that it has (>= 1) and
-/// the time that they took.
+/// Returns the number of further samples that a moving frame may have within the target, given the samples
+/// that it has (>= 1) and the time that they took.
 int samplesThatFit(const ResolutionController& controller, double elapsedMs, int samples);
 
 /// Something else is drawn from now on, whose pixels take so long (0: not known): its first frame is at the

@@ -35,7 +35,7 @@ std::vector<std::string> materialLines(const Material& material);
 /// The material at that index of the scene's, with the numbers that are set.
 Material shownMaterial(const ViewState& state, size_t index);
 
-/// The lines of the answer, and the values of the material as it is now.
+/// Returns the lines that describe a picked surface. Values of its material are as they are set now.
 std::vector<std::string> pickLines(const ViewState& state, const PickAnswer& answer);
 
 }  // namespace fragtrace

@@ -11,7 +11,7 @@
 
 namespace fragtrace {
 
-inline constexpr size_t kMostNameCharacters = 60;  ///< of one name among others
+inline constexpr size_t kMostNameCharacters = 60;  ///< characters of one name among others
 inline constexpr size_t kMostLineCharacters = 400;
 inline constexpr size_t kMostPageCharacters = 4000;
 

@@ -16,7 +16,7 @@ struct Playback {
   bool playing = false;
   bool loops = true;
   double speed = 1.0;
-  double at = -1.0;  ///< when it last went on, in seconds; negative: it did not play then
+  double at = -1.0;  ///< the time of the latest step, in seconds; negative: the animation did not play then
 };
 
 /// The picture enlarged, without drawing it anew, so that its pixels can be told apart.
@@ -52,7 +52,7 @@ struct ViewState {
 
   bool panel = true;
   bool panelHasRoom = true;  ///< beside the picture
-  bool panelWaits = false;   ///< it was open, and opens again when it has room
+  bool panelWaits = false;   ///< the panel was open, and opens again when it has room
   bool figures = false;
   float panelWidth = 0.0f;    ///< pixels at 96 dots an inch; 0: the standard width
   std::optional<float> blur;  ///< blur of the backdrop while its slider is held, degrees
@@ -155,7 +155,7 @@ bool isHidden(const ViewState& state, size_t node);
 /// Hides it with all that is below it, or shows it again, on both sides. Others of its name stay as they are.
 void hideNode(ViewState& state, size_t node, bool hidden);
 
-/// Closes a panel that has lost its room beside the picture, and opens it again with the room.
+/// Closes the panel when there is no room for it beside the picture, and opens it again when there is.
 void fitPanel(ViewState& state, bool hasRoom);
 
 /// Makes the options load the same scene and light as others: what one side has, both have.

@@ -10,7 +10,7 @@ namespace {
 
 std::string pointerOf(const SceneNode& node) { return "/nodes/" + std::to_string(node.index); }
 
-/// As loading takes it: an index only where no node has that name.
+/// Returns true if `wanted` names the node. As in loading, an index counts only if no node has that name.
 bool isNamed(const std::vector<SceneNode>& nodes, const SceneNode& node, const std::string& wanted) {
   if (wanted == node.name || wanted == pointerOf(node)) return true;
   return wanted == std::to_string(node.index) && std::ranges::count(nodes, wanted, &SceneNode::name) == 0;

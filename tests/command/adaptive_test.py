@@ -112,7 +112,7 @@ class Noise(Case):
 
 class Time(Case):
     def render(self, name, *options):
-        """Seconds on the clock, and the statistics."""
+        """Returns the seconds on the clock, and the statistics."""
         began = time.monotonic()
         self.renders(BOX, "-o", self.folder / name, "--quiet", "--resolution", "100,100", "--stats", self.folder / "s.json", *options)
         return time.monotonic() - began, json.loads((self.folder / "s.json").read_text())

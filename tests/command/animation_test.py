@@ -35,7 +35,7 @@ class Gltf:
 
 
 def cylinder(around=16, along=12):
-    """Positions, normals, triangles of a tube of radius 0.5 from y = 0 to 2."""
+    """Returns positions, normals and triangles of a tube of radius 0.5 from y = 0 to 2."""
     positions, normals, triangles = [], [], []
     for j in range(along + 1):
         for i in range(around + 1):
@@ -55,12 +55,12 @@ def bulge(position, normal):
 
 
 def weight(position):
-    """Of the upper joint."""
+    """Returns the weight of the upper joint."""
     return min(max(position[1] - 0.5, 0.0), 1.0)
 
 
 def turned(v, degrees):
-    """About z."""
+    """Turns a vector about z."""
     c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     return (c * v[0] - s * v[1], s * v[0] + c * v[1], v[2])
 
@@ -103,7 +103,7 @@ def animated(path):
 
 
 def baked(path, seconds):
-    """The same at that time, as plain triangles."""
+    """Writes the pose at that time as plain triangles."""
     gltf = Gltf()
     positions, normals, triangles = cylinder()
     part = seconds / 2
@@ -114,7 +114,8 @@ def baked(path, seconds):
         w = weight(p)
         moved = turned((p[0], p[1] - 1, p[2]), -80 * part)
         placed.append((p[0] + w * (moved[0] - p[0]), p[1] + w * (moved[1] + 1 - p[1]), p[2]))
-        # The cofactors of (1 - w) I + w R about z; its third row and column are those of the identity.
+        # Normals are multiplied by the cofactors of M = (1 - w) I + w R about z. The third row and column of M are
+        # those of the identity.
         c, s = (f(math.radians(-80 * part)) for f in (math.cos, math.sin))
         a, b = 1 - w + w * c, w * s
         m = (a * n[0] - b * n[1], b * n[0] + a * n[1], (a * a + b * b) * n[2])
@@ -181,7 +182,7 @@ class Selections(Case):
             self.assertRegex(run("info", scene).stdout, rf"(?s)GPU memory .*\n  cameras     {cameras}", scene)
 
     def test_the_up_axis_is_turned_to_y(self):
-        """As a node does that stands above all others."""
+        """--up turns the scene as a node above all others would."""
         plain = json.loads(run("info", SCENES / "transforms.gltf", "--json").stdout)["scene"]["bounds"]
         found = json.loads(run("info", SCENES / "transforms.gltf", "--json", "--up", "-z").stdout)["scene"]["bounds"]
         (x, y, z), (right, top, front) = plain["min"], plain["max"]

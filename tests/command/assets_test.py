@@ -86,7 +86,7 @@ def remake(names):
         path = PICTURES / (name + ".whole.exr")
         subprocess.run([FRAGTRACE, *map(str, command(name, path, "--spp", REFERENCE_SPP, "--seed", 2, "--aov", "variance"))], check=True)
         picture = Exr(path)
-        # Of one sample; few samples would not tell how bright the rare ones are.
+        # The deviation is that of one sample. From few samples, the brightness of the rare ones would not be known.
         picture.layers["deviation.Y"] = [[(v * REFERENCE_SPP) ** 0.5 for v in row] for row in picture.layers["variance.Y"]]
         write_half_exr(PICTURES / (name + ".exr"), picture, ["B", "G", "R", "deviation.Y"])
         path.unlink()

@@ -15,7 +15,7 @@ QUICK = ["--quiet", "--rounds", "2", "--round-time", "0.001", *SIZE]
 
 class Frame(Case):
     def frame(self, *arguments, status=0, scenes=(BOX,)):
-        """The result, and the lines of --json by scene and configuration."""
+        """Returns the result, and the lines of --json by scene and configuration."""
         path = self.folder / "frames.json"
         result = run("bench", "frame", *scenes, "--json", path, *arguments)
         self.assertEqual(result.returncode, status, result.stderr)
@@ -108,7 +108,7 @@ class FramePictures(Frame):
         self.fails(3, "bench", "frame", BOX, *QUICK, "--reference", small, says=["small.pfm", "default"])
         self.fails(3, "bench", "frame", BOX, *QUICK, "--reference", self.folder / "none.exr", says=["none.exr"])
         self.fails(2, "bench", "frame", BOX, SCENES / "sphere-phong.gltf", *QUICK, "--reference", small, says=["--reference"])
-        # Before anything is measured, which would take hours here.
+        # The command fails before it measures anything, which would take hours here.
         for bad in (small, self.folder / "none.exr"):
             self.fails(3, "bench", "frame", BOX, "--quiet", "--rounds", 100000, "--reference", bad, says=[bad.name], timeout=60)
 

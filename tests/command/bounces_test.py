@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What --bounces limits, what it does not, and how much it says that it cut."""
+"""Tests of --bounces: the light that it limits, the light that it does not limit, and the light that it reports as
+cut."""
 import json
 import os
 import statistics

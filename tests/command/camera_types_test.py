@@ -15,7 +15,8 @@ SHIFT = (0.3, -0.4)
 
 
 def seen(types, view, fisheye=180.0):
-    """Where a camera at the origin that looks along -z sees a point, in pixels from the top left, and its depth."""
+    """Returns the pixel at which a camera at the origin that looks along -z sees a point, from the top left, and the
+    depth."""
     x, y, z = view[0], view[1], -view[2]
     distance = math.hypot(x, y, z)
     if types == "panorama":
@@ -63,7 +64,7 @@ class CameraTypes(Case):
         self.assertIn("+fisheye", "".join(exr.texts.values()))
 
     def test_outside_of_the_circle_no_light_is_seen(self):
-        """Neither the environment nor fog, at any stage."""
+        """Neither the environment nor fog is seen there, at any stage."""
         for options in (("--sky",), ("--fog-density", "0.5"), ("--sky", "--shadow-catcher", "bottom")):
             exr = self.picture(BOX, "x.exr", "--resolution", "32,16", "--spp", 2, "--camera-type", "fisheye", "--camera-view-angle", 90, "--aov", "denoising", *options)
             for y in range(16):

@@ -54,7 +54,7 @@ def reflectance(cosine, eta):
 def through_slab(light, air, thick, eta):
     """Irradiance, a function of the distance from below a point light: what a slab lets through after 0, 2, 4, ... reflections in it."""
     def landed(sine, turns):
-        """How far away a ray lands."""
+        """Returns the distance at which a ray lands."""
         return air * sine / math.sqrt(1 - sine**2) + turns * thick * sine / math.sqrt(eta**2 - sine**2)
 
     def irradiance(r):
@@ -345,7 +345,7 @@ class Caustics(Case):
         self.assertEqual(self.picture(scene, "a.pfm", *options), self.picture(scene, "b.pfm", *options, "--shader-folder", folder))
 
     def test_the_noise_is_what_the_variance_says(self):
-        """Of independent numbers, over pixels and 24 seeds; a standard error of about 2 %."""
+        """The samples are independent numbers. Over all pixels and 24 seeds, the standard error is about 2 %."""
         scene = self.scene("lamp", self.mirror(), self.lamp())
         means, told = [], []
         for seed in range(12):

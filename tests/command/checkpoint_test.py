@@ -31,7 +31,8 @@ class Broken(Case):
         return picture, seconds
 
     def broken(self, seconds, *options, scene=BALL, by=signal.SIGKILL, written=False):
-        """After so long; `written`: once it has written a checkpoint of its own, since on a busy machine seconds would tell nothing of that."""
+        """Starts a render and ends it by the signal `by` after so many seconds. With `written`, the seconds count from
+        its first checkpoint: on a busy machine they would mean little otherwise. Returns the exit status."""
         before = self.checkpoint.stat().st_mtime_ns if self.checkpoint.exists() else 0
         process = subprocess.Popen([FRAGTRACE, *self.arguments("--checkpoint", 0.1, *options, scene=scene)], stderr=subprocess.PIPE)
         self.addCleanup(process.stderr.close)
@@ -48,7 +49,8 @@ class Broken(Case):
         return process.wait(60)
 
     def interrupted_after_a_checkpoint(self, *options, scene=BOX):
-        """Of a render that is long enough; on a busy machine seconds would tell nothing."""
+        """Interrupts a render once it has written a checkpoint: on a busy machine a number of seconds would mean
+        little."""
         process = subprocess.Popen([FRAGTRACE, *self.arguments("--checkpoint", 0.1, *options, scene=scene)])
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
@@ -134,7 +136,7 @@ class Checkpoints(Broken):
         for spp, said in ((1, "the picture begins anew"), (2, "x.png is finished.*does not say with how many samples, and nothing is drawn")):
             result = self.renders(BOX, "-o", picture, "--resolution", "16,16", "--spp", spp, "--resume")
             self.assertRegex(result.stderr, said)
-        # What a crash of others has left is no picture.
+        # A file that a crash of another program has left is not a picture.
         self.output.write_bytes(b"")
         self.assertEqual(run(*self.arguments(*options, scene=BOX)).returncode, 0)
         self.assertGreater(self.output.stat().st_size, 0)
@@ -175,7 +177,7 @@ class Checkpoints(Broken):
         self.output.unlink()
 
     def test_one_that_cannot_be_written_on_the_way_does_not_end_the_render(self):
-        """Its name becomes a folder's while the picture is drawn."""
+        """A folder takes the checkpoint's name while the picture is drawn."""
         process = subprocess.Popen([FRAGTRACE, *[a for a in self.arguments("--checkpoint", 0.1, *SIZE, "--spp", 600, scene=BOX) if a != "--quiet"]],
                                    stderr=subprocess.PIPE, text=True)
         self.addCleanup(process.kill)

@@ -48,7 +48,7 @@ class Codecs(Case):
         return path
 
     def without(self, document):
-        """The result of a copy of the executable without its worker and libraries."""
+        """Returns the result of a copy of the executable without its worker and libraries."""
         shutil.copy(FRAGTRACE, self.folder / "fragtrace")
         environment = {k: v for k, v in os.environ.items() if k != "FRAGTRACE_LIBRARY_PATH"}
         return subprocess.run([self.folder / "fragtrace", "info", "--json", self.write(document)], capture_output=True,

@@ -20,8 +20,9 @@ class Cryptomatte(Case):
     KEYS = ("3ae39a5", "be359d6")
 
     def scene(self):
-        """Seen from the front, 8 x 4 pixels of half a metre each. The edge between left and right cuts column 4 at a quarter, and both end
-        in the middle of the top and the bottom row. A veil of alpha 0.5 covers columns 0 and 1; left begins in column 1."""
+        """Makes a scene that is seen from the front, with 8 x 4 pixels of half a metre each. The edge between left and
+        right cuts column 4 at a quarter, and both end in the middle of the top and the bottom row. A veil of alpha 0.5
+        covers columns 0 and 1; left begins in column 1."""
         gltf = quad({"name": "bunny", "doubleSided": True})
         gltf["materials"] += [{"name": "red"}, {"pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.5]}, "alphaMode": "BLEND"}]
         for material in (1, 2):
@@ -44,7 +45,7 @@ class Cryptomatte(Case):
         return self.picture(self.scene(), "x.exr", "--resolution", "8,4", "--spp", 64, "--no-background", "--aov", "crypto-object,crypto-material", *options)
 
     def shares(self, exr, layer, x, y):
-        """By name."""
+        """Returns the shares of a pixel by name."""
         key = self.KEYS[self.NAMES.index(layer)]
         names = {number: name for name, number in json.loads(exr.texts[f"cryptomatte/{key}/manifest"]).items()}
         values = exr.pixel(x, y, *(layer + channel for channel in LAYERS))
@@ -66,7 +67,7 @@ class Cryptomatte(Case):
         self.close(self.shares(exr, "CryptoObject", 4, 0), {"left": 0.125, "right": 0.375})
         self.close(self.shares(exr, "CryptoObject", 2, 1), {"left": 1}, 0)  # two nodes of one name
         self.close(self.shares(exr, "CryptoObject", 7, 1), {})
-        # What is seen through a blended surface, by chance.
+        # Through a blended surface, samples see the objects behind it by chance.
         self.close(self.shares(exr, "CryptoObject", 0, 1), {"veil": 0.5}, 0.15)
         self.close(self.shares(exr, "CryptoMaterial", 1, 2), {"/materials/2": 0.5, "bunny": 0.5}, 0.15)
         for y in range(4):

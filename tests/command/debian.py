@@ -24,14 +24,14 @@ def own_release():
 
 
 def mirror():
-    """Where this machine's apt takes Debian from."""
+    """Returns the mirror from which this machine's apt takes Debian."""
     lists = [Path("/etc/apt/sources.list"), *Path("/etc/apt/sources.list.d").glob("*")]
     found = re.findall(r"^(?:deb|URIs:)\s(?:.*\s)?(https?://\S+/debian)/?(?:\s|$)", "\n".join(p.read_text() for p in lists if p.is_file()), re.MULTILINE)
     return found[0] if found else "http://deb.debian.org/debian"
 
 
 def why_not(release):
-    """What is missing for such a system, or ''."""
+    """Returns a text that names what is missing for such a system, or ''."""
     missing = [tool for tool in TOOLS if not shutil.which(tool)]
     if os.geteuid() != 0:
         return "needs root"
@@ -78,7 +78,7 @@ class Debian:
         self.run("apt-get update && useradd --create-home --shell /bin/bash painter")
 
     def run(self, script, user="root", timeout=1800):
-        """What bash makes of the script there, in the user's home folder. All its processes and mounts end with it."""
+        """Runs a script by bash there, in the user's home folder. All its processes and mounts end with it."""
         proxies = [f"{name}={os.environ[name]}" for name in ("http_proxy", "https_proxy", "no_proxy") if name in os.environ]
         home = "/root" if user == "root" else f"/home/{user}"
         outside = ('mount -t proc proc "$0/proc" && mount -t tmpfs tmpfs "$0/dev/shm" && mkdir -p "$0/dev/pts" && '

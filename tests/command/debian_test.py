@@ -62,7 +62,7 @@ class InDebian(Case):
         cls.place = Path(cls.enterClassContext(tempfile.TemporaryDirectory(dir=KEPT)))
 
     def fresh(self):
-        """One with two scenes in the user's home folder."""
+        """Returns a fresh system with two scenes in the user's home folder."""
         debian = Debian(self.enterContext(tempfile.TemporaryDirectory(dir=self.place)), self.release)
         shutil.copy(SCENES / "cornell-box.gltf", debian.home / "box.gltf")
         (debian.home / "draco.gltf").write_text(json.dumps(draco_scene()))
@@ -74,7 +74,7 @@ class InDebian(Case):
 
 
 class PackageChecks:
-    """Of `package`, a file for `release`; mixed into a case InDebian."""
+    """Checks of `package`, a file for `release`. They are mixed into a case InDebian."""
 
     def setUp(self):
         super().setUp()
@@ -94,13 +94,13 @@ class PackageChecks:
         self.assertEqual(status["state"], "resting")
 
     def completes(self, *words):
-        """What bash offers the user for the last word."""
+        """Returns the words that bash offers the user for the last word."""
         script = ("source /usr/share/bash-completion/completions/fragtrace; "
                   f"COMP_WORDS=({' '.join(words)}); COMP_CWORD={len(words) - 1}; _fragtrace; echo ${{COMPREPLY[@]}}")
         return self.does(self.debian.run(script, "painter")).split()
 
     def advised(self, command, status):
-        """What the program says that one should install for this to work."""
+        """Returns the packages that the program advises to install for this to work."""
         result = self.debian.run(command, "painter")
         self.assertEqual(result.returncode, status, result.stderr)
         advice = re.search(r"apt-get install ([\w. -]+)", result.stderr)
@@ -142,7 +142,7 @@ class DebianPackage(PackageChecks, InDebian):
 
 
 class WheelChecks:
-    """Of `wheel`; all that the machine brings is Python and OpenGL."""
+    """Checks of `wheel`. The machine brings Python and OpenGL only."""
 
     def test_it_draws_and_the_notebook_runs(self):
         debian = self.fresh()
@@ -175,7 +175,8 @@ class WheelInDebian(WheelChecks, InDebian):
 
 
 class OtherRelease(PackageChecks, WheelChecks, InDebian):
-    """What a newcomer does on the other release, from a clean clone: the two commands, the packages, and what else draws there."""
+    """Follows a newcomer on the other release, from a clean clone: the two commands, the packages, and the other
+    drivers."""
     release = next((name for name in RELEASES if name != own_release()), "")
     clone = "/home/painter/fragtrace"
 
@@ -196,7 +197,7 @@ class OtherRelease(PackageChecks, WheelChecks, InDebian):
         cls.wheel = next((clone / "dist").glob("*.whl"))
 
     def pictures(self, driver, environment=""):
-        """All reference pictures by EGL, with that driver."""
+        """Draws all reference pictures by EGL, with that driver."""
         box = "build/fragtrace render scenes/cornell-box.gltf --spp 1 --quiet -o /tmp/box.pfm --stats -"
         self.assertIn(driver, self.does(self.builder.run(f"cd {self.clone} && {environment} {box}")))
         self.does(self.builder.run(f"cd {self.clone} && {environment} ctest --test-dir build -j 2 -R '^picture.*egl$'", timeout=5400))

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What --debug-view and --tree-level show, and the layers behind them, against what is known of a scene."""
+"""Compares the pictures of --debug-view and --tree-level, and the layers behind them, with known facts of a scene."""
 import base64
 import json
 import struct
@@ -12,12 +12,12 @@ BOX = SCENES / "cornell-box.gltf"
 
 
 def encoded(linear):
-    """What a display shows (IEC 61966-2-1)."""
+    """Returns the value that a display shows (IEC 61966-2-1)."""
     return 12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1 / 2.4) - 0.055
 
 
 def png(texels):
-    """Of 8-bit RGB texels, one row."""
+    """Makes a PNG of one row of 8-bit RGB texels."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(texels), 1, 8, 2, 0, 0, 0)) +
@@ -65,7 +65,7 @@ class DebugViews(Case):
                 "--spp", 4, "--quiet"]
 
     def shown(self, view, *options, scale=2):
-        """Display values, rows from the top."""
+        """Returns display values, rows from the top."""
         path = self.folder / "x.pfm"
         self.renders(self.card(), "-o", path, *self.view(scale), "--debug-view", view, *options)
         return [[tuple(map(encoded, pixel)) for pixel in row] for row in read_pfm(path)]
@@ -119,7 +119,7 @@ class DebugViews(Case):
         return path
 
     def test_visits_are_a_heat_map_with_their_numbers_beside_it(self):
-        """Who walks the tree in a fixed order visits more nodes."""
+        """A traversal in a fixed order visits more nodes."""
         near, fixed = (Exr(self.picture_of("x.exr", "--debug-view", "visits", "--traversal", way)) for way in ("front-to-back", "bvh"))
         self.assertEqual(sorted(near.layers), ["B", "G", "R", "visits"])
         self.assertGreater(min(near.values("visits")[:1000]), 0)
@@ -153,7 +153,7 @@ class DebugViews(Case):
 
 class TreeBoxes(Case):
     def changed(self, level, *options):
-        """Where the boxes of a level are drawn over the picture: rows of booleans."""
+        """Returns the pixels on which the boxes of a level are drawn: rows of booleans."""
         view = ["--quiet", "--resolution", "64,64", "--spp", 1, "--stage", "flat", "--camera-position", "0,0,8", "--camera-focal-point", "0,0,0", *options]
         plain, boxes, difference = (self.folder / name for name in ("plain.png", "boxes.png", "difference.pfm"))
         self.renders(BOX, "-o", plain, *view)

@@ -20,7 +20,7 @@ GLYPHS = ("010101111101101", "110101110101110", "011100100100011", "110101101101
 
 
 def detail(values):
-    """What a mean of 3 x 3 pixels takes away, without the rim."""
+    """Returns the part of the values that a mean of 3 x 3 pixels removes, without the rim."""
     result = []
     for y in range(1, SIDE - 1):
         for x in range(1, SIDE - 1):
@@ -45,7 +45,7 @@ def edge(values, reach):
 
 class DenoisedCase(Case):
     def both(self, scene, spp, *options):
-        """Luminances as drawn and filtered."""
+        """Returns the luminances as drawn and as filtered."""
         path = self.folder / "d.exr"
         self.renders(scene, "-o", path, "--quiet", "--resolution", f"{SIDE},{SIDE}", "--spp", spp, *FILTER, *options)
         exr = Exr(path)

@@ -33,7 +33,7 @@ PICTURES = {
 
 class NoHarm(Case):
     def drawn(self, scene, spp, seed):
-        """Colours as drawn and filtered."""
+        """Returns the colours as drawn and as filtered."""
         path = self.folder / f"{scene}-{spp}-{seed}.exr"
         self.renders(SCENES / (scene + ".gltf"), "-o", path, "--quiet", "--resolution", SIZE, "--spp", spp, "--seed", 1 + seed, "--denoise", "variance",
                      *PICTURES[scene])

@@ -99,7 +99,8 @@ class Denoising(Denoised):
         self.fails(3, "merge", *parts, "-o", self.folder / "m.exr", says=["only one of them has denoising.observed.Y"])
 
     def test_guides_are_of_what_stands_behind_smooth_glass_and_mirrors(self):
-        """Albedo of wall and floor as the glass sphere and the mirror sphere show these, and depth of the spheres."""
+        """Albedo is that of wall and floor, as seen through the glass sphere and in the mirror sphere. Depth is that of
+        the spheres."""
         wall, floor = (0.3, 0.45, 0.65), (0.65, 0.5, 0.35)
         for scene, pixel, albedo in (("glass-sphere", (24, 33), wall), ("glass-sphere", (24, 12), floor), ("mirror-sphere", (24, 36), floor)):
             with self.subTest(scene=scene, pixel=pixel):

@@ -77,7 +77,7 @@ class Documents(Case):
 
 
 class Tables(Case):
-    """Of measurements: bench/tables.py makes them of docs/measurements/data."""
+    """Tables of measurements: bench/tables.py makes them from docs/measurements/data."""
     ROOT = SCENES.parent
 
     def setUp(self):

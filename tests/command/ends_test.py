@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""How a run begins and ends: what is checked before the first sample, finished pictures that are not lost, standard streams, the
+"""Tests of a run's beginning and end: checks before the first sample, finished pictures that are not lost, standard streams, the
 words of refusals, what `info` names, and what surrounds a scene."""
 import json
 import os
@@ -194,7 +194,7 @@ class Words(Case):
 
 
 class Parts(Case):
-    """What `info` names, and a camera by its name."""
+    """`info` names the parts of a scene, and a camera can be chosen by its name."""
 
     def setUp(self):
         super().setUp()

@@ -23,7 +23,7 @@ def color(draw):
 
 
 def material(draw):
-    """Any mixture of all extensions."""
+    """Returns a random mixture of all extensions."""
     extensions = {
         "ior": {"ior": draw.choice((1, 1.0004, 1.33, 1.5, 2.5))},
         "specular": {"specularFactor": extreme(draw), "specularColorFactor": color(draw)},

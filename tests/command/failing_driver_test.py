@@ -52,7 +52,7 @@ class Failing(Case):
                 result = self.drawn(fail_kind=kind, fail_call=number)
                 written = self.path.read_bytes()
                 if result.returncode == 0:
-                    # What nothing more is asked of may go unseen.
+                    # A failure may go unseen if nothing is asked of the object afterwards.
                     self.assertTrue(name.startswith("glDelete") or number == len(calls), f"{name} failed unseen")
                     self.assertEqual(written, self.right)
                     continue

@@ -20,7 +20,7 @@ FROM_ACES = ((1.60475, -0.53108, -0.07367), (-0.10208, 1.10813, -0.00605), (-0.0
 
 
 def shown(color):
-    """The bytes of three.js' ACESFilmicToneMapping and gamma 2.2."""
+    """Returns the bytes of three.js' ACESFilmicToneMapping and gamma 2.2."""
     v = [sum(m * c / 0.6 for m, c in zip(row, color)) for row in TO_ACES]
     v = [(x * (x + 0.0245786) - 0.000090537) / (x * (0.983729 * x + 0.4329510) + 0.238081) for x in v]
     return [255 * max(sum(m * x for m, x in zip(row, v)), 0) ** (1 / 2.2) for row in FROM_ACES]
@@ -37,7 +37,7 @@ class Fidelity(Case):
         write_pfm(self.folder / "assets/sky.pfm", 8, 32, lambda x, y: ABOVE if y < 16 else BELOW)
 
     def draw(self, skybox, *options, model="quad", **orbit):
-        """Of the generator's relative paths."""
+        """Draws a scenario with relative paths as the generator writes them."""
         scenario = {"name": "quad", "model": f"../../../assets/{model}.gltf", "lighting": "../../../assets/sky.pfm", "renderSkybox": skybox, "verticalFoV": 45,
                     "dimensions": {"width": 32, "height": 16}, "target": {"x": 0.2, "y": 0.5, "z": -0.3}, "orbit": {"theta": 90, "phi": 90, "radius": 2} | orbit}
         self.output = self.folder / "test/goldens/quad/fragtrace-golden.png"

@@ -22,7 +22,7 @@ class FramingCase(Case):
         return Exr(path).layers["A"], result.stderr
 
     def write(self, scale, rotation=(0, 0, 0, 1), double_sided=True):
-        """A quad of 2 x 2 m, scaled and then turned, without a camera."""
+        """Makes a quad of 2 x 2 m, scaled and then turned, without a camera."""
         gltf = quad({"doubleSided": double_sided})
         gltf["nodes"] = [{"mesh": 0, "scale": scale, "rotation": rotation}]
         gltf["scenes"] = [{"nodes": [0]}]
@@ -59,7 +59,7 @@ class Framing(FramingCase):
                 self.assertLess(margin, 0.05, (scale, options))
 
     def test_what_lies_far_off_is_named(self):
-        """A grid of 200 triangles, and a quad or a vertex of the grid far from it."""
+        """The scene is a grid of 200 triangles, and a quad or a vertex of the grid far from it."""
         def write(vertex=0.0, quad_at=0.0, camera=False):
             gltf = quad({})
             places = [(x / 10, y / 10, 0.0) for y in range(11) for x in range(11)]

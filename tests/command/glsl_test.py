@@ -18,7 +18,7 @@ from shader_texts import FILE_ENDINGS, captured  # noqa: E402
 @unittest.skipUnless(shutil.which("glslangValidator"), "glslangValidator is not installed")
 class GlslangValidator(Case):
     def texts_of(self, reference, schedule):
-        """The texts of a reference's picture: kind and text."""
+        """Returns kind and text of each shader of a reference's picture."""
         folder = self.folder / "captured"
         folder.mkdir()
         subprocess.run([FRAGTRACE, "render", SCENES / (reference["scene"] + ".gltf"), "--stage", reference["stage"], *reference["options"], "--quiet",

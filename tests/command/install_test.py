@@ -57,7 +57,7 @@ class HelpFiles(Case):
         return self.folder
 
     def completed(self, script, *words):
-        """What bash offers for the last word, in a folder with some files."""
+        """Returns the words that bash offers for the last word, in a folder with some files."""
         place = self.folder / "place"
         place.mkdir(exist_ok=True)
         for name in ("a scene.glb", "b.gltf", "c.png", "notes.txt"):

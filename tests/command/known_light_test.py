@@ -47,7 +47,7 @@ def clamped_cosine(cosine):
 
 
 def nine_harmonics(cosine):
-    """What is left of it by the bands 0 to 2 (Ramamoorthi and Hanrahan, 2001)."""
+    """Returns the part of the irradiance in the bands 0 to 2 (Ramamoorthi and Hanrahan, 2001)."""
     return 1 / 4 + cosine / 2 + 5 / 32 * (3 * cosine**2 - 1)
 
 
@@ -127,7 +127,7 @@ class KnownLight(Case):
         self.assertAlmostEqual(with_sky[0] / with_sky[1], 0.1, delta=2e-3)
 
     def test_twice_the_intensity_doubles_every_value(self):
-        """As the camera sees it, too, blurred or not; for shadows on the catcher it makes no difference."""
+        """The environment that the camera sees is doubled too, blurred or not. Shadows on the catcher stay the same."""
         for scene, *options in (["environment-diffuse", "--hdri-file", SCENES / "sky.pfm"],
                                 ["environment-diffuse", "--hdri-file", SCENES / "sky.pfm", "--background-blur", "10"],
                                 ["furnace", "--studio"], ["furnace"]):
@@ -174,7 +174,8 @@ class KnownLight(Case):
         return "--hdri-file", path
 
     def test_glass_that_disperses_reflects_each_colour_by_its_own_index(self):
-        """Before black, which takes all that goes through; so strong that blue has an index of 2, of which 2 % of the spread are 0.01."""
+        """The glass stands before a black wall, which absorbs all transmitted light. Dispersion is so strong that blue
+        has an index of 2. An error of 2 % of the spread changes that index by 0.01."""
         ior, dispersion = 1.5, 40
         blue = ior + (ior - 1) * 0.025 * dispersion
 
@@ -226,7 +227,7 @@ class KnownLight(Case):
             self.assertEqual(any(text.startswith("energy-compensation of rough glass") for text in skipped), wanted, options)
 
     def glass_sphere(self, surface, *thickness):
-        """A sphere of radius 1 about a camera."""
+        """Makes a sphere of radius 1 about a camera."""
         volume = {"KHR_materials_volume": {"thicknessFactor": thickness[0]}} if thickness else {}
         return {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
                 "nodes": [{"extras": {"shape": 0, "material": 0}}, {"camera": 0}],

@@ -39,7 +39,8 @@ def facets(along, across, turned=0.0):
 
 
 def film(base, index, thickness):
-    """Reflectance of facets under a thin film (Belcour and Barla, 2017; KHR_materials_iridescence), a triple."""
+    """Returns the reflectance of facets under a thin film (Belcour and Barla, 2017; KHR_materials_iridescence), a
+    triple."""
     inside = math.sqrt(1 - (1 - HALF[2]**2) / index**2)
     top = schlick(((index - 1) / (index + 1))**2, HALF[2])
     result, terms = [], []
@@ -66,7 +67,7 @@ def film(base, index, thickness):
 
 
 def velvet(alpha, outgoing=(0, 0, 1), light=LIGHT):
-    """Value of white sheen, divided by the cosine of `outgoing` (Estevez and Kulla, 2017)."""
+    """Returns the value of white sheen, divided by the cosine of `outgoing` (Estevez and Kulla, 2017)."""
     def fit(x):
         t = (1 - alpha)**2
         a, b, c, d, e = (t * p + (1 - t) * q for p, q in ((25.3245, 21.5473), (3.32435, 3.82987), (0.16801, 0.19823), (-1.27393, -1.97760), (-4.85967, -4.32054)))
@@ -91,14 +92,15 @@ def velvet_albedo(alpha, direction, steps=64):
 
 
 def bent():
-    """Lambert under an interpolated normal, faded towards the horizon of the triangle (docs/design/numerics.md, Shading)."""
+    """Returns the value of a Lambert surface under an interpolated normal, faded towards the horizon of the triangle
+    (docs/design/numerics.md, Shading)."""
     cosine = sum(n * l for n, l in zip(NORMAL, LIGHT))
     g = min(1, LIGHT[2] / (cosine * NORMAL[2]))
     return cosine * g * (1 + g - g * g)
 
 
 def mapped(scale):
-    """The normal of a map of one texel."""
+    """Returns the normal of a map of one texel."""
     x, y, z = ((2 * t - 1) * times for t, times in zip(KEPT, (scale, scale, 1)))
     side = TANGENT[3]  # the second axis is normal x tangent x this
     n = (x * TANGENT[0] - y * side * TANGENT[1], x * TANGENT[1] + y * side * TANGENT[0], z)
@@ -106,7 +108,7 @@ def mapped(scale):
 
 
 def coated(alpha, scale):
-    """The share of a clearcoat over a normal of its own, and the value of its lobe times the cosine."""
+    """Returns the share of a clearcoat over a normal of its own, and the value of its lobe times the cosine."""
     n = mapped(scale)
     seen, lit, half = n[2], sum(a * b for a, b in zip(n, LIGHT)), sum(a * b for a, b in zip(n, HALF))
     smith = lambda cosine: (math.sqrt(1 + alpha**2 * (1 / cosine**2 - 1)) - 1) / 2
@@ -210,7 +212,7 @@ class KnownSurfaces(Case):
         self.shown([(material, [IRRADIANCE * 0.3 * c * k / math.pi for c, k in zip(COLOR, kept)])] + 4 * [(material, [])], math.pi - ANGLE)
 
     def test_gloss_at_a_grazing_angle(self):
-        """Where the mirror image of the light is seen, so that the reflectance is half of f90."""
+        """The camera sees the mirror image of the light, so the reflectance is half of f90."""
         angle, alpha, specular = 1.2, 0.25, 0.8
         gltf = quad(base(0, 0.5, specular={"specularFactor": specular}))
         turned = lambda sign: [0, sign * math.sin(angle / 2), 0, math.cos(angle / 2)]

@@ -40,7 +40,7 @@ class View:
         return [f + across * r + along * u for f, r, u in zip(self.forward, self.right, self.up)]
 
     def mean(self, x, y, value, steps=16):
-        """Of a function of the direction, over the square of a pixel."""
+        """Returns the mean of a function of the direction over the square of a pixel."""
         places = [(i + 0.5) / steps for i in range(steps)]
         return sum(value(self.through(x + i, y + j)) for i in places for j in places) / steps**2
 
@@ -113,7 +113,7 @@ class FirstHits(Case):
         self.assertEqual(mapped.values("depth.Z"), plain.values("depth.Z"))
 
     def test_they_have_the_samples_of_the_picture(self):
-        """What stage flat shows is the albedo, so with the same samples through the same filter both are the same bits."""
+        """Stage flat shows the albedo. With the same samples and the same filter, both have the same bits."""
         for options in ([], ["--pixel-filter", "gaussian"], ["--pixel-filter", "blackman-harris", "--disable", "sobol"],
                         ["--seed", "9", "--sample-offset", "1000"]):
             for scene in ("sphere-plane", "sphere-textured"):
@@ -214,7 +214,7 @@ class PartNumbers(Case):
         self.assertEqual(exr.pixel(12, 0, *self.NAMES), (0,) * 6)
 
     def test_positions_are_metres_of_the_world(self):
-        """Of a scene far from the origin and of another size."""
+        """The scene is far from the origin and has another size."""
         gltf = json.loads((SCENES / "cornell-box.gltf").read_text())
         before = self.layers("cornell-box", "--resolution", "8,8", "--spp", 1)
         roots = gltf["scenes"][0]["nodes"]
@@ -298,7 +298,7 @@ class LayerFiles(Case):
             return self.folder / name
 
         def told(*files):
-            """The chance; tiles with noise; tiles by their p."""
+            """Returns the chance, the number of tiles with noise, and the numbers of tiles by their p."""
             chance, noisy, _, tiles = run("diff", *files, "--metric", "bias").stdout.splitlines()
             return float(chance), int(noisy.split()[0]), [int(word) for word in tiles.split(":")[1].split()]
         aov = ("--aov", "variance")
@@ -315,7 +315,7 @@ class LayerFiles(Case):
         red, green, blue = read_pfm(marks)[40][40]
         self.assertEqual((red, blue), (green, 1))  # darker: blue
         self.assertLess(red, 0.5)
-        # What lacks is named with the option that writes it.
+        # The message names the missing layer and the option that writes it.
         self.fails(1, "diff", drawn("plain.exr", "--seed", 1), one, "--metric", "bias", says=["the picture has no layer variance.Y", "--aov variance"])
         self.fails(2, "diff", one, other, "--tile", 8, says=["--tile"])
 

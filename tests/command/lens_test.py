@@ -64,7 +64,8 @@ class Lens(Case):
         stop = 0.02
         radius = 0.5 * 0.012 / math.tan(math.radians(ANGLE / 2)) / stop
         def part_hidden(x):
-            """Of the lens, where the wall is seen x from the axis: its rays are 3 / 4 x + 1 / 4 of the lens at the edge."""
+            """Returns the hidden part of the lens, seen from the wall at x from the axis: its rays cross the edge at 3
+            / 4 x + 1 / 4 of the lens."""
             at = min(max(-3 * x / radius, -1), 1)
             return 0.5 + (at * math.sqrt(1 - at * at) + math.asin(at)) / math.pi
         rows = self.picture(str(path.with_suffix("")), "x.exr", "--resolution", f"{SIDE},{SIDE}", "--spp", 64, "--camera-position", f"0,0,{DISTANCE}", "--camera-focal-point",
@@ -91,7 +92,8 @@ class Lens(Case):
         self.assertLess(2 * filtered, plain)
 
     def test_a_focus_beyond_all_distances(self):
-        """As far as the option goes, rays through the lens are parallel: the same picture as at a million metres."""
+        """At the largest distance of the option, rays through the lens are parallel: the picture is the same as at a
+        million metres."""
         near, far = (self.picture(str(SCENES / "cornell-box"), "x.pfm", "--resolution", "32,32", "--spp", 4, "--f-stop", 1, "--focus-distance", distance)
                      for distance in ("1e6", "1e30"))
         values = [[value for row in rows for pixel in row for value in pixel] for rows in (near, far)]

@@ -20,7 +20,7 @@ PICTURE = SCENES / "graticule.png"
 
 
 class ImageProcess(Case):
-    """What stands in for fragtrace_worker loops, crashes or ends; the program says so and ends with 3."""
+    """A program in place of fragtrace_worker loops, crashes or ends. fragtrace reports this and ends with status 3."""
 
     def decoding(self, script, says, *, render=True):
         stand_in = self.folder / "fragtrace_worker"

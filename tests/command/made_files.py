@@ -23,7 +23,7 @@ PIXEL = "data:image/png;base64," + ("iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcS
 
 
 def base(*names):
-    """A quadrilateral of positions, indices and the attributes named, with a material and a camera."""
+    """Makes a quadrilateral of positions, indices and the named attributes, with a material and a camera."""
     data, views, accessors, where = b"", [], [], {}
     for name in ("position", "index", *names):
         layout, values = PARTS[name]

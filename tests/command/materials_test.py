@@ -16,7 +16,7 @@ def data_uri(kind, data):
 
 
 def png(width, height, rgba):
-    """8 bits a channel."""
+    """Makes a PNG with 8 bits per channel."""
     def chunk(name, data):
         return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
 
@@ -30,7 +30,7 @@ def noise(width, height, seed=1):
 
 
 def quad(material, uvs=((0, 1), (1, 1), (1, 0), (0, 0)), images=()):
-    """A quad from (-1, -1) to (1, 1) that faces a camera 2.2 m away."""
+    """Makes a quad from (-1, -1) to (1, 1) that faces a camera 2.2 m away."""
     corners = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
     data = b"".join(struct.pack("<3f", *c) for c in corners) + b"".join(struct.pack("<2f", *t) for t in uvs)
     data += struct.pack("<6H", 0, 1, 2, 0, 2, 3)

@@ -22,8 +22,8 @@ def half_space(albedo):
 
 
 def color_of(albedo):
-    """The multiscatterColorFactor of a single-scattering albedo: the draft's s = sqrt(1 - albedo) = 4.09712 + 4.20863 r -
-    sqrt(9.59217 + 41.6808 r + 17.7126 r^2), solved for r."""
+    """Returns the multiscatterColorFactor of a single-scattering albedo: the draft's s = sqrt(1 - albedo) = 4.09712 +
+    4.20863 r - sqrt(9.59217 + 41.6808 r + 17.7126 r^2), solved for r."""
     low, high = 0.0, 1.0
     for _ in range(60):
         r = (low + high) / 2
@@ -111,7 +111,8 @@ class Media(Case):
             self.assertAlmostEqual(mean(seen, channel) / half_space(albedo), 1, delta=0.008, msg=str(albedo))
 
     def test_what_is_scattered_once_is_an_integral_over_ray_and_lamp(self):
-        """scenes/inside.gltf with its lamp alone, in a medium that scatters a thousandth: along the ray through the picture's middle."""
+        """The scene is scenes/inside.gltf with its lamp alone, in a medium that scatters a thousandth. The integral is
+        along the ray through the picture's middle."""
         gltf = json.loads((SCENES / "inside.gltf").read_text())
         gltf["nodes"] = [node for node in gltf["nodes"] if node["name"] in ("box", "lamp", "camera")]
         gltf["scenes"] = [{"nodes": [0, 1, 2]}]

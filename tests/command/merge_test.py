@@ -35,7 +35,8 @@ class Merging(Parts):
         for name in whole.layers:
             largest = max(map(abs, whole.values(name)))
             for a, b in zip(whole.values(name), merged.values(name)):
-                # Of the pixel itself; of the largest where rounding leaves next to nothing of a sum of both signs.
+                # The limit is relative to the pixel, or to the largest value if a sum of both signs is nearly zero and
+                # mostly rounding.
                 self.assertLessEqual(abs(a - b), limit[name.partition(".")[0] if "." in name else ""] * max(abs(a), 0.01 * largest),
                                      name)
 
@@ -102,7 +103,7 @@ class RefusedMerges(Parts):
             other = self.part("other.exr", first, 4)
             self.refuses(other, self.first, other, says)
         self.fails(3, "merge", self.first, self.first, "-o", self.folder / "m.exr", says=["overlap"])
-        # Of three, where the two that overlap do not stand beside each other.
+        # Two of three parts overlap, and they are not adjacent in the list.
         parts = [self.part(f"{i}.exr", first, count, "--seed", 7) for i, (first, count) in enumerate(((0, 9), (20, 2), (4, 1)))]
         self.fails(3, "merge", *parts, "-o", self.folder / "m.exr", says=["0.exr", "2.exr", "sample 4 of seed 7 twice"])
 
@@ -201,7 +202,7 @@ class UnevenParts(Parts):
         merged = Exr(self.merged("m.exr", a, b))
         self.assertIn("2 parts, 6 samples per pixel; missing: samples 4 to 9", self.said)
         self.assertEqual([merged.texts["fragtrace:" + name] for name in ("samples", "uniform", "ranges")], ["6", "1", "[[0,0,4],[0,10,2]]"])
-        # What fills the gap joins with it, and the picture is one of one range again.
+        # A part that fills the gap joins the ranges, so the picture has a single range again.
         whole = Exr(self.merged("w.exr", self.folder / "m.exr", self.part("c.exr", 4, 6)))
         self.assertNotIn("missing", self.said)
         self.assertNotIn("fragtrace:ranges", whole.texts)
@@ -223,11 +224,11 @@ class UnevenParts(Parts):
         counts = Exr(adaptive).values("samples.Y")
         self.assertGreater(max(counts), min(counts))
         self.weighted(merged, [(Exr(adaptive), counts), (Exr(even), [8] * len(counts))])
-        # Of two means, the joined one varies less than the better one.
+        # The joined mean of two varies less than the better one.
         self.assertLess(sum(merged.values("variance.Y")), sum(Exr(adaptive).values("variance.Y")))
 
     def test_a_part_without_numbers_of_samples_is_none(self):
-        """As earlier versions wrote interrupted ones."""
+        """Earlier versions wrote interrupted pictures like this one."""
         part = self.part("a.exr", 0, 4)
         data = part.read_bytes()
         place = data.index(b"fragtrace:uniform\0string\0") + len(b"fragtrace:uniform\0string\0") + 4

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What the command line says: of values that are none, of words that it does not know, of options that change nothing."""
+"""Tests of the command line's messages: about invalid values, unknown words, and options that change nothing."""
 import json
 import os
 import re

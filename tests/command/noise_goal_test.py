@@ -37,7 +37,7 @@ class Sketch:
         return len(self.root["materials"]) - 1
 
     def quad(self, x, y, z, half, material, down=False):
-        """Of the same distance from its middle to all sides; it looks up, or down."""
+        """Adds a square; `half` is the distance from its middle to each side. It looks up, or down."""
         corners = [(-half, -half), (half, -half), (half, half), (-half, half)]
         packed = b"".join(struct.pack("<3f", x + a, y + b, z) for a, b in corners)
         packed += struct.pack("<6H", *((0, 2, 1, 0, 3, 2) if down else (0, 1, 2, 0, 2, 3)))

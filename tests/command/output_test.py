@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""How pictures are stored: 16-bit floats and integers, and what the header of an .exr says of its camera."""
+"""Tests of stored pictures: 16-bit floats and integers, and the camera in the header of an .exr."""
 import json
 import sys
 
@@ -80,7 +80,7 @@ class Encodings(Case):
 
 
 def times(point, matrix):
-    """(x, y, z, 1) M, rows of four, divided by w."""
+    """Returns (x, y, z, 1) M, rows of four, divided by w."""
     row = (*point, 1.0)
     result = [sum(row[i] * matrix[4 * i + c] for i in range(4)) for c in range(4)]
     return [value / result[3] for value in result[:3]]

@@ -17,7 +17,7 @@ SIZE = (60, 45)
 
 class Cut(Case):
     def drawn(self, name, *options, scene=BOX, size=SIZE):
-        """The file, and the statistics."""
+        """Returns the path of the file, and the statistics."""
         path, stats = self.folder / name, self.folder / "s.json"
         self.renders(scene, "-o", path, "--quiet", "--resolution", "%d,%d" % size, "--stats", stats, *options)
         return path, json.loads(stats.read_text())
@@ -52,7 +52,7 @@ class Regions(Cut):
         self.assertEqual(set(part.layers), set(whole.layers))
         for name, rows in whole.layers.items():
             self.assertEqual(part.layers[name], [row[x:x + width] for row in rows[y:y + height]], name)
-        # Who reads it as a picture sees the whole, black around the part.
+        # A program that reads the file as a picture sees the whole, with black around the part.
         black = self.folder / "black.pfm"
         black.write_bytes(b"PF\n%d %d\n-1\n" % SIZE + bytes(12 * SIZE[0] * SIZE[1]))
         inside = sum(v * v for c in "RGB" for v in part.values(c))
@@ -96,7 +96,7 @@ class Regions(Cut):
 
 class DrawnInParts(Cut):
     def test_the_bits_of_one_film(self):
-        """Of 1,000,000 pixels a film takes 176 MB."""
+        """A film of 1,000,000 pixels takes 176 MB."""
         options = ["--spp", 1, "--aov", "albedo,samples", "--stage", "phong"]
         whole, stats = self.drawn("whole.exr", *options, size=(700, 500))
         self.assertNotIn("parts", stats)

@@ -11,7 +11,7 @@ from support import SCENES, Case, main, read_pfm
 BOX = SCENES / "cornell-box.gltf"
 # Largest |z| of a mean that is taken as unbiased: two-sided, 1 in 16,000 by chance. Seeds are fixed, so it happens now or never.
 LARGEST_Z = 4
-# Where no pixel sees the lamp, whose edges would add more noise than all the rest.
+# No pixel of this view sees the lamp, whose edges would add more noise than all the rest.
 FLOOR = ["--camera-position", "0,0,0.9", "--camera-focal-point", "0,-0.6,-1", "--camera-view-angle", 50]
 
 
@@ -43,7 +43,7 @@ class Means(Case):
         self.agree("glass-sphere", ["--disable", "light-sampling"], "--spp", 4096)
 
     def test_pixel_filters_spread_light_but_lose_none(self):
-        """Of a body that no filter reaches over the picture's edge."""
+        """The body is so far from the picture's edge that no filter reaches over it."""
         for name in ("gaussian", "blackman-harris"):
             self.agree("furnace", ["--pixel-filter", name], "--spp", 1024)
 

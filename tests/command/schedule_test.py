@@ -35,7 +35,7 @@ TUNED_BY_FRAGMENTS = (("plastics", ["--stage", "refraction", *SKY]), ("many-ligh
 
 class BothSchedules(Case):
     def drawn(self, scene, schedule, *options):
-        """What the file holds, and the statistics."""
+        """Returns the bytes of the file, and the statistics."""
         path, stats = self.folder / "x.pfm", self.folder / "s.json"
         asked = [] if "--schedule" in options else ["--schedule", schedule]
         self.renders(SCENES / (scene + ".gltf"), "-o", path, "--quiet", *asked, "--stats", stats, *options)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Sequences of pictures (--frames, --turntable): each is the picture of a single command, what does not change stays, a broken one is said."""
+"""Sequences of pictures (--frames, --turntable). Each picture is that of a single command. What does not change is
+kept, and a message names each picture that failed."""
 import base64
 import json
 import shutil
@@ -157,7 +158,7 @@ class Sequences(Case):
             self.assertEqual(others, [first] * 2, options)
             self.draw("--frames", "12:12", *options)
             self.assertEqual(places()[1], first, options)
-            # What is said draws the same.
+            # The options in the message draw the same.
             view = said.split("animation: ")[1].splitlines()[0].split(" ")
             self.renders(self.scene, "-o", self.folder / "x.00.exr", "--quiet", *SMALL[2:], *view, "--animation-time", 0)
             self.assertEqual(places()[0], first, options)

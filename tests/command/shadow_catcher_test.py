@@ -125,7 +125,7 @@ class ShadowCatcher(CatcherCase):
         self.assertGreater(max(exr.layers["A"][24][:3]) + max(exr.layers["A"][1]), 0)  # without a catcher, the ball alone fills it
 
     def test_what_is_half_there_casts_half_a_shadow(self):
-        """A sheet of alpha 0.5 over the camera."""
+        """A sheet of alpha 0.5 lies over the camera."""
         sheet = {"mesh": 0, "rotation": [-0.70710678, 0, 0, 0.70710678], "scale": [1e4, 1e4, 1e4], "translation": [0, 1, 0]}
         half = BLACK | {"alphaMode": "BLEND", "doubleSided": True, "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 0.5]}}
         scene = self.scene("sheet", [sheet], [half], [({"rotation": [-0.7071, 0, 0, 0.7071]}, {"type": "directional", "intensity": 2})])
@@ -135,7 +135,7 @@ class ShadowCatcher(CatcherCase):
         self.assertAlmostEqual(mean, 0.5, delta=5 * math.sqrt(0.5 / (16 * 16 * 64)))
 
     def test_nothing_else_changes(self):
-        """Where nothing is in the way the background has its bits, and surfaces are lit as without the catcher."""
+        """If nothing is in the way, the background keeps its bits, and surfaces are lit as without the catcher."""
         options = ["--resolution", "24,24", "--spp", "4", "--studio"]
         for traversal in (["--traversal", "iterative"], ["--traversal", "front-to-back"]):
             plain = self.picture("sphere-plane", "a.exr", *options, *traversal, "--aov", "albedo")
@@ -182,7 +182,7 @@ class CutOutShadow(CatcherCase):
         self.assertAlmostEqual(sum(clean.values("A")) / sum(noisy.values("A")), 1, delta=0.003)
         self.assertEqual(clean.values("noisy.A"), noisy.values("A"))
         self.assertEqual(noisy.pixel(2, 70, *("denoising.albedo." + c for c in "RGBA"), "denoising.normal.Y"), (1,) * 5)
-        # A surface that covers the pixel stays opaque, and where nothing is met nothing is.
+        # A pixel that a surface covers stays opaque, and a pixel without any hit stays transparent.
         for before, after in zip(noisy.values("A"), clean.values("A")):
             if before == 1:
                 self.assertEqual(after, 1)
@@ -190,7 +190,7 @@ class CutOutShadow(CatcherCase):
         self.assertEqual(Exr(self.folder / "f.exr").values("A"), clean.values("A"))
 
     def test_the_variance_is_that_over_white(self):
-        """Of the catcher's alpha over many seeds, where nothing but the shadow is seen."""
+        """The variance of the catcher's alpha is taken over many seeds, at pixels that show only the shadow."""
         options = [*self.VIEW, "--disable", "sobol", "--spp", 4, "--aov", "variance"]
         shots = [self.picture("mesh-15743", "v.exr", *options, "--seed", seed) for seed in range(12)]
         alphas, greens, variances = ([shot.values(name) for shot in shots] for name in ("A", "G", "variance.Y"))

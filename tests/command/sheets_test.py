@@ -56,11 +56,11 @@ class Sheets(Case):
         self.assertEqual(self.stack([masked(0.505, 1, 0, 0), masked(0.495, 0, 1, 0)], "--stage", "flat", size=8, spp=1), [0, 1, 0])
 
     def test_glass_that_is_half_there_lets_half_through_before_gi(self):
-        """Of index 1, over black, before white."""
+        """The glass has an index of 1, and lies over black and before white."""
         glass = {"KHR_materials_transmission": {"transmissionFactor": 0.5}, "KHR_materials_ior": {"ior": 1}}
         sheets = [({"pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 1], "metallicFactor": 0, "roughnessFactor": 0}, "extensions": SPECULAR | glass}, 0, 3),
                   (sheet((1, 1, 1)) | {"extensions": {"KHR_materials_unlit": {}}}, -1, 9)]
-        # What is not glass is lit: white under a light of pi, and the ambient light.
+        # The opaque share is lit: it is white under a light of pi and the ambient light.
         for seen in self.stack(sheets, "--stage", "refraction"):
             self.assert_share(seen - (0.03 + 1 / math.pi), 0.5, 128 * 128 * 64, 1 - 0.03 - 1 / math.pi)
 

@@ -51,7 +51,7 @@ def animated_sphere(path, **keys):
 
 
 def wheel_with(path, name, times, values):
-    """scenes/wheel.gltf with other keys of one node."""
+    """Writes scenes/wheel.gltf with other keys of one node."""
     root = json.loads((SCENES / "wheel.gltf").read_text())
     path.with_name("wheel.bin").write_bytes((SCENES / "wheel.bin").read_bytes())
     channel = next(c for c in root["animations"][0]["channels"] if root["nodes"][c["target"]["node"]]["name"] == name)
@@ -174,7 +174,7 @@ class Shutter(Case):
         self.assertEqual(json.loads(stats.read_text())["motion"]["segments"], 16, "a sixteenth of a quarter turn loses 0.24 % of the area")
 
     def test_what_reaches_beyond_the_picture(self):
-        """Of a blade whose ends are far beside the picture, the part within counts."""
+        """The blade's ends are far outside the picture. Only the part within counts."""
         stats = self.folder / "stats.json"
         wheel_with(self.folder / "long.gltf", "spin", [0, 0.25], [(0, 0, 0, 1), (0, 0, math.sin(-0.4), math.cos(-0.4))])
         root = json.loads((self.folder / "long.gltf").read_text())

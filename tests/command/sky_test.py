@@ -59,7 +59,7 @@ class Sky(Case):
             self.assertAlmostEqual(mean(near) / mean(far), 2, delta=0.03)
 
     def test_time_and_place_put_the_sun_where_it_stands(self):
-        """Reda and Andreas, Solar Position Algorithm (2004), table A5.1."""
+        """The values are those of Reda and Andreas, Solar Position Algorithm (2004), table A5.1."""
         place = ["--sun-time", "2003-10-17T12:30:30-07:00", "--sun-place", "39.742476,-105.1786"]
         stats = self.folder / "stats.json"
         rows = self.picture("sphere-plane", "x.exr", "--sky", *place, *FEW, "--stats", stats)

@@ -11,7 +11,7 @@ SHADERS = SCENES.parent / "shaders"
 
 class Stress(Case):
     def rows(self, *options, status=0):
-        """What the command wrote, by row."""
+        """Returns the lines that the command wrote, by row."""
         path = self.folder / "stress.json"
         result = run("bench", "stress", "--quick", "--quiet", "--json", path, *options)
         self.assertEqual(result.returncode, status, result.stdout + result.stderr)
@@ -37,7 +37,7 @@ class StressRows(Stress):
         rows = self.rows("--rows", "rims-from-inside,boxes,shell white,shell shared")
         for row in rows.values():
             self.assertGreater(row["cases"], 100, row)
-        # What the fast test is there to show.
+        # The fast test must fail here: this row exists to show that.
         self.assertGreater(rows["rays rims-from-inside"]["fast_failures"], 0)
 
 
@@ -54,7 +54,7 @@ class StressAll(Stress):
                 whole = row["row"].split()[0] in ("scenes", "tree", "film", "no")
                 self.assertGreater(row["cases"], 0 if whole else 100, row)
                 self.assertEqual(row["backend"], backend)
-            # What the fast test is there to show.
+            # The fast test must fail here: this row exists to show that.
             self.assertGreater(rows["rays rims-from-inside"]["fast_failures"], 0)
 
 

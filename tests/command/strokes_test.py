@@ -25,7 +25,7 @@ class Strokes(Case):
         return path
 
     def covered(self, path, width, *options):
-        """In pixels."""
+        """Returns the covered area in pixels."""
         output = self.folder / "covered.exr"
         ran = run("render", path, "-o", output, *STRAIGHT, "--line-width", width, "--spp", "64", "--no-background", *options)
         self.assertEqual((ran.returncode, ran.stdout.count("\n")), (0, 1), ran.stderr)

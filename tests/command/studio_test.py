@@ -58,7 +58,7 @@ class Studio(Case):
 
 
 def linear_map(path, width=256):
-    """Green 1 + X, blue 1 + Y of the direction."""
+    """Writes a map with green 1 + X and blue 1 + Y of the direction."""
     rows = []
     for y in reversed(range(width // 2)):
         polar = math.pi * (y + 0.5) / (width // 2)
@@ -70,7 +70,7 @@ def linear_map(path, width=256):
 
 
 def mean_cosine(degrees, steps=20000):
-    """What a blur leaves of a function that is linear in the direction."""
+    """Returns the factor by which a blur scales a function that is linear in the direction."""
     angles = [math.pi * (i + 0.5) / steps for i in range(steps)]
     weights = [math.exp(-0.5 * (angle / math.radians(degrees))**2) * math.sin(angle) for angle in angles]
     return sum(w * math.cos(angle) for w, angle in zip(weights, angles)) / sum(weights)

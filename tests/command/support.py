@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the tests of the command line share: running it, reading the pictures that it writes.
+"""Functions that all tests of the command line share: they run it and read the pictures that it writes.
 
 A test file is run as FILE FRAGTRACE SOURCE_FOLDER [unittest arguments].
 """
@@ -52,12 +52,12 @@ def read_pfm(path):
 
 
 def luminances(picture):
-    """Of a picture as read_pfm gives it, in one list."""
+    """Returns the luminances of a picture of read_pfm, in one list."""
     return [sum(w * c for w, c in zip(WEIGHTS, pixel)) for row in picture for pixel in row]
 
 
 def mean(picture, channel=0):
-    """Of a channel of a picture as read_pfm gives it."""
+    """Returns the mean of a channel of a picture of read_pfm."""
     return statistics.fmean(pixel[channel] for row in picture for pixel in row)
 
 

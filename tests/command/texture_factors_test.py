@@ -23,7 +23,8 @@ def linear(key, texel):
 
 
 def material(extension, color=(0, 0, 0), metallic=0, roughness=0.5, **more):
-    """All that is not asked for is black. A texture is given as its one texel."""
+    """Makes a material whose light comes from the given values alone; the rest is black. A texture is given as its only
+    texel."""
     base = {"baseColorFactor": [*color, 1], "metallicFactor": metallic, "roughnessFactor": roughness}
     return {"pbrMetallicRoughness": base, "extensions": {"KHR_materials_specular": {"specularFactor": 0}, "KHR_materials_" + extension: more}}
 
@@ -47,7 +48,7 @@ MATERIALS = [
 
 
 def multiplied(values, _):
-    """Of the objects of a material, those with textures: the factor beside each has the texel in it."""
+    """Multiplies each texture's texel into the factor beside it, in the objects of a material."""
     for key in [key for key in values if key.endswith("Texture")]:
         texel = linear(key, values.pop(key))
         names = {"metallicRoughnessTexture": ["metallicFactor", "roughnessFactor"],
@@ -65,7 +66,8 @@ def pictured(values, images):
 
 class TextureFactors(Case):
     def means(self, change):
-        """Of each square and channel. Pictures of their own, since a shader for textures reads white where there is none."""
+        """Returns the mean of each square and channel. The pictures with textures and those without are separate, since
+        a shader for textures reads white where there is none."""
         images, materials = [], copy.deepcopy(MATERIALS)
         for m in materials:
             for values in [m["pbrMetallicRoughness"], *m.get("extensions", {}).values()]:

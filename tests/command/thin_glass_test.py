@@ -17,7 +17,8 @@ TINT = [0.9, 0.7, 0.5, 1]
 
 
 def passed(cosine, walls=1, ior=IOR):
-    """What thin walls let through at an angle, without their tint: two parallel interfaces each (docs/design/surfaces.md)."""
+    """Returns the share of light that passes thin walls at an angle, without their tint: each wall has two parallel
+    interfaces (docs/design/surfaces.md)."""
     refracted = math.sqrt(ior**2 - 1 + cosine**2)
     single = 0.5 * (((ior**2 * cosine - refracted) / (ior**2 * cosine + refracted))**2 + ((cosine - refracted) / (cosine + refracted))**2)
     return (1 - 2 * single / (1 + single))**walls
@@ -25,8 +26,8 @@ def passed(cosine, walls=1, ior=IOR):
 
 class ThinGlass(Case):
     def scene(self, panes, lights=(), lamps=(), **material):
-        """Ground under panes (heights) of clear glass, under directional lights (angles to the vertical) and lamps (place, half width,
-        radiance)."""
+        """Makes a scene of ground under panes of clear glass. `panes` are heights, `lights` the angles of directional
+        lights to the vertical, `lamps` places, half widths and radiances."""
         glass = {"pbrMetallicRoughness": MATT | {"roughnessFactor": 0, "baseColorFactor": TINT},
                  "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}}
         glass["pbrMetallicRoughness"] |= material.pop("surface", {})
@@ -78,7 +79,8 @@ class ThinGlass(Case):
             self.assert_everywhere(self.seen(self.scene(panes, [angle]), "--bounces", 1), wanted)
 
     def test_what_the_material_says_counts(self):
-        """Half of a pane lets light through; a coat and an index change how much; a solid stays closed to shadow rays."""
+        """A transmission of 0.5 halves the light. Clearcoat and the index of refraction change it. A solid blocks
+        shadow rays."""
         angle = 0.6
         cosine = math.cos(angle)
         plain = [cosine * passed(cosine) * tint for tint in TINT[:3]]

@@ -68,7 +68,7 @@ class Videos(Case):
         self.video = self.folder / "turn.mp4"
 
     def left(self):
-        """What the folder holds beside the stand-in."""
+        """Returns the names of all other files in the folder than the stand-in's."""
         return sorted(path.name for path in self.folder.iterdir() if path.name not in ("log", "programs"))
 
     def frames(self, form, *options, turn=TURN):
@@ -84,7 +84,7 @@ class Videos(Case):
         self.assertEqual(len(expected), 3 * 40 * 30 * 3)
         self.assertEqual(list(ran.stdout), expected)
         self.assertIn("standard output, picture 2: 40 x 30", ran.stderr.decode())
-        # Where all is opaque, alpha is there nevertheless.
+        # Even an opaque picture has alpha.
         for options, opaque in ((["--no-background"], False), ([], True)):
             found = struct.unpack(f"<{3 * 40 * 30 * 4}H", self.frames("rgba64", "--quiet", *options).stdout)
             expected = [sample for *_, samples in self.pngs("--png-depth", 16, *options) for sample in samples]

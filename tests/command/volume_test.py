@@ -23,7 +23,7 @@ class Volumes(Case):
         return path
 
     def camera_alone(self, **extras):
-        """A scene of a camera 3 m before the origin, and a node with these extras."""
+        """Makes a scene of a camera 3 m before the origin, and a node with these extras."""
         gltf = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
                 "cameras": [{"type": "perspective", "perspective": {"yfov": 0.6, "aspectRatio": 1, "znear": 0.01}}],
                 "nodes": [{"camera": 0, "translation": [0, 0, 3]}, {"extras": extras} if extras else {"name": "empty"}]}
@@ -40,7 +40,7 @@ class Volumes(Case):
         self.assertIn(reason, done.stderr)
 
     def test_a_grid_dims_by_its_depth(self):
-        """Beer's law through the middle of a cube of 30 of 32 voxels, through two types and codecs."""
+        """Beer's law holds through the middle of a cube of 30 of 32 voxels, for two types and codecs."""
         for form in ((), ("zip", "fp8")):
             seen = self.seen(self.camera_alone(), *WHITE, "--volume", self.grid("box", *form), "--volume-density", 1.6, "--volume-color",
                              "0,0,0", "--camera-view-angle", 1, spp=4096)
@@ -53,7 +53,7 @@ class Volumes(Case):
             self.assertAlmostEqual(mean(seen), 1, delta=0.002)
 
     def test_a_grid_glows_by_its_temperature(self):
-        """A cube of one temperature that scatters nothing: (1 - exp(-depth)) of a black body's radiance."""
+        """A cube of one temperature that scatters nothing has (1 - exp(-depth)) of a black body's radiance."""
         def levels(density):
             seen = self.seen(self.camera_alone(), "--default-light", "none", "--background-color", "0,0,0", "--volume", self.grid("ember"),
                              "--volume-density", density, "--volume-color", "0,0,0", "--volume-emission", 1e-5, "--camera-view-angle", 1,

@@ -77,7 +77,7 @@ bool allowed(const char* name) {
   return false;
 }
 
-/// Of glad_glFoo.
+/// Returns glFoo for glad_glFoo.
 const char* openGlName(const char* gladName) { return gladName + std::strlen("glad_"); }
 
 /// One OpenGL function; Name tells those of the same type apart.
@@ -107,7 +107,7 @@ GLenum failingGetError() {
   return error != GL_NO_ERROR ? error : real();
 }
 
-/// What was not built says so.
+/// An object that was not built reports that.
 template <const char* Name, typename Function>
 void failingStatus(GLuint object, GLenum what, GLint* value) {
   Wrapped<Name, Function>::call(object, what, value);
@@ -115,7 +115,7 @@ void failingStatus(GLuint object, GLenum what, GLint* value) {
   if (f.notBuilt && (what == GL_COMPILE_STATUS || what == GL_LINK_STATUS)) *value = GL_FALSE;
 }
 
-/// What a driver that cannot blend says.
+/// The answer of a driver that cannot blend.
 template <const char* Name, typename Function>
 void failingFormat(GLenum target, GLenum format, GLenum what, GLsizei size, GLint* value) {
   Wrapped<Name, Function>::call(target, format, what, size, value);

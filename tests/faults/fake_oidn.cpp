@@ -50,7 +50,7 @@ void runUntilStopped(Filter* filter) {
   fail(filter->device, 1, "nobody has stopped it");
 }
 
-/// What a filter of this library must have been told.
+/// Returns what is missing among the settings that every filter of this library must have.
 const char* complaint(const Filter& filter) {
   const auto has = [&](const char* name) { return filter.images.count(name) == 1; };
   const auto number = [&](const char* name) {

@@ -105,7 +105,7 @@ uint64_t checkInstances(const fragtrace::Scene& scene) {
 }
 
 void checkRefusal(const std::filesystem::path& path, const std::string& message) {
-  // What the standard library or the JSON library throws is a check of ours that is missing.
+  // If the standard library or the JSON library has thrown, a check of ours is missing.
   const size_t reason = path.string().size() + 2;
   for (const char* internal : {"vector", "map", "basic_string", "std::", "bad_", "[json", "invalid", "sto"})
     expect(message.size() < reason || message.compare(reason, std::strlen(internal), internal) != 0,

@@ -38,7 +38,8 @@ def glb(scene, binary):
 
 
 def feature_scene():
-    """A triangle with sparse positions, colours, a texture, a light, a camera and a sphere, which no scene has together."""
+    """Makes a triangle with sparse positions, colours, a texture, a light, a camera and a sphere. No file in scenes/
+    has all of these."""
     floats = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
     binary = floats + struct.pack("<3H", 0, 1, 2) + b"\0\0" + struct.pack("<H", 1) + b"\0\0" + struct.pack("<3f", 1, 1, 1)
     views = [{"buffer": 0, "byteOffset": offset, "byteLength": size} for offset, size in ((0, 36), (36, 6), (44, 2), (48, 12))]
@@ -176,7 +177,8 @@ def pictures():
 
 
 def grids(nvdb):
-    """Of a NanoVDB file with ZIP compression: each grid as it is in memory (NanoVDB 32, io::Header and io::MetaData)."""
+    """Yields each grid of a NanoVDB file with ZIP compression, as it is in memory (NanoVDB 32, io::Header and
+    io::MetaData)."""
     count, place = struct.unpack_from("<H", nvdb, 12)[0], 16
     for _ in range(count):
         place += 176 + struct.unpack_from("<I", nvdb, place + 136)[0]

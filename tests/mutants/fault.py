@@ -4,7 +4,7 @@ import re
 from typing import NamedTuple
 
 WORD = r"[\w.]"
-# What stands before the name of a function where it is defined.
+# The words before a function's name at its definition.
 TYPES = r"(?:void|bool|u?int|float|[iu]?vec[234]|[A-Z]\w+)"
 
 
@@ -29,7 +29,7 @@ class KeyMissing(LookupError):
 
 
 def code_of(text):
-    """The text with its comments blanked, every character at its place."""
+    """Returns the text with its comments blanked, every character at its place."""
     return re.sub(r"//[^\n]*", lambda comment: " " * len(comment[0]), text)
 
 
@@ -61,7 +61,7 @@ def pattern_of(key):
 
 
 def put_in(fault, text):
-    """The shader's text with the fault in it."""
+    """Returns the shader's text with the fault in it."""
     functions = functions_of(text)
     if fault.function not in functions:
         raise KeyMissing(f"{fault.name}: {fault.file} has no function {fault.function}")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What is known of earlier runs: which faults are settled (for this tree of shaders and tests), and which tests see what, and how long they take."""
+"""The knowledge of earlier runs: the faults that are settled (for this tree of shaders and tests), the tests that see
+them, and how long these take."""
 import hashlib
 import json
 import threading
@@ -29,7 +30,7 @@ class Memory:
         return hashlib.sha256("\0".join([self.tree, *fault[:3]]).encode()).hexdigest()[:16]
 
     def verdict(self, fault):
-        """What was found for this very fault and tree, or None."""
+        """Returns what was found for this very fault and tree, or None."""
         verdict = self.known["verdicts"].get(fault.name)
         return verdict if verdict and verdict["key"] == self.key(fault) else None
 
@@ -41,7 +42,7 @@ class Memory:
             self.save()
 
     def is_sound(self, test):
-        """Whether the test passes without a fault, or None where that is not known."""
+        """Returns true if the test passes without a fault, or None if that is not known."""
         return self.known["sound"].get(f"{self.tree} {test}")
 
     def note(self, test, seconds, sound=None):

@@ -24,7 +24,7 @@ HINTS = HERE / "seen_by.json"
 
 
 def sound(setting, memory, test):
-    """Whether a test that failed passes without the fault."""
+    """Returns true if a test that failed passes without the fault."""
     with setting.lock_of_sound:
         if memory.is_sound(test) is None:
             with Trial(setting, None) as trial:

@@ -18,7 +18,8 @@ WITHOUT = {"path.treeFrame", "path.pathRandom", "path.traceAnew", "path.extend",
 
 
 def check(shaders):
-    """What is wrong with the rows, a line each: keys that are not found exactly once, functions without a fault."""
+    """Returns the faults of the rows, a line for each: keys that are not found exactly once, functions without a
+    fault."""
     wrong = []
     names = [row.name for row in ROWS]
     wrong += [f"{name}: two rows have this name" for name in sorted(set(names)) if names.count(name) > 1]

@@ -46,7 +46,7 @@ class Trial:
         return list(self.setting.drawing) + (pure_tests(self.setting.source, self.fault) if self.fault else [])
 
     def passes(self, test):
-        """Whether the test passes, and how long it took."""
+        """Runs the test. Returns whether it passes, and how long it took."""
         began = time.monotonic()
         if test.startswith("pure."):
             command = [self.setting.compiler.make(test.removeprefix("pure."), self.folder)]

@@ -22,8 +22,8 @@ using fragtrace::Image;
 constexpr double kSignificance = 1e-3;
 /// Bound on the bias of the picture's mean.
 constexpr double kMeanBias = 0.005;
-/// What two renderers in float and double may differ by without any noise, relative to a pixel plus a tenth
-/// of the picture's mean: texels are half floats (2^-12 = 2.4e-4).
+/// The largest difference of two renderers in float and double without any noise, relative to a pixel plus a
+/// tenth of the picture's mean: texels are half floats (2^-12 = 2.4e-4).
 constexpr double kRounding = 3e-4;
 constexpr int kBlocks[] = {1, 4};  // pixels a side: each pixel, and averages that show what is small and wide
 constexpr int kOptions = 6;        // the first argument that is one

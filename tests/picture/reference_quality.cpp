@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether the stored references are good enough to judge by: the standard error of every one that Mitsuba
-// rendered, relative to the picture's mean, is bounded in the median pixel and in every block. usage:
+// Tests whether the stored references are good enough to judge by: the standard error of every one that
+// Mitsuba rendered, relative to the picture's mean, is bounded in the median pixel and in every block. usage:
 // reference_quality FOLDER
 #include <algorithm>
 #include <cmath>

@@ -190,8 +190,7 @@ TEST_P(Draws, TheFirstSampleOfACoarsePictureIsInTheMiddleOfItsPixel) {
   }
 }
 
-/// Draws of ever more samples end at their budget of steps, in the middle of a sample, which then begins
-/// anew.
+/// As draws grow, their step budget ends in the middle of a sample. The next draw begins that sample again.
 TEST_P(Draws, SamplesThatBeginAnew) {
   constexpr int kMany = 700;
   size_ = {16, 12};

@@ -18,7 +18,8 @@ constexpr glm::ivec2 kCoarse{24, 20};
 constexpr int kTimes = 4;
 constexpr glm::ivec2 kFine = kCoarse * kTimes;
 
-/// On one side of a line through the middle, in units of the coarse picture.
+/// A picture that is bright on one side of a line near the middle; `place` is in pixels of the coarse
+/// picture.
 float edgeAt(glm::dvec2 place, double angle) {
   const glm::dvec2 away = place - 0.5 * glm::dvec2(kCoarse) - 0.1;
   return std::cos(angle) * away.x + std::sin(angle) * away.y > 0.0 ? 0.9f : 0.1f;

@@ -59,8 +59,8 @@ const std::array<ObjectKind, 7> kObjectKinds{{
     {"programs", [](GLuint name) { return glIsProgram(name); }},
 }};
 
-/// How many there are of each kind. Drivers may or may not give a name twice: all that the rounds can have
-/// got are asked after.
+/// Returns the number of living objects of each kind. Drivers may or may not give a name twice, so all names
+/// that the rounds can have got are tried.
 std::array<int, kObjectKinds.size()> livingObjects() {
   constexpr GLuint kNames = 100 * kRounds;
   std::array<int, kObjectKinds.size()> living{};

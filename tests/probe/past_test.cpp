@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the viewer shows after a turn of the camera: the past that it takes over may make a picture better,
-// never wrong.
+// Tests the viewer's picture after a turn of the camera: reused samples may make it better, never wrong.
 #include <gtest/gtest.h>
 
 #include "gl_probe.h"

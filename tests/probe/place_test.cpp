@@ -113,7 +113,7 @@ TEST_P(Places, AMillimetreInTenKilometres) {
   within.meshes.push_back(horizon);
   within.nodes.push_back({glm::dmat4(1.0), -1, 1});
   Drawn drawing = draw(within, 1);
-  // What was empty may now show the horizon.
+  // Pixels that were empty may now show the horizon.
   for (size_t i = 0; i < drawing.depth.pixels.size(); ++i) {
     FilmPixel& p = drawing.depth.pixels[i];
     if (expected.depth.pixels[i].mean().x == 0.0 && p.mean().x > 1.0) p.sum = glm::dvec3(0.0);

@@ -69,7 +69,7 @@ class Probe : public GlProbe {
   }
 };
 
-/// How far apart two numbers are, in units in the last place of numbers as large as `scale`.
+/// Returns the distance of two numbers, in units in the last place of numbers as large as `scale`.
 // Limits leave room for what the specification lets a driver round (division 2.5 ulps, sine and cosine 2^-11
 // in theory, a few ulps in practice); llvmpipe rounds as C++ does, but for sine and cosine.
 double ulpsApart(double a, double b, double scale) { return std::abs(a - b) / (scale * 0x1p-23); }
@@ -107,7 +107,7 @@ TEST_P(Probe, FresnelIsWithinEightUlps) {
   for (int i = 0; i < given.rows(); ++i) {
     const float cosine = given.row(i)[0];
     const float eta = given.row(i)[1];
-    // Close to the critical angle a square root magnifies whatever the divisions round.
+    // Close to the critical angle, a square root magnifies the rounding errors of the divisions.
     const double left = std::max(std::abs(1.0 - (1.0 - double(cosine) * cosine) / (double(eta) * eta)), 1e-7);
     worst = std::max(worst, ulpsApart(results.row(i)[0], glsl_float::fresnelDielectric(cosine, eta), 1.0) *
                                 std::sqrt(left));

@@ -20,7 +20,7 @@ constexpr int kSide = 64;
 constexpr double kDistance = 4.0;
 constexpr double kLight = 3.0;  // without albedo
 
-/// Of the wall z = 0: stripes that are wide beside a pixel.
+/// Returns the albedo of the wall z = 0: stripes that are wide compared with a pixel.
 double albedoAt(double x) { return 0.5 + 0.05 * std::sin(1.5 * x); }
 
 Camera cameraAt(double x, double distance) {
@@ -85,7 +85,7 @@ class Reprojection : public GlProbe {
     seenPasses.join(fresh.noisy, present, uploaded(past), most, passes);
     return imageOf(present.noisy, present.size);
   }
-  /// As the device keeps it.
+  /// Returns a picture as the device keeps it.
   static Image asIs(const Seen& now) {
     const SeenPicture present = uploaded(now);
     return imageOf(present.noisy, present.size);
@@ -111,7 +111,7 @@ TEST_P(Reprojection, APastThatIsWrongCountsForWhatItIsWorth) {
   // Wrong by as much as the light itself: as many samples as have that error.
   const Image whole = joined(now, seen(camera, 2.0 * kLight, 50, 0.0), 100.0);
   EXPECT_NEAR(valueOf(whole, "samples.Y", 20, 30), 4.0 + 4.0 * 0.25 / (own * own), 0.02);
-  // Of one sample nothing is known but how much the pixels differ, which they do not here.
+  // With one sample, the noise is known only from differences between pixels. Here there are none.
   const Image single = joined(seen(camera, kLight, 1, 0.0), seen(camera, 2.0 * kLight, 50, 0.0), 100.0);
   EXPECT_NEAR(valueOf(single, "samples.Y", 20, 30), 1.0, 0.01);
 }

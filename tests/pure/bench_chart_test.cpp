@@ -113,7 +113,7 @@ size_t count(const std::string& svg, const std::string& text) {
   return found;
 }
 
-/// What lies before the legend, which has markers, too.
+/// Returns the chart's SVG up to the legend, which also has markers.
 std::string plotOf(const Chart& chart) {
   const std::string svg = chartSvg(chart);
   return svg.substr(0, svg.find("<g class='legend'>"));

@@ -42,7 +42,7 @@ double hitTriangle(const TestRay& ray, const Corners& triangle) {
   return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance >= 0.0 ? distance : kMiss;
 }
 
-// Where the ray enters the box widened by kWiden, or kMiss.
+// Returns the distance at which the ray enters the box widened by kWiden, or kMiss.
 double hitBox(const TestRay& ray, const Bounds& box, double farthest) {
   double enter = 0.0;
   double leave = farthest;

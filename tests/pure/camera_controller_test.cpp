@@ -24,7 +24,7 @@ CameraPose inFront() { return {.position = {1, 2, 7}, .focalPoint = {1, 2, 3}}; 
 
 glm::dvec3 forwardOf(const CameraPose& pose) { return glm::normalize(pose.focalPoint - pose.position); }
 
-/// Where a point is seen: parts of the picture's height from its middle, to the right and up.
+/// Returns the place of a point in the picture: parts of its height from the middle, to the right and up.
 glm::dvec2 placeOf(const CameraPose& pose, const glm::dvec3& point) {
   const Camera camera = withOverrides(Camera(), overridesOf(pose));
   const glm::dvec3 view = point - camera.position;

@@ -14,7 +14,7 @@
 namespace fragtrace {
 namespace {
 
-/// What the points take of the picture, from -1 to 1.
+/// Returns the part of the picture that the points take, from -1 to 1.
 BoundsDouble placesOf(const Camera& camera, const std::vector<glm::dvec3>& points, double aspect) {
   const Projection projection = projectionOf(camera, aspect);
   BoundsDouble places;
@@ -26,7 +26,7 @@ BoundsDouble placesOf(const Camera& camera, const std::vector<glm::dvec3>& point
   return places;
 }
 
-/// Of the point nearest to the camera, along the view.
+/// Returns the depth of the point nearest to the camera, along the view.
 double nearestDepth(const Camera& camera, const std::vector<glm::dvec3>& points) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const glm::dvec3& point : points)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What throws caustics, and the balls round it that light paths are aimed at.
+// Tests of casters of caustics, and of the balls around them at which light paths are aimed.
 #include "scene/casters.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the viewer copies is a whole command, and what it pastes gives the same options.
+// The viewer copies a whole command, and pasting it gives the same options.
 #include "options/command_text.h"
 
 #include <gtest/gtest.h>

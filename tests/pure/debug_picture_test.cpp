@@ -24,7 +24,7 @@ FilmPixels filmOf(glm::ivec2 size, const std::vector<glm::dvec3>& values,
   return film;
 }
 
-/// What a display shows.
+/// Returns the colour that a display shows.
 glm::dvec3 shown(const Image& image, int x, int y) {
   const float* p = image.pixel(x, y);
   return {encodeSrgb(p[0]), encodeSrgb(p[1]), encodeSrgb(p[2])};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How warnings of the loader are joined to lines.
+// Tests the lines into which the loader's warnings are joined.
 #include "gltf/read/diagnostics.h"
 
 #include <gtest/gtest.h>

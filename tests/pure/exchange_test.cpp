@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What passes between the viewer's two threads.
+// Tests the exchange between the viewer's two threads.
 #include "view/exchange.h"
 
 #include <gtest/gtest.h>

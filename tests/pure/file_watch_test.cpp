@@ -34,7 +34,7 @@ TEST_F(FileWatchTest, SeesWhatIsWrittenOnceAndWhatIsGoneForLong) {
   EXPECT_TRUE(watch.changed());
   write(missing, "there");
   EXPECT_TRUE(watch.changed());
-  // Of the same size, but at another time.
+  // The file has the same size, but another time.
   std::filesystem::last_write_time(missing,
                                    std::filesystem::last_write_time(missing) + std::chrono::seconds(2));
   EXPECT_TRUE(watch.changed());

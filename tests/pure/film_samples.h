@@ -7,7 +7,7 @@
 
 namespace fragtrace {
 
-/// One sample more (Welford, 1962).
+/// Adds one sample to a pixel (Welford, 1962).
 inline void addSample(FilmPixel& p, const glm::dvec3& color) {
   const double luminance = glm::dot(color, glm::dvec3(0.2126, 0.7152, 0.0722));
   const double before = p.luminance();

@@ -46,7 +46,7 @@ TEST(FrameReport, RatiosAreTakenRoundByRound) {
   EXPECT_DOUBLE_EQ(ratio->summary.median, 2.0);
   EXPECT_DOUBLE_EQ(ratio->summary.min, 2.0);
   EXPECT_DOUBLE_EQ(ratio->most, 17.0 / 8.0);
-  // What has more rounds is compared as far as the other goes.
+  // If one list has more rounds, only as many as the other one has are compared.
   EXPECT_DOUBLE_EQ(ratioOf({3, 3, 3}, {1})->most, 3.0);
   EXPECT_FALSE(ratioOf({}, {1}));
   EXPECT_FALSE(ratioOf({1}, {0}));

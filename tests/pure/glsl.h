@@ -13,8 +13,8 @@
 #include "pack/energy_tables.h"
 #include "shader/layout.h"
 
-/// What the shader's prelude fixes and its buffers hold: here variables, so that one test can walk the
-/// variants.
+/// The constants of the shader's prelude and the content of its buffers. Here they are variables, so that one
+/// test can run all variants.
 namespace fragtrace::glsl_variant {
 
 inline bool kTriangles = true;

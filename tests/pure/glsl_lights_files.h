@@ -9,7 +9,7 @@ inline uvec4 readLights(int index) { return rowOf(glsl_variant::lights, index); 
 inline uvec4 readEnvironment(int index) { return rowOf(glsl_variant::environment, index); }
 inline uvec4 readEnvironmentInversion(int index) { return rowOf(glsl_variant::environmentInversion, index); }
 
-// As material.glsl and surface.glsl have them; the tests' emission has no textures.
+// These functions are those of material.glsl and surface.glsl; the tests' emission has no textures.
 inline vec4 readTexcoordsAt(int i) { return uintBitsToFloat(readTexcoords(i)); }
 inline vec4 materialFloats(uint material, uint row) {
   return uintBitsToFloat(readMaterials(int(material * kMaterialRows + row)));

@@ -23,7 +23,7 @@ json& addChannel(GltfBuilder& builder, const json& target, const std::string& in
   return animation["channels"].back();
 }
 
-/// Of node 0, with float values of that type.
+/// Animates node 0, with float values of the accessor type `type`.
 json& animate(GltfBuilder& builder, const std::string& path, const std::string& type,
               const std::vector<float>& times, const std::vector<float>& values,
               const std::string& interpolation = "LINEAR") {
@@ -276,7 +276,7 @@ GltfBuilder movingAndChanging() {
   return builder;
 }
 
-/// As three files: document, buffer and picture.
+/// Writes a scene as three files: document, buffer and picture.
 std::filesystem::path writeFiles(GltfBuilder& builder, const TemporaryFolder& folder) {
   builder.root["buffers"] = {{{"byteLength", builder.buffer().size()}, {"uri", "data.bin"}}};
   folder.write("data.bin", builder.buffer());

@@ -16,7 +16,8 @@ json& addMorphTriangle(GltfBuilder& builder) {
   return primitive;
 }
 
-/// The triangle bound to two joints, nodes 1 and 2, by these weights of the second for each vertex.
+/// Adds a triangle that is bound to two joints, nodes 1 and 2. `second` has the weight of the second joint
+/// for each vertex.
 json& addSkinnedTriangle(GltfBuilder& builder, const std::vector<float>& second) {
   json& primitive = builder.addTriangle();
   std::vector<uint8_t> joints;

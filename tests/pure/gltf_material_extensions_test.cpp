@@ -29,7 +29,7 @@ Material extended(const char* name, const json& extension) {
   return materialWith({{"extensions", {{name, extension}}}});
 }
 
-/// Where a warning is expected, behind /materials/0/.
+/// Expects a warning at this place below /materials/0/.
 void expectWarning(const json& material, const std::string& place) {
   GltfBuilder builder = fileWith(material);
   EXPECT_TRUE(anyWarningHas(load(builder), "/materials/0/" + place + ":")) << place;

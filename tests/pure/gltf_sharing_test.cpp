@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which meshes the scene holds once, and that they stand where their copies would.
+// Tests which meshes the scene holds once, and that they stand where their copies would.
 #include "gltf/build/sharing.h"
 
 #include <cmath>

@@ -128,7 +128,7 @@ TEST(History, AnAnimationThatHoldsTheCameraIsNoStep) {
   EXPECT_TRUE(state.posed);  // or it would be framed anew
 }
 
-/// As the loaded scene comes back with it.
+/// Changes the state as a newly loaded scene does.
 void loadAs(ViewState& state, const char* environment, const char* variant) {
   ViewedScene scene = *state.scene;
   scene.options.light.hdriFile = environment;
@@ -149,7 +149,7 @@ TEST(History, LightAndVariantAreStepsOfTheirOwn) {
   EXPECT_EQ(withLight(history, state.scene->options), state.scene->options);
   EXPECT_TRUE(undo(history, state));
   EXPECT_EQ(state.pose.viewAngleDegrees, 30.0);
-  // What is shown stays until the other is loaded.
+  // The window keeps showing this environment until the other one is loaded.
   EXPECT_EQ(state.sides[0].light.hdriFile, "other.hdr");
   const RenderOptions wanted = withLight(history, state.scene->options);
   EXPECT_EQ(wanted.scene, "a.gltf");

@@ -46,7 +46,8 @@ Formula flat(double red, double green, double blue) {
   return [=](int, int, int c) { return c == 0 ? red : c == 1 ? green : blue; };
 }
 
-/// Magenta and yellow, so narrow that the filters make colours beyond those of a display.
+/// Returns stripes of magenta and yellow. They are so narrow that the filters make colours that no display
+/// shows.
 double stripes(int x, int, int c) {
   const bool isMagenta = x % 4 < 2;
   return c == 0 || (c == 1) != isMagenta ? 1 : 0;

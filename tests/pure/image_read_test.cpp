@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What comes out of encoded pictures, down to the stored integers; samples made by Pillow, not by the library
-// under test.
+// Tests the values of decoded pictures, down to the stored integers; samples made by Pillow, not by the
+// library under test.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -148,7 +148,7 @@ TEST(ToneMap, AlphaForBlendedValuesShowsOverWhiteWhatLightShows) {
       EXPECT_GE(value, 0);
       EXPECT_LE(value, 1);
       EXPECT_NEAR(alpha * value + 1 - alpha, encodeSrgb(light.values[i + c] + 1 - light.values[i + 3]), 1e-6);
-      // What has no colour is right over black, too, and so is what is opaque.
+      // Pixels without colour are right over black, too, and so are opaque ones.
       if (i != 4) {
         EXPECT_NEAR(alpha * value, encodeSrgb(light.values[i + c]), 1e-6);
       }

@@ -81,7 +81,7 @@ TEST(InversionTable, DrawsInOrderAndByTheDensityThatItTells) {
       drawn[std::min(size_t(place), count - 1)] += double(count) / kNumbers;
     }
     for (size_t i = 0; i < count; ++i) {
-      // As many numbers as a place gets can be off by one at either end; places are floats.
+      // The count of a place can be off by one at either end; places are floats.
       const double slack = 2.0 * double(count) / kNumbers + 2e-3 * table.densities[i];
       EXPECT_NEAR(drawn[i], table.densities[i], slack) << "of " << count << ", place " << i;
     }
@@ -100,7 +100,7 @@ TEST(InversionTable, DensityFollowsTheWeights) {
       if (weights[i] <= 0.0f) continue;
       EXPECT_GT(table.densities[i], 0.0f);
       moment += share * share * double(count) / double(table.densities[i]);
-      // What carries a tenth of the weight is drawn as often as it asks for.
+      // A place with a tenth of the weight is drawn in proportion to its weight.
       if (share > 0.1) {
         EXPECT_NEAR(table.densities[i] / double(count), share, 1e-3 * share)
             << "of " << count << ", place " << i;
@@ -127,7 +127,7 @@ TEST(InversionTable, WithoutAnyWeightEveryPlaceIsAsLikely) {
   for (float density : table.densities) EXPECT_NEAR(density, 1.0f, 1e-4f);
 }
 
-/// As the shader finds the emitter that bits draw, and where among its numbers they lie.
+/// Finds the emitter that bits draw, and their place among its numbers, as the shader does.
 struct Emitters {
   explicit Emitters(const std::vector<double>& weights) : entries(makeInversionEntries(weights)) {
     for (const InversionEntry& e : entries) {

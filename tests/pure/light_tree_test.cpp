@@ -17,7 +17,8 @@ constexpr double kLimit = 4.5;  // standard errors: a chance of 7e-6 a compariso
 
 const dvec3 kOrigin(0.0);
 
-/// Of all kinds, over a box of 20 x 4 x 4 m, powers over four powers of ten, some of them at one place.
+/// Makes lights of all kinds in a box of 20 x 4 x 4 m. Their powers span four powers of ten, and some are at
+/// one place.
 std::vector<LightBounds> randomLights(Draw& draw, int count) {
   std::vector<LightBounds> lights;
   for (int i = 0; i < count; ++i) {
@@ -254,12 +255,12 @@ TEST(LightTree, DensityOfASampleIsThatOfTheRayThatFindsIt) {
       ++found;
       const double cosine = std::abs(glm::dot(lit.normalOf(place->triangle), s.direction));
       EXPECT_NEAR(glsl_double::treePdf(int(slots[place->triangle]), point, normal, s.distance, cosine), s.pdf,
-                  2e-4 * s.pdf);  // seen edge-on, edges of single precision tell
+                  2e-4 * s.pdf);  // where lamps are seen edge-on, the single precision of their edges matters
       EXPECT_LE(glm::distance(s.irradiance * s.pdf, lit.radianceOf(place->triangle)),
                 1e-5 * glm::length(lit.radianceOf(place->triangle)));
     }
     EXPECT_GT(found, 5000);
-    // What is no light has no density.
+    // A triangle that is no light has no pdf.
     EXPECT_EQ(glsl_double::treePdf(int(slots[7]), kOrigin, layout::kNoNormal, 1.0, 1.0), 0.0);
   }
 }
@@ -280,7 +281,7 @@ TEST(LightTree, OneSampleOfAllLightsAndTheEnvironmentIsUnbiased) {
       estimate.add(
           luminanceOf(glsl_double::sampleLight(0, kOrigin, layout::kNoNormal, sampler, 5).irradiance));
     }
-    // That light samples by power have the right mean is a test of its own (ShaderLights).
+    // Another test (ShaderLights) checks that light samples by power have the right mean.
     if (selection == LightSelection::Power) byPower = estimate.mean();
     EXPECT_LE(estimate.error(), 0.01 * byPower);
     EXPECT_LE(std::abs(estimate.mean() - byPower), kLimit * M_SQRT2 * estimate.error());
@@ -294,7 +295,7 @@ struct LitPlace {
   bool through = false;
 
   uint32_t packed() const { return glsl_double::packNormal(normal); }
-  /// As a light sample takes it.
+  /// Returns the normal as a light sample takes it.
   uint32_t receiver(bool tree) const { return tree && !through ? packed() : uint32_t(layout::kNoNormal); }
 };
 
@@ -329,8 +330,8 @@ auto reusedLight(const LitPlace& place, bool tree, uint32_t k) {
   return glsl_double::endReuse(reuse, own, target, place.point, place.receiver(tree));
 }
 
-/// What all lights bring to a surface, but for what rays of a density of 0.3 are to find: by one light
-/// sample, or by one of several.
+/// Estimates the light that all lights bring to a surface, except for the part that rays of a pdf of 0.3
+/// find: by one light sample, or by one of several.
 Estimate lightOnSurface(const LitPlace& place, LightReuse by, bool tree) {
   constexpr uint32_t kSamples = 1 << 17;
   Estimate estimate;

@@ -89,7 +89,7 @@ TEST(Noise, TheSmallerVarianceOfAntiCorrelatedSamplesIsFound) {
     return std::pow(2.0 * meanAt(x, y), 2.0) / (12.0 * std::pow(kSamples, 3.0)) / 2.0;
   });
   EXPECT_NEAR(ratio, 1.0, 0.09);
-  // What the samples taken as independent say is off by the square of their number.
+  // The variance of samples taken as independent is wrong by the square of their number.
   EXPECT_GT(halves.a.pixels[0].variance() / 2.0, 20.0 * variance[0]);
 }
 

@@ -21,7 +21,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// As a command that has all options, with those of the file, if there is one.
+/// Parses words as a command that has all options does, with those of the file, if there is one.
 RenderOptions parsed(Words words, const std::filesystem::path& config = {}) {
   CLI::App app("", "render");
   app.set_help_flag();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether a scene lights itself, or is to be lit by the default light.
+// Tests whether a scene lights itself, or the default light must light it.
 #include "pack/own_light.h"
 
 #include <gtest/gtest.h>

@@ -14,7 +14,7 @@
 namespace fragtrace {
 namespace {
 
-/// A run of its own sets how many rays of each attack are traced (tests/CMakeLists.txt).
+/// A separate run of the test sets the number of rays for each attack (tests/CMakeLists.txt).
 size_t rayCount() {
   const char* wanted = std::getenv("FRAGTRACE_ATTACK_RAYS");
   return wanted ? size_t(std::atoll(wanted)) : 6000;

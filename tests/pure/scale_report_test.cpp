@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the reports of `bench scale` and `bench traversal` say.
+// Tests of the reports of `bench scale` and `bench traversal`.
 #include <gtest/gtest.h>
 
 #include <cmath>

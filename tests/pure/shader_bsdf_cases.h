@@ -20,7 +20,7 @@ using glsl_variant::With;
 
 using Bsdf = glsl_double::Bsdf;
 
-/// As makeBsdf of shaders/shade.glsl puts it together from metallic, transmission, roughness and index.
+/// Makes a BSDF from metallic, transmission, roughness and index, as makeBsdf of shaders/shade.glsl does.
 inline Bsdf makeBsdf(double metallic, double transmission, double roughness, double ior, bool solid,
                      bool front) {
   Bsdf b;

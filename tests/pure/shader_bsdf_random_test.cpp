@@ -124,7 +124,8 @@ TEST(ShaderBsdfAtRandom, NoWhiteMetalOrGlassGivesMoreThanItGets) {
   inEveryVariant([] {
     Draw draw(263);
     for (int k = 0; k < 16; ++k) {
-      // What plastic gains is glTF's own (ShaderBsdf.WhitePlasticGainsEnergyOnlyTowardsGrazing).
+      // Plastic is left out: glTF itself lets it gain energy
+      // (ShaderBsdf.WhitePlasticGainsEnergyOnlyTowardsGrazing).
       constexpr Kind kConserving[] = {Kind::Metal, Kind::SolidGlass, Kind::ThinGlass};
       const Boundary b = randomBoundary(draw, kConserving[k % 3], k % 4 == 0 ? 0.0 : 0.1, true);
       const Bsdf& side = k % 2 == 0 ? b.front : b.back;
@@ -157,7 +158,8 @@ TEST(ShaderBsdfAtRandom, PlasticOverABlackBaseGivesNoMoreThanItGets) {
 TEST(ShaderBsdfAtRandom, WhatFacetsGiveBackIsTheSumOverAllFurtherScatterings) {
   Draw draw(277);
   for (int k = 0; k < 100; ++k) {
-    // A scattering keeps `fresnel`; of what it sends out the share `loss` meets a further facet.
+    // A scattering keeps the share `fresnel` of the light. The share `loss` of the kept light meets another
+    // facet.
     const dvec3 fresnel = 0.5 + draw.inCube(0.5);
     const double loss = draw.between(0.0, 0.6);
     dvec3 sum(0.0);

@@ -55,7 +55,7 @@ TEST(ShaderBsdf, SamplesOfGlassFollowTheirDensity) {
   }
 }
 
-/// Of the light on the glass of a material, what its facets lose.
+/// Returns the share of the light on a material's glass that its facets lose.
 double lostByFacets(const Bsdf& mixed, double elevation) {
   Bsdf b = mixed;
   b.glass = 1.0;
@@ -100,7 +100,7 @@ TEST(ShaderBsdf, DiffuseDensityIntegratesToOne) {
 }
 
 TEST(ShaderBsdf, DensitiesIntegrateToAtMostOneAndToOneWhereNoFacetLosesLight) {
-  // How much facets lose is checked above, by counting.
+  // The test above counts how much the facets lose.
   for (const Case& c : allCases()) {
     for (double z : kElevations) {
       const dvec3 o = atElevation(z);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where faces meet in narrow creases: rays that leave one start in front of the others, and rays that arrive
-// meet the one in front.
+// Tests narrow creases between faces: rays that leave one face start in front of the others, and rays that
+// arrive meet the one in front.
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -74,8 +74,8 @@ Scene spike(const Place& p, int faces, double radius) {
   return scene;
 }
 
-/// Where a ray that leaves a point of these weights starts: as surface.glsl has it, offset by the most that
-/// packing makes of it.
+/// Returns the origin of a ray that leaves a point with these weights, as surface.glsl computes it, with the
+/// largest offset that packing can make.
 dvec3 startOf(const Scene& scene, const std::vector<uint32_t>& insets, size_t triangle, const glm::vec2& w,
               double side) {
   const std::array<vec3, 3> v = cornersOf(scene, scene.triangles[triangle]);
@@ -175,8 +175,8 @@ TEST(ShaderCreases, APointInTheMiddleStaysWhereItIs) {
   EXPECT_NE(glsl_float::insetFromCreases(point, {0.5f, 0.0f}, vec3(0.0f), insets[0], 1.0f), point);
 }
 
-/// Of the two faces of a fold that a ray passes within rounding of, from outside of the wedge, the first
-/// shows its front, the second its back: which one is met.
+/// A ray passes a fold's edge within rounding, from outside the wedge. Of the two faces it meets, the first
+/// shows its front and the second its back. Tests which one is met.
 TEST(ShaderCreases, ARayThatLeftAFrontMeetsTheFrontOfAFold) {
   const With creases(glsl_variant::kCreases, true);
   Draw draw(47);

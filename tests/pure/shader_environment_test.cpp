@@ -80,8 +80,8 @@ dvec3 turned(const dvec3& d, double angle) {
   return {d.x * std::cos(angle) + d.z * std::sin(angle), d.y, d.z * std::cos(angle) - d.x * std::sin(angle)};
 }
 
-// Bins of equal angles about world's axes. Steps within them meet the edges of all texels, at 0 and at 40
-// degrees, so that sums of the density, constant over a texel but for the sine, are exact.
+// The bins have equal angles about the world's axes. Their steps meet the edges of all texels, at rotations
+// of 0 and of 40 degrees. The density is constant over a texel except for the sine, so its sums are exact.
 constexpr size_t kBands = 32;
 constexpr size_t kTurns = 36;
 constexpr size_t kInner = 8;
@@ -194,8 +194,8 @@ TEST(ShaderEnvironment, DensityIntegratesToOneAndMissesNoLight) {
       dark += drawn ? 0 : 1;
       return 0.0;
     });
-    // Of the black half, all but the halves of two columns that filtering lights; half a column is no whole
-    // number of steps.
+    // The whole black half is dark, except for the halves of two columns that filtering lights. Half a column
+    // is no whole number of steps.
     EXPECT_NEAR(double(dark) / (kBands * kTurns * kInner * kInner), 15.0 / 32.0, 4e-3);
   }
 }

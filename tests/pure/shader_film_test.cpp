@@ -13,7 +13,7 @@ using glm::vec3;
 
 glsl_float::FilmPixel emptyPixel() { return {vec3(0.0f), 0.0f, vec3(0.0f), 0.0f, 0u, 0u, 0u, 0u}; }
 
-/// As Film::read() has it.
+/// Returns the mean that Film::read() returns.
 double meanOf(const glsl_float::FilmPixel& f) {
   return (double(f.sum.x) - double(f.compensation.x)) / double(f.samples);
 }

@@ -72,7 +72,7 @@ TEST(ShaderFresnel, InFloatTheCriticalAngleIsABorderBetweenNumbers) {
       const float fresnel = glsl_float::fresnelDielectric(cosine, eta);
       EXPECT_TRUE(fresnel >= 0.0f && fresnel <= 1.0f) << index;
       reflected += fresnel == 1.0f ? 1 : 0;
-      // Who goes through by rounding alone goes along the boundary.
+      // A ray that passes by rounding alone goes along the boundary.
       const vec3 wo(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
       const vec3 through = glsl_float::refractThrough(wo, vec3(0, 0, 1), eta);
       EXPECT_NEAR(glm::length(through), 1.0f, 1e-6f);
@@ -130,7 +130,7 @@ TEST(ShaderFresnel, ReflectanceAtGrazingIncidenceIsOne) {
 TEST(ShaderFresnel, ParallelPartVanishesAtBrewstersAngle) {
   for (double eta : kIndices) {
     const double cosine = std::cos(std::atan(eta));
-    // What is left is half of the perpendicular part, ((eta^2 - 1) / (eta^2 + 1))^2.
+    // Half of the perpendicular part remains, ((eta^2 - 1) / (eta^2 + 1))^2.
     const double perpendicular = (eta * eta - 1.0) / (eta * eta + 1.0);
     EXPECT_NEAR(fresnelDielectric(cosine, eta), 0.5 * perpendicular * perpendicular, kTolerance);
   }

@@ -26,7 +26,7 @@ PackedTree instancedScene(const Look& look, int count, double spread = 1.0) {
 
 const std::array<Look, 3> kLooks{Look{}, Look{.uneven = true}, Look{.scaleFrom = 1e-3, .scaleTo = 2.0}};
 
-/// Towards instances from anywhere, and anywhere.
+/// Makes rays from random places. Two of three point at an instance, the others in random directions.
 std::vector<Ray> raysAtInstances(const PackedTree& p, size_t count) {
   Draw draw(43);
   std::vector<Ray> rays(count);
@@ -185,7 +185,7 @@ TEST(ShaderInstances, FromFarAwayEveryRayStopsAtTheFrontOfAClosedMesh) {
   }
 }
 
-/// As surfaceAt() of shaders/surface.glsl finds it.
+/// A point as surfaceAt() of shaders/surface.glsl finds it.
 struct Point {
   vec3 place;
   vec3 normal;

@@ -44,7 +44,8 @@ struct ExactCase {
   }
   int64_t sum() const { return u + v + w; }
   bool onEdge() const { return u == 0 || v == 0 || w == 0; }
-  /// Where a rounded shear decides either way: on an edge, or starting in the triangle's plane.
+  /// Returns true if a rounded shear decides the result: on an edge, or for a ray that starts in the
+  /// triangle's plane.
   bool isDecidedByRounding() const { return onEdge() || volume == 0; }
   bool hit() const {
     const bool inside = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
@@ -255,8 +256,8 @@ std::array<vec3, 3> drawTriangle(Draw& draw, int k) {
   return v;
 }
 
-/// Where a ray from anywhere about hits the triangle, as shaders/surface.glsl computes it; nothing when it
-/// misses.
+/// Returns the point at which a random ray from nearby hits the triangle, as shaders/surface.glsl computes
+/// it, or nothing if it misses.
 std::optional<vec3> hitPoint(Draw& draw, const std::array<vec3, 3>& v, const glm::vec4& plane) {
   const float u = draw.unit();
   const glm::vec2 w = glsl_float::sampleTriangle(u, draw.unit());

@@ -18,7 +18,7 @@ struct AllExtensions {
   With<bool> clearcoat{glsl_variant::kClearcoat, true};
 };
 
-/// As stretchMicrofacets of shaders/material_layers.glsl.
+/// Does the same as stretchMicrofacets of shaders/material_layers.glsl.
 inline Bsdf stretched(Bsdf b, double strength) {
   const double across = std::max(b.alpha, glsl_double::kMirrorAlpha);
   const double along = across + (1.0 - across) * strength * strength;

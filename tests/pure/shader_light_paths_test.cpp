@@ -27,8 +27,8 @@ double spreadOf(const glm::vec4& ball) {
   return 1.0 - std::sqrt(1.0 - part * part);
 }
 
-/// Of a direction from the origin, by its definition: all cones that hold it, over the sum of all solid
-/// angles.
+/// Returns the pdf of a direction from the origin by its definition: the number of cones that hold it, over
+/// the sum of all solid angles.
 double pdfTowards(const dvec3& direction, size_t count) {
   double sum = 0.0;
   double holding = 0.0;
@@ -40,7 +40,7 @@ double pdfTowards(const dvec3& direction, size_t count) {
   return holding / (2.0 * M_PI * sum);
 }
 
-/// Of a place across parallel rays.
+/// Returns the pdf of a place across parallel rays.
 double pdfAcross(const dvec3& place, const dvec3& along) {
   double sum = 0.0;
   double holding = 0.0;

@@ -160,7 +160,7 @@ class Lit {
     v.uniformLights = lights == LightSelection::Uniform;
     return v;
   }
-  /// As src/render/renderer.cpp fills it.
+  /// Fills the frame as src/render/renderer.cpp does.
   static layout::Frame frameOf(const GpuScene& packed) {
     layout::Frame frame{};
     frame.environmentSize = packed.environmentSize;

@@ -74,7 +74,7 @@ TEST(ShaderLights, DensityOfASampleIsThatOfTheRayThatFindsIt) {
       ASSERT_GT(s.pdf, 0.0);
       const auto place = lit.placeOf(point + s.direction * s.distance);
       ASSERT_TRUE(place);
-      // As shaders/path.glsl weighs emission that a ray hits.
+      // This is the weight that shaders/path.glsl gives to emission that a ray hits.
       const double cosine = std::abs(glm::dot(lit.normalOf(place->triangle), s.direction));
       const uint32_t material = lit.scene.triangles[place->triangle].material;
       EXPECT_NEAR(glsl_double::emitterPdf(material, s.distance, cosine), s.pdf, 1e-6 * s.pdf);

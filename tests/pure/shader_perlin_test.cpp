@@ -131,7 +131,7 @@ TEST(ShaderPerlin, NormalSumsOctavesOfHalfTheSlopeAndTwiceTheFrequency) {
 TEST(ShaderPerlin, FloatIsWithinATenThousandthOfDouble) {
   Draw draw(6);
   for (int i = 0; i < 20000; ++i) {
-    // What a texture coordinate loses in float is not the map's error, so it is the same in both.
+    // Both maps get the same rounded coordinate, since its rounding is not an error of the map.
     const glm::vec2 p(draw.inCube(4.0));
     const dvec3 expected = perlinNormal(dvec2(p), 8.0, 0.5, 3);
     EXPECT_LE(glm::distance(dvec3(glsl_float::perlinNormal(p, 8.0f, 0.5f, 3)), expected), 1e-4);

@@ -200,7 +200,8 @@ TEST(ShaderPixelFilter, FloatIsNearDouble) {
     Draw draw(89);
     double worst = 0.0;
     for (int i = 0; i < 50000; ++i) {
-      // Away from the ends, where one float beside u is a hundredth of a pixel.
+      // Near 0 and 1, the next float after u moves the sample by a hundredth of a pixel. So they are left
+      // out.
       const float u = float(draw.between(0.001, 0.999));
       const float v = float(draw.between(0.001, 0.999));
       worst = std::max(worst, glm::distance(dvec2(glsl_float::samplePixelFilter(filter, u, v)),

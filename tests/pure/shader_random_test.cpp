@@ -72,7 +72,7 @@ TEST(ShaderRandom, IsUniformInPairsOfDimensions) {
   }
 }
 
-/// How far the correlation of two sequences is from none, in standard errors.
+/// Returns how far the correlation of two sequences is from zero, in standard errors.
 template <typename First, typename Second>
 double correlation(First first, Second second) {
   double sum = 0.0;

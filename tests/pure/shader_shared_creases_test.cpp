@@ -25,8 +25,9 @@ std::vector<Corners> wedge(Draw& draw, double degrees) {
   return {{a, b, at(1.0, 0.0, 0.1)}, {b, a, at(std::cos(angle), std::sin(angle), -0.1)}};
 }
 
-/// Where, in the mesh's space, a ray starts that leaves the front of the first face of the only instance: as
-/// surfaceAt() of shaders/surface.glsl has it, offset by the most that packing makes of it.
+/// Returns the origin, in the mesh's space, of a ray that leaves the front of the first face of the only
+/// instance, as surfaceAt() of shaders/surface.glsl computes it, with the largest offset that packing can
+/// make.
 vec3 startOf(const PackedTree& p, uint32_t inset, const glm::vec2& w) {
   const With nodes(glsl_variant::nodes, std::span<const uint32_t>(p.nodes));
   const auto instance = int(firstInstanceBlock(p.bvh));
@@ -67,7 +68,7 @@ TEST(ShaderCreases, NoRayThatLeavesAnInstanceStartsBehindTheOtherFaceOfItsWedge)
 }
 
 TEST(ShaderCreases, MeshesOfTheirOwnSpacesDoNotMeet) {
-  // Each has one face of a wedge, at the same numbers.
+  // Each mesh has one face of a wedge. In the meshes' own spaces the faces share an edge.
   Draw draw(73);
   const std::vector<Corners> faces = wedge(draw, 30.0);
   Scene scene;

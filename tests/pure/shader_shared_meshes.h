@@ -16,8 +16,7 @@ namespace {
 
 using glm::dmat4;
 
-/// What instances look like: turned at random, scaled within these factors, each axis for itself, or
-/// mirrored.
+/// The look of instances: turned at random, scaled within these factors, each axis for itself, or mirrored.
 struct Look {
   double scaleFrom = 0.05;
   double scaleTo = 0.3;

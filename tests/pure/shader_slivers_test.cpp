@@ -33,7 +33,8 @@ TEST(Slivers, AreToldByTheirShapeAndPlaceNotByTheirSize) {
         {scale * place, scale * (place + vec3(1, 0, 0)), scale * (place + vec3(0.5f, float(height), 0))});
   };
   for (const float scale : {1e-3f, 1.0f, 512.0f}) {
-    // Of length 1 and height h L^3 / 2A is 1 / h, asked to be at most 8 of the largest coordinate.
+    // For a triangle of length 1 and height h, L^3 / 2A is 1 / h. It may be at most 8 times the largest
+    // coordinate.
     EXPECT_TRUE(of(0.12, vec3(0), scale));
     EXPECT_FALSE(of(0.13, vec3(0), scale));
     EXPECT_TRUE(of(0.012, vec3(9, 0, 0), scale));

@@ -49,7 +49,7 @@ vec3 extremeDirection(Draw& draw) {
   return vec3(dvec3(r * std::cos(phi), r * std::sin(phi), z));
 }
 
-/// As scenes give it; the least roughness of sheen is that of material_layers.glsl.
+/// Makes a BSDF within the limits of scenes; the least roughness of sheen is that of material_layers.glsl.
 Bsdf extremeBase(Draw& draw, double metallic, double transmission) {
   const double indices[] = {1.0, 1.0004, 1.33, 1.5, 2.5};
   Bsdf b = makeBsdf(metallic, transmission, extreme(draw), indices[draw.integer(0, 4)],
@@ -97,7 +97,7 @@ std::string text(const vec3& v) {
   return out.str();
 }
 
-/// What is wrong with one input; empty: nothing.
+/// Returns the fault of one input, or an empty text.
 std::string faultOf(const glsl_float::Bsdf& b, Draw& draw) {
   const vec3 out = extremeDirection(draw);
   vec3 in = extremeDirection(draw);
@@ -109,8 +109,8 @@ std::string faultOf(const glsl_float::Bsdf& b, Draw& draw) {
                             std::to_string(b.coatAlpha);
   if (!isSound(value.value)) return "value " + text(value.value) + where;
   if (!std::isfinite(value.pdf) || value.pdf < 0.0f) return "density " + std::to_string(value.pdf) + where;
-  // What no drawing reaches would be missing from the picture. Weights below 1e-6 are lost in rounding,
-  // however high and narrow the lobe that they weigh.
+  // Light in a direction that is never drawn would be missing from the picture. Weights below 1e-6 are lost
+  // in rounding, however high and narrow the lobe that they weigh.
   const float highest = std::max(1.0f, 1.0f / (4.0f * float(M_PI) * b.alpha * b.alpha * out.z));
   if (value.pdf == 0.0f && std::max({value.value.x, value.value.y, value.value.z}) > 1e-6f * highest)
     return "value " + text(value.value) + " without pdf" + where;

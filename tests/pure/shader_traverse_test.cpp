@@ -101,8 +101,8 @@ double distanceToSegment(const dvec3& p, const dvec3& a, const dvec3& b) {
   return glm::distance(p, a + s * along);
 }
 
-/// How far a point is from a primitive, and from where rays begin to miss it: its edges, or a sphere's
-/// outline.
+/// The distances of a point from a primitive, and from the places where rays begin to miss it: its edges, or
+/// a sphere's outline.
 struct Nearness {
   double surface;
   double rim;

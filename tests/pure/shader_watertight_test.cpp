@@ -23,7 +23,8 @@ bool hits(const ClosedMesh& mesh, int triangle, const vec3& origin, const glsl_f
   return h.hit && h.t > 0.0f;
 }
 
-/// Of `count` rays from near the centre, aimed at edges and vertices, how many leave the mesh.
+/// Returns the number of rays that leave the mesh, of `count` rays from near the centre, aimed at edges and
+/// vertices.
 int leaks(const ClosedMesh& mesh, const dvec3& center, double size, int count, Draw& draw) {
   int leaked = 0;
   for (int k = 0; k < count; ++k) {

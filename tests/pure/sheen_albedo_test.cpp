@@ -15,7 +15,7 @@ TEST(SheenAlbedo, IsTheIntegralOfTheLobe) {
     const double alpha = roughness * roughness;
     for (double z : {0.9, 0.5, 0.2}) {
       const dvec3 o = atElevation(z);
-      // Of the shader's lobe, which is undivided here: no direction gives out more than it gets.
+      // The shader's lobe is undivided here: no direction gives out more than it gets.
       const With sheen(glsl_variant::kSheen, true);
       const double integral = total(integrateBins([&](const dvec3& i) {
         return i.z > 0.0 ? glsl_double::sheenValue(o, i, alpha) *

@@ -93,7 +93,7 @@ TEST(Silhouette, IsCutOffAtTheCamera) {
   stage.camera.position = stage.place + glm::dvec3(0.5, 0.25, 0.01);
   stage.camera.forward = {0, 1, 0};
   stage.camera.up = {0, 0, 1};
-  // Of the square below the eye the picture shows a triangle that reaches beyond its lower edge.
+  // The eye is above the square, and the picture shows a triangle of it that reaches beyond its lower edge.
   const std::vector<PictureLine> lines = stage.outline(2, {100, 100});
   ASSERT_FALSE(lines.empty());
   for (const PictureLine& line : lines) EXPECT_LE(std::max(line.from.y, line.to.y), 0.0);

@@ -189,9 +189,9 @@ double zenith(const SkyAir& sky, double sunElevation) {
   return luminance(colorOf(skyRadiance(sky, 1.0, std::sin(glm::radians(sunElevation)), 0.0)));
 }
 
-/// By /tmp/mi2/bin/python3 with Mitsuba 3.9.1, variant llvm_ad_spectral: emitters sunsky(turbidity=T,
-/// albedo=0.2) with sun_scale=0 or sky_scale=0, `eval` at 390, 400 ... 720 nm, weighted by the CIE's y
-/// (docs/design/sky.md).
+/// Values that /tmp/mi2/bin/python3 computed with Mitsuba 3.9.1, variant llvm_ad_spectral: emitters
+/// sunsky(turbidity=T, albedo=0.2) with sun_scale=0 or sky_scale=0, `eval` at 390, 400 ... 720 nm, weighted
+/// by the CIE's y (docs/design/sky.md).
 struct OfMitsuba {
   double turbidity;
   double sun;         // elevation, degrees

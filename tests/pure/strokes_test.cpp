@@ -31,7 +31,7 @@ Scene sceneOf(const std::vector<glm::vec3>& positions, const std::vector<glm::uv
   return scene;
 }
 
-/// Of what the last triangles enclose; negative where they are inside out.
+/// Returns the volume that the last triangles enclose; it is negative if they are inside out.
 double volumeOf(const Scene& scene) {
   double volume = 0.0;
   for (const Triangle& t : scene.triangles) {
@@ -90,8 +90,8 @@ TEST(Strokes, TheWidthFollowsTheDepthAlsoBehindTheCamera) {
   EXPECT_NEAR(volume(30.0f) / volume(0.0f), 8.0, 1e-4);
 }
 
-/// Of the vertices that are ends of `scene`'s first line or round them: from the left to the right, in
-/// pixels.
+/// Returns the width from the left to the right, in pixels, of the vertices at or around the ends of
+/// `scene`'s first line.
 double shownWidth(const Scene& scene, size_t first, size_t count) {
   double least = 1e9;
   double most = -1e9;

@@ -31,7 +31,7 @@ void forEachTexel(const Image& map, const Use& use) {
   }
 }
 
-/// Of a white diffuse surface.
+/// Returns the radiance of a white diffuse surface.
 double radianceOf(const Image& map, const glm::dvec3& normal) {
   double sum = 0.0;
   forEachTexel(map, [&](const glm::dvec3& direction, double solid, const float* texel) {
@@ -43,7 +43,7 @@ double radianceOf(const Image& map, const glm::dvec3& normal) {
 TEST(Studio, ExposesAWhiteSurfaceThatFacesTheCamera) {
   const Image light = studioLight();
   EXPECT_NEAR(radianceOf(light, {0, 0, 1}), 0.75, 0.03);
-  // Nowhere so bright that the tone curve has nothing left, nowhere black.
+  // The studio is nowhere too bright for the tone curve, and nowhere black.
   forEachTexel(studioBackdrop(), [&](const glm::dvec3& direction, double, const float*) {
     for (const double turn : {0.0, 0.7, 1.4, 2.1, 2.8, 3.5, 4.2, 4.9, 5.6}) {
       const double flat = std::sqrt(1.0 - direction.y * direction.y);
@@ -98,7 +98,7 @@ Image linearMap(int width) {
   return map;
 }
 
-/// What is left of X, which a mean over a neighbourhood scales by its mean cosine.
+/// Returns the factor by which a mean over a neighbourhood scales X: its mean cosine.
 double meanCosine(double sigma) {
   double cosine = 0.0;
   double all = 0.0;

@@ -51,7 +51,7 @@ TEST(UpAxis, ThreeLevelPointsGiveTheNearerDirection) {
     ASSERT_TRUE(found);
     EXPECT_LT(apart(*found, wanted), 0.51e-6);
     EXPECT_EQ(std::round(found->x * 1e6) / 1e6, found->x);
-    // All three are as high then, to the rounding.
+    // With this axis all three points are at the same height, except for rounding.
     for (const glm::dvec3& p : inFile)
       EXPECT_NEAR((turnToY(*found) * p).y, (turnToY(*found) * inFile[0]).y, 1e-5);
   }

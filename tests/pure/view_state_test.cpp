@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the viewer's controls change.
+// Tests the changes that the viewer's controls make.
 #include "view/view_state.h"
 
 #include <gtest/gtest.h>
@@ -316,7 +316,7 @@ TEST(ViewState, TheWheelZoomsTowardsTheCursor) {
   state.size = {800, 400};
   state.pose.position = {0.0, 0.0, 5.0};
   state.pose.focalPoint = {0.0, 0.0, 0.0};
-  // What is at this place of the focal point's plane stays there.
+  // The point at this place of the focal point's plane stays there.
   const double half = 5.0 * std::tan(0.5 * glm::radians(state.pose.viewAngleDegrees));
   const glm::dvec3 point(2.0 * half * 0.5, half * 0.5, 0.0);
   apply(state, *controlFor(Gesture::Wheel, 0, 0), {.notches = 2.0, .place = {0.75, 0.25}});

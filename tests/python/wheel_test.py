@@ -12,7 +12,7 @@ from pathlib import Path
 
 FRAGTRACE, SOURCE = (Path(argument).resolve() for argument in sys.argv[1:3])
 PLACE = FRAGTRACE.parent / "wheel_test"
-# What the wheel must not bring: OpenGL is the machine's, OpenImageIO comes from PyPI.
+# Libraries that the wheel must not bring: OpenGL is the machine's, OpenImageIO comes from PyPI.
 FOREIGN = ("libEGL", "libGL", "libOSMesa", "libgallium", "libOpenImageIO", "libOpenEXR", "libQt")
 
 

@@ -13,7 +13,7 @@ NOWHERE = mi.Vector3f(0)
 
 
 def correlated_masking(facets, outgoing, incoming, half):
-    """G of appendix B (height-correlated Smith) from the G1 = 1 / (1 + Lambda) of each direction."""
+    """Returns G of appendix B (height-correlated Smith) from the G1 = 1 / (1 + Lambda) of each direction."""
     lambdas = 1 / facets.smith_g1(outgoing, half) + 1 / facets.smith_g1(incoming, half) - 1
     return dr.select((dr.dot(outgoing, half) > 0) & (dr.dot(incoming, half) > 0), 1 / lambdas, 0)
 
@@ -79,8 +79,9 @@ class Compensation:
 
 
 class GltfSurface(mi.BSDF):
-    """mix(dielectric, metal, metallic); properties: base_color (colour or texture), metallic, roughness, ior, specular, specular_color,
-    metallic_roughness_map, specular_map and specular_color_map (textures, each optional), compensated."""
+    """The BSDF mix(dielectric, metal, metallic). The properties are base_color (colour or texture), metallic,
+    roughness, ior, specular, specular_color, metallic_roughness_map, specular_map and specular_color_map (textures,
+    each optional), compensated."""
 
     def __init__(self, properties):
         super().__init__(properties)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What material extensions add to GltfSurface, written from their ratified texts: KHR_materials_clearcoat, _sheen, _anisotropy, _iridescence and
-_diffuse_transmission. No maps; the clearcoat's normal is the surface's."""
+"""Material extensions of GltfSurface, written from their ratified texts: KHR_materials_clearcoat, _sheen, _anisotropy,
+_iridescence and _diffuse_transmission. No maps; the clearcoat's normal is the surface's."""
 
 import drjit as dr
 import mitsuba as mi
@@ -37,7 +37,7 @@ class Sheen:
         return a / (1 + b * x ** c) + mixed(-1.97760, -1.27393, t) * x + mixed(-4.32054, -4.85967, t)
 
     def smith(self, cosine, library=dr):
-        """Lambda of the fit; library: numpy or drjit."""
+        """Returns Smith's Lambda by the fit of Estevez and Kulla. `library` is numpy or drjit."""
         choose = np.where if library is np else dr.select
         low, high = library.minimum(cosine, 0.5), library.maximum(cosine, 0.5)
         return choose(cosine < 0.5, library.exp(self.fit(low)), library.exp(2 * self.fit(0.5) - self.fit(1 - high)))
@@ -109,7 +109,7 @@ class LayeredSurface(mi.BSDF):
         self.m_flags = self.m_components[0] | self.m_components[1]
 
     def turned(self, v, angle):
-        """From the shading frame to that of the facets, or back by the negative angle."""
+        """Turns a vector from the shading frame to that of the facets, or back by the negative angle."""
         c, s = float(np.cos(angle)), float(np.sin(angle))
         return mi.Vector3f(c * v.x + s * v.y, c * v.y - s * v.x, v.z)
 
@@ -118,7 +118,8 @@ class LayeredSurface(mi.BSDF):
         return mixed(bare, self.film.reflectance(f0, cosine), self.film_weight) if self.film_weight > 0 else bare
 
     def base(self, outgoing, image, transmitted):
-        """Of the material below sheen and clearcoat; image: the incoming direction, mirrored to the viewer's side if it is on the other."""
+        """Returns the BSDF of the material below sheen and clearcoat. `image` is the incoming direction, mirrored to
+        the viewer's side if it is on the other."""
         layer = specular_brdf(self.facets, self.turned(outgoing, self.turn), self.turned(image, self.turn))
         cosine = dr.dot(outgoing, dr.normalize(outgoing + image))
         dielectric = self.fresnel(mi.Color3f(self.f0), cosine)

@@ -23,7 +23,7 @@ class Texture:
     coordinate_set: int = 0
 
     def linear(self):
-        """The same texture with its colours decoded from sRGB."""
+        """Returns the same texture with its colours decoded from sRGB."""
         color = self.texels[..., :3]
         decoded = np.where(color <= 0.04045, color / 12.92, ((color + 0.055) / 1.055) ** 2.4)
         return Texture(np.concatenate([decoded, self.texels[..., 3:]], -1), self.nearest, self.wrap, self.coordinate_set)

@@ -159,7 +159,7 @@ def covered(material, bsdf):
 
 
 def single_albedo(multiscatter, anisotropy):
-    """Of one scattering, of the albedo of a thick layer (KHR_materials_scatter)."""
+    """Returns the albedo of one scattering, from that of a thick layer (KHR_materials_scatter)."""
     s = 4.09712 + 4.20863 * multiscatter - np.sqrt(9.59217 + 41.6808 * multiscatter + 17.7126 * multiscatter ** 2)
     return (1 - s * s) / (1 - anisotropy * s * s)
 
@@ -286,7 +286,7 @@ def check_environment(scene, texels, rotation_degrees):
 
 
 def described(scene, entry, scratch):
-    """The scene as a dictionary, without its environment."""
+    """Returns the scene as a dictionary, without its environment."""
     width, height = entry["resolution"]
     options = dict(zip(entry["options"][::2], entry["options"][1::2]))
     compensated = options.get("--disable") != "energy-compensation"
@@ -334,7 +334,7 @@ def described(scene, entry, scratch):
         number = [mesh.name for mesh in scene.meshes].index(entry["camera_in"])
         around = {"around": result["mesh%d" % number]["interior"]}
         result["mesh%d" % number]["interior"] = {"type": "ref", "id": "around"}
-        # What is referred to stands first.
+        # An object must stand before references to it.
         result["sensor"]["medium"] = {"type": "ref", "id": "around"}
         result = {"type": "scene", **around, **{key: value for key, value in result.items() if key != "type"}}
     return result

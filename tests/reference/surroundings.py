@@ -16,7 +16,8 @@ def read_pfm(path):
 
 
 def environment_radiance(texels, rotation_degrees, direction):
-    """The environment along unit directions: bilinear between texel centres, wrapping in u, clamped in v."""
+    """Returns the environment's radiance along unit directions: bilinear between texel centres, wrapping in u, clamped
+    in v."""
     angle = np.radians(rotation_degrees)
     # Turning the environment by +R about y means looking it up along the direction turned by -R.
     x = np.cos(angle) * direction[..., 0] - np.sin(angle) * direction[..., 2]
@@ -31,7 +32,7 @@ def environment_radiance(texels, rotation_degrees, direction):
 
 
 def harmonics(direction):
-    """The nine real spherical harmonics of the bands 0 to 2 along unit directions, and their bands."""
+    """Returns the nine real spherical harmonics of the bands 0 to 2 along unit directions, and their bands."""
     x, y, z = np.moveaxis(direction, -1, 0)
     values = [0.28209479177 * np.ones_like(x), 0.48860251190 * y, 0.48860251190 * z, 0.48860251190 * x, 1.09254843059 * x * y,
               1.09254843059 * y * z, 0.31539156525 * (3 * z * z - 1), 1.09254843059 * x * z, 0.54627421529 * (x * x - y * y)]

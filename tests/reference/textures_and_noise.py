@@ -43,7 +43,7 @@ def lattice_gradient(i, j, octave):
 
 
 def noise_slope(x, y, octave):
-    """The gradient, by x and by y, of Perlin's gradient noise (Improving Noise, 2002) in two dimensions."""
+    """Returns the gradient, by x and by y, of Perlin's gradient noise (Improving Noise, 2002) in two dimensions."""
     i, j = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
     fx, fy = x - i, y - j
 
@@ -67,7 +67,7 @@ def noise_slope(x, y, octave):
 
 
 def perlin_normal(perlin, uv):
-    """The tangent-space normal of a material's perlinNormal extras."""
+    """Returns the tangent-space normal of a material's perlinNormal extras."""
     slope = np.zeros((2, len(uv)))
     for octave in range(perlin["octaves"]):
         scaled = uv * perlin["frequency"] * 2.0 ** octave

@@ -22,7 +22,7 @@ from textures_and_noise import perlin_normal, sample
 
 STAGES = ["flat", "phong", "shadows", "reflections", "refraction", "normal-maps"]
 SCENES = FOLDER.parent.parent / "scenes"
-MIRROR_SPLITS = 3  # glass boundaries where both ways are followed; one is drawn by chance from there on
+MIRROR_SPLITS = 3  # at so many glass boundaries both ways are followed, at later ones a random one
 RAY_LEAVES_BY = 1e-9
 LEAST_COSINE = 0.001
 
@@ -33,7 +33,7 @@ def dot(a, b):
 
 @dataclass
 class Hits:
-    """What rays met; item is the index of a mesh or sphere, -1 for nothing."""
+    """The hits of rays; item is the index of a mesh or sphere, -1 for nothing."""
     distance: np.ndarray
     item: np.ndarray
     triangle: np.ndarray
@@ -76,7 +76,7 @@ class Tracer:
 
     @staticmethod
     def meet_triangles(hits, index, mesh, origin, direction):
-        """Moeller and Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997."""
+        """Intersects triangles by Moeller and Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997."""
         for k, (a, b, c) in enumerate(mesh.positions):
             edge1, edge2 = b - a, c - a
             p = np.cross(direction, edge2)
@@ -147,7 +147,8 @@ class Tracer:
         return unit(local[:, :1] * tangent[:, :3] + local[:, 1:2] * bitangent + local[:, 2:] * normal)
 
     def passes(self, points):
-        """Where a ray goes on through a hole of MASK or, by chance, BLEND: decided once a crossing."""
+        """Returns true where a ray passes through a hole of MASK or, by chance, of BLEND. This is decided once for each
+        crossing."""
         mode = points.material.alpha_mode
         if mode == "MASK":
             return points.alpha < points.material.alpha_cutoff
@@ -156,7 +157,8 @@ class Tracer:
         return np.zeros(len(points.alpha), bool)
 
     def solid_hits(self, origin, direction):
-        """Distances to the nearest surfaces without holes, and for each item the rays that met it with their points."""
+        """Returns the distances to the nearest surfaces without holes, and for each item the rays that met it with
+        their points."""
         hits = self.nearest(origin, direction)
         distance, groups = hits.distance.copy(), []
         for index in np.unique(hits.item[hits.item >= 0]):
@@ -230,7 +232,7 @@ class Tracer:
     # Paths
 
     def radiance(self, origin, direction):
-        """Expected radiance along camera rays."""
+        """Returns the expected radiance along camera rays."""
         result = np.zeros((len(origin), 3))
         ray = np.arange(len(origin))
         weight, scatterings, splits = np.ones((len(origin), 3)), np.zeros(len(origin), int), np.zeros(len(origin), int)
@@ -322,7 +324,7 @@ def select(points, kept):
 
 
 def camera_rays(camera, width, height, x, y):
-    """Rays through picture coordinates in pixels, (0, 0) the top left corner."""
+    """Returns the rays through picture coordinates in pixels, with (0, 0) at the top left corner."""
     to_world = camera.to_world
     across, up = (2 * x / width - 1) * width / height, 1 - 2 * y / height
     if camera.yfov:

@@ -68,7 +68,7 @@ class Animation(Case):
         self.ends_well(viewer, viewer.close())
 
     def shows_the_copied_command(self, viewer):
-        """Bit by bit; the command's words."""
+        """Compares the window bit by bit with the copied command, and returns the command's words."""
         shown = pixels_of(viewer.press_for_file("F12", ".png"))
         viewer.key("ctrl+c")
         viewer.until(lambda s: any("copied" in m for m in s["messages"]), "copied")

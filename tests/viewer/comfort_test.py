@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What makes the viewer pleasant: the first picture, the docked panel, undo, views with a name, comparison, enlarged pixels, help."""
+"""Tests of the viewer's comforts: the first picture, the docked panel, undo, views with a name, comparison, enlarged
+pixels, help."""
 import json
 import shlex
 import subprocess
@@ -123,7 +124,7 @@ class Panel(Case):
         before = viewer.rest()
         viewer.click("Environment")
         viewer.until(lambda s: s["focus"] == "popup", "the list")
-        # As many as there are files beside the scene, and the studio.
+        # The list has as many thumbnails as there are files beside the scene, and one of the studio.
         viewer.until(lambda s: s["thumbnails"] >= 1 + len(list(SCENES.glob("*.pfm"))), "pictures of them")
         viewer.click("environment sky.pfm")
         status = viewer.rest(lambda s: s["environment"].endswith("sky.pfm"), "chosen")

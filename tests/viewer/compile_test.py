@@ -8,7 +8,7 @@ SIZE = ["--resolution", "320,240", "--spp", "1"]
 
 class Compiles(Case):
     def start(self, *options, disabled=False):
-        """With nothing in the driver's cache, or without one."""
+        """Starts the viewer with an empty driver cache, or without one."""
         environment = {**self.screen.environment, "MESA_SHADER_CACHE_DIR": str(self.folder / "cache")}
         if disabled:
             environment["MESA_SHADER_CACHE_DISABLE"] = "true"

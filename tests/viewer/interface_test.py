@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What is drawn over the picture: lists, sheet, messages, long texts, the clipboard, small windows and fine displays."""
+"""Tests of things drawn over the picture: lists, sheet, messages, long texts, the clipboard, small windows and fine
+displays."""
 import json
 import shlex
 import struct

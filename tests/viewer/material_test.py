@@ -57,7 +57,7 @@ class Materials(Case):
         return viewer.until(lambda s: self.states.add(s["state"]) or (s["state"] == "resting" and s["set"] != before), "another number")["set"]
 
     def changed(self, before, after, file="changed.gltf"):
-        """The scene with a text in place of another one."""
+        """Writes the scene with one text replaced by another, and returns the path."""
         text = self.scene.read_text()
         self.assertEqual(text.count(before), 1)
         path = self.folder / file

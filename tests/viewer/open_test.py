@@ -64,7 +64,7 @@ class Open(Case):
             self.assertEqual((status["scene"], status["error"]), (str(model), ""))
             portal.calls.clear()
 
-        # Where the desktop shows nothing, or nothing that is seen, the list does.
+        # If the desktop shows no dialog, or none that is seen, the list appears.
         for answer, said in (("error", "it is broken"), ((ENDED,), "its dialog has ended"), ("silent", ""), (None, "")):
             portal.answers = [answer]
             viewer.key("ctrl+o")

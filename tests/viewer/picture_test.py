@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What the window shows and writes is what `render` draws: every toggle, camera, size and tone map."""
+"""The window shows and writes the picture that `render` draws, for every toggle, camera, size and tone map."""
 import math
 import re
 import shlex
@@ -137,7 +137,8 @@ class Camera(Case):
         quick = self.view("plastics", "--resolution", "640,480", "--spp", "1")
         ms = quick.status()["sides"][0]["frame_ms"]
         quick.close()
-        # Where frames of a third of the size are quick enough to move by, those of half the size are not, and long ones change the step by one.
+        # The window is so large that frames of a third of the size are fast enough while the camera moves, and those of
+        # half the size are not. A frame that takes long changes the size by one step.
         scale = min((600 / ms) ** 0.5, 1.8)
         viewer = self.view("plastics", "--resolution", f"{round(640 * scale)},{round(480 * scale)}", "--spp", "1")
         size = viewer.status()["width"]

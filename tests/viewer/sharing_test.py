@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Pictures come to the window on the device, where it has the tracing thread's driver, and else through the host: the same pictures."""
+"""The window gets pictures on the device if it has the tracing thread's driver, and through the host otherwise. Both
+ways show the same pictures."""
 import time
 
 from support import Case, main, pixels_of

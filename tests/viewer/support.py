@@ -135,7 +135,7 @@ class Viewer:
         return self.wait(check, seconds, what)
 
     def wait(self, condition, seconds, what):
-        """As wait_for; an error tells what the viewer says of itself."""
+        """Does the same as wait_for; an error tells the viewer's own messages."""
         try:
             return wait_for(condition, seconds, what)
         except AssertionError as error:
@@ -187,14 +187,14 @@ class Viewer:
         self.xdotool("mouseup", button)
 
     def picture(self):
-        """What the window shows in the picture's place: width, height and a list of (r, g, b)."""
+        """Returns the window's content in the picture's place: width, height and a list of (r, g, b)."""
         status = self.status()
         width, height, pixels = self.grab()
         size = status["width"], status["height"]
         return *size, [pixel for y in range(size[1]) for pixel in pixels[width * y:width * y + size[0]]]
 
     def grab(self):
-        """What the window shows: width, height and a list of (r, g, b)."""
+        """Returns the window's content: width, height and a list of (r, g, b)."""
         window = self.screen.display.create_resource_object("window", self.id)
         size = window.get_geometry()
         image = window.get_image(0, 0, size.width, size.height, X.ZPixmap, 0xffffffff)
@@ -262,7 +262,8 @@ class Case(unittest.TestCase):
         self.assertFalse([m for m in last["messages"] if m.startswith("driver")], last["messages"])
 
     def same(self, picture, other, ties=0):
-        """Of two lists of pixels. ties: so many may be a level apart, where the window rounds 32-bit floats, and a file values of 64 bits."""
+        """Compares two lists of pixels. With `ties`, so many may be a level apart, since the window rounds 32-bit
+        floats and a file values of 64 bits."""
         self.assertEqual(len(picture), len(other))
         apart = sum(p != q for p, q in zip(picture, other))
         self.assertLessEqual(apart, ties if largest_difference(picture, other) == 1 else 0, f"of {len(picture)} pixels, by up to {largest_difference(picture, other)} levels")

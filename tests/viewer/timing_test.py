@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What the viewer claims of time: it sleeps when done, answers soon, and loading blocks nothing. Figures are printed."""
+"""Tests of the viewer's claims of time: it sleeps when done, answers soon, and loading blocks nothing. Figures are
+printed."""
 import json
 import struct
 import time

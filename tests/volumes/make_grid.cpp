@@ -38,7 +38,7 @@ float noise(vec3 p) {
   return sum;
 }
 
-/// How far a place is inside of a column that widens upwards; 0 and less outside.
+/// Returns how far a point is inside a column that widens upwards; 0 and less outside.
 float insidePlume(const vec3& p) {
   const float height = p.y + 0.5f;
   const float radius = 0.08f + 0.28f * height;

@@ -15,7 +15,7 @@
 namespace fragtrace {
 namespace {
 
-/// By position first, in which most differ.
+/// Orders transforms, by position first, since most differ in that.
 bool standsBefore(const glm::dmat4& a, const glm::dmat4& b) {
   for (const int c : {3, 0, 1, 2}) {
     for (int r = 0; r < 3; ++r) {
@@ -100,7 +100,8 @@ class InstanceReader {
     return readVectors<components>(document_, accessor, placeOf(name));
   }
 
-  /// The table of the extension: floats, or for rotations normalized signed integers, too.
+  /// Refuses types that the extension does not allow. All attributes may be floats, and rotations also
+  /// normalized signed integers.
   void checkType(const char* name, int components, const tinygltf::Accessor& accessor) const {
     const int type = accessor.componentType;
     const bool isSigned = type == TINYGLTF_COMPONENT_TYPE_BYTE || type == TINYGLTF_COMPONENT_TYPE_SHORT;

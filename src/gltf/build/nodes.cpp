@@ -63,8 +63,8 @@ std::vector<int> parentsOf(const Document& document) {
     }
   }
 
-  // Each node has one parent at most, so a walk upwards that meets itself is a loop, and no step is walked
-  // twice.
+  // Each node has at most one parent, so a walk upwards that comes back to a node of its own has found a
+  // loop. A walk ends at a node of an earlier walk, so no step is repeated.
   std::vector<size_t> walkOf(nodes.size(), nodes.size());
   for (size_t start = 0; start < nodes.size(); ++start) {
     for (int node = int(start); node >= 0 && walkOf[size_t(node)] != start; node = parents[size_t(node)]) {
@@ -109,7 +109,7 @@ bool hidesItself(const tinygltf::Node& node) {
   return !extension->second.Get("visible").Get<bool>();
 }
 
-/// By node: whether the user hides it.
+/// Returns, by node, true if the user hides it.
 std::vector<bool> chosenByUser(const Document& document, const std::vector<std::string>& toHide) {
   const auto& nodes = document.model.nodes;
   std::vector<bool> chosen(nodes.size(), false);

@@ -17,8 +17,9 @@ inline constexpr double kSmallest = 1e-75;
 struct PlacedNode {
   int index = 0;
   glm::dmat4 world{1.0};  ///< affine: the last row is 0, 0, 0, 1
-  bool hidden = false;    ///< it or an ancestor (KHR_node_visibility, or the user's choice): its mesh, sphere
-                          ///< and light are not there
+  /// The node or an ancestor is hidden (KHR_node_visibility, or the user's choice): its mesh, sphere and
+  /// light are not there.
+  bool hidden = false;
   bool hiddenInFile = false;  ///< the same without the user's choice
   int depth = 0;              ///< ancestors
 };

@@ -25,9 +25,9 @@ std::optional<size_t> indexIn(const json& array, std::string_view part) {
 
 /// The first part of a pointer that the document does not have.
 struct Missing {
-  const json* parent;                    ///< what should have it
+  const json* parent;                    ///< the object that should have the part
   std::optional<std::string_view> part;  ///< none: the document has all parts
-  std::string_view rest;                 ///< what follows the part in the pointer
+  std::string_view rest;                 ///< the pointer after this part
 };
 
 Missing firstMissing(const json& root, std::string_view pointer) {
@@ -125,7 +125,7 @@ std::string hintAtWhole(const json& root, const std::string& pointer) {
 std::string hintFor(const json& root, const std::string& pointer) {
   if (const std::string whole = hintAtWhole(root, pointer); !whole.empty()) return whole;
   std::string meant = pointer;
-  constexpr int kMostSteps = 8;  // as many parts may be wrong
+  constexpr int kMostSteps = 8;  // the number of wrong parts that are still searched
   for (int i = 0; i < kMostSteps && !meant.empty(); ++i) {
     meant = nearerPlace(root, meant);
     if (!meant.empty() && numberRuleIn(root, meant)) return "; did you mean " + meant + "?";

@@ -236,7 +236,7 @@ Callbacks readFromMemory(Buffers& buffers) {
   };
   if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
     callbacks.GetFileSizeInBytes = [](size_t* size, std::string*, const std::string&, void*) {
-      *size = 0;  // it is compared with a limit of tinygltf's; ours have been checked
+      *size = 0;  // tinygltf compares the size with a limit of its own; ours are checked already
       return true;
     };
   }

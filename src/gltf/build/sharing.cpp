@@ -47,7 +47,8 @@ MeshUse useOf(const Mesh& mesh, const std::vector<Material>& materials) {
   return use;
 }
 
-/// By Frobenius norms: about 3 for rotations, more the less evenly it scales.
+/// Returns false if a matrix scales too unevenly, judged by Frobenius norms. Their product is about 3 for
+/// rotations, and larger for uneven scales.
 bool isWellConditioned(const glm::dmat3& matrix) {
   constexpr double kMostUneven = 32.0;
   const glm::dmat3 inverse = glm::inverse(matrix);

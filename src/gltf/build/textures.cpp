@@ -111,8 +111,9 @@ int sourceIn(const tinygltf::Texture& texture, const char* extension, int otherw
   return found != texture.extensions.end() ? int(numberOf(found->second, "source", otherwise)) : otherwise;
 }
 
-/// The picture of a texture, -1 for none. That of EXT_texture_webp counts more than the fallback beside it,
-/// that of KHR_texture_basisu less: it has lost more than the fallback, and not every build decodes it.
+/// Returns the index of a texture's picture, or -1. The picture of EXT_texture_webp takes precedence over the
+/// fallback. The picture of KHR_texture_basisu is used only without a fallback, since its compression has
+/// lost more and not every build decodes it.
 int sourceOf(const tinygltf::Texture& texture) {
   const int source = sourceIn(texture, "EXT_texture_webp", texture.source);
   return source >= 0 ? source : sourceIn(texture, kBasisu, -1);

@@ -21,9 +21,9 @@ inline constexpr std::string_view kTextureInfo = "a texture info";
 struct Extension {
   std::string_view name;
   Support support = Support::Supported;
-  std::string_view reader;                 ///< the file of src/gltf that reads it
-  std::array<std::string_view, 2> places;  ///< where it may stand: pointers with * for an index, "" the root,
-                                           ///< kTextureInfo; kNowhere
+  std::string_view reader;  ///< the file of src/gltf that reads it
+  /// Places where the extension may stand: pointers with * for an index, "" the root, kTextureInfo; kNowhere.
+  std::array<std::string_view, 2> places;
   std::string_view members = {};  ///< members of a material's extension, with spaces between: a texture ends
                                   ///< in Texture, NAME[3] is three numbers, all others are numbers
   void (*read)(const MaterialPart&, Material&) = nullptr;  ///< reads a material's extension

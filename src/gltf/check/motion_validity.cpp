@@ -18,7 +18,7 @@ using nlohmann::json;
 /// The places of nodes in their trees. A node in a loop, which is refused later, stands alone.
 struct Ancestry {
   std::vector<size_t> root;         ///< root of each node
-  std::vector<size_t> first, last;  ///< those below a node are numbered from its first to its last
+  std::vector<size_t> first, last;  ///< the nodes below a node have the numbers from its first to its last
 
   bool isAbove(size_t node, size_t other) const {
     return first[node] <= first[other] && first[other] <= last[node];

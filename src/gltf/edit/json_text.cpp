@@ -47,7 +47,7 @@ size_t endOfValue(const std::string& text, size_t at) {
 
 /// A member of an object, or an element of an array, which has no key.
 struct Entry {
-  Range key;  ///< with its quotes
+  Range key;  ///< the key with its quotes
   Range value;
 };
 

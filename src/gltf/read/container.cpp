@@ -100,7 +100,7 @@ void checkChunks(const std::filesystem::path& path, uint64_t length, const Diagn
 /// chunks.
 Container splitGlb(const std::vector<uint8_t>& bytes, Diagnostics& diagnostics) {
   const size_t length = readLittleEndian(bytes, 8);
-  if (length > bytes.size()) {  // of a pipe, whose size is not known before
+  if (length > bytes.size()) {  // this happens with a pipe, whose size is not known before it is read
     diagnostics.refuse("", "truncated .glb: its header says " + std::to_string(length) +
                                " bytes, the file has " + std::to_string(bytes.size()));
   }

@@ -41,7 +41,8 @@ struct Document {
   std::vector<Skin> skins;
   std::vector<std::string> sceneNames, animationNames, materialVariants;
   std::vector<std::optional<double>> animationSeconds;  ///< as in Scene
-  std::vector<float> keyTimes;                          ///< of the animation that poses it
+  /// Key times of the animation that poses the document.
+  std::vector<float> keyTimes;
   Diagnostics diagnostics;
   int textureSide;             ///< larger pictures are scaled down
   bool drawMissingTextures;    ///< pictures that cannot be read are warned of

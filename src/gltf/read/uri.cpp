@@ -87,7 +87,7 @@ bool leadsOut(const std::filesystem::path& path) {
 bool isBelow(int file, const std::filesystem::path& folder) {
   std::error_code error;
   const auto there = std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(file), error);
-  if (error) return true;  // it cannot be checked without /proc
+  if (error) return true;  // without /proc it cannot be checked
   const auto root = std::filesystem::canonical(folder.empty() ? "." : folder, error);
   if (error) return false;
   const auto [rootEnd, thereAt] = std::mismatch(root.begin(), root.end(), there.begin(), there.end());

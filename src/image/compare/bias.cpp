@@ -21,7 +21,7 @@ namespace {
 constexpr double kFloatRounding = 1e-6;  // smaller relative differences are those of floats
 constexpr double kFullColorDigits = 6;   // -log10 of the p of full red or blue
 
-/// A picture with all that the test reads of it.
+/// A picture with all values that the test of bias reads.
 class Estimates {
  public:
   Estimates(const Image& image, const char* which)
@@ -77,8 +77,8 @@ struct Sums {
   int pixels = 0;
   double a = 0;         ///< luminance of the picture
   double b = 0;         ///< luminance of the reference
-  double variance = 0;  ///< of a - b
-  double spread = 0;    ///< of each mean's variance^2 / degrees of freedom
+  double variance = 0;  ///< the variance of a - b
+  double spread = 0;    ///< the sum of each mean's variance^2 / degrees of freedom
 };
 
 bool differ(double a, double b) { return std::abs(a - b) > kFloatRounding * (std::abs(a) + std::abs(b)); }
@@ -172,7 +172,7 @@ BiasTest testBias(const Image& picture, const Image& reference, int side) {
         if (!std::isnan(test.chance)) test.place = {left, top};
         test.chance = test.smallest = std::numeric_limits<double>::quiet_NaN();
       } else if (p) {
-        // Not where a tile before is not finite.
+        // A tile that is not finite stays the place of the result, however small the p of later ones is.
         if (values.empty() ? !std::isnan(test.chance) : *p < test.smallest) {
           test.smallest = *p;
           test.place = {left, top};

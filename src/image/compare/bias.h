@@ -18,7 +18,7 @@ struct BiasTest {
   /// One is that of the smallest p among so many tiles (Sidak), the other that of so many small p
   /// (Kolmogorov and Smirnov, one-sided: a variance that is stated too high finds no bias).
   double chance = 1;
-  int tiles = 0;                    ///< of the whole picture
+  int tiles = 0;                    ///< number of tiles of the whole picture
   int noisy = 0;                    ///< tiles with a p, which all but those of equal constants have
   double smallest = 1;              ///< p of the tile that differs most
   std::array<int, 2> place{};       ///< its upper left pixel; of the first tile that is not finite, if one is

@@ -106,7 +106,7 @@ OidnLibrary startOidn(void* handle, const std::string& file) {
                       if (device != nullptr) release(device);
                     }};
   checkStarted();
-  // Asked for before the device is used, so that what follows is an interface that is known.
+  // The version is read before the device is used, because the calls below are known for version 2 only.
   const auto number = [&](const char* name) { return library.call.getDeviceInt(library.device.get(), name); };
   const int major = number("versionMajor");
   library.version = std::to_string(major) + "." + std::to_string(number("versionMinor")) + "." +

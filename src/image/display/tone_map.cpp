@@ -190,7 +190,7 @@ Image toDefaultDisplay(const Image& linear) {
     value = std::round(std::clamp(value, 0.0F, 1.0F) * 255.0F) *
             (1 / 255.0F);  // the value that a reader of the file gets
 
-  const auto channels = findColorChannels(linear).value();  // toDisplay has thrown where there are none
+  const auto channels = findColorChannels(linear).value();  // toDisplay has thrown if there are no colours
   const size_t pixelCount = size_t(linear.width) * size_t(linear.height);
   for (size_t i = 0; i < pixelCount; ++i)
     for (size_t c = 0; c < 3; ++c)

@@ -13,9 +13,9 @@ inline constexpr int kMostTextureChannels = 4;
 
 struct ImageHeader {
   ImageFormat format = ImageFormat::Png;
-  int width = 0;  ///< in an .exr: width of its display window
+  int width = 0;  ///< the width; of an .exr, that of its display window
   int height = 0;
-  int channelCount = 0;  ///< at most, once decoded
+  int channelCount = 0;  ///< the largest number of channels after decoding
 };
 
 /// Parses the header and checks that the file is long enough for it. Throws std::runtime_error with the

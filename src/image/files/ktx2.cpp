@@ -42,7 +42,7 @@ Value valueAt(Bytes bytes, uint64_t offset) {
 }
 
 void checkShape(const Fields& header) {
-  constexpr uint32_t kLargestSide = 16384;  // of the decoder
+  constexpr uint32_t kLargestSide = 16384;  // the decoder's limit
   if (header.faces != 1) refuse("it is a cube map, and textures of glTF have two dimensions");
   if (header.layers != 0)
     refuse("it is an array or a film of " + std::to_string(header.layers) + " layers, and no picture");

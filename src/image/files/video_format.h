@@ -28,12 +28,12 @@ std::vector<uint8_t> pixelsOf(const Image& image, const PixelForm& form);
 std::optional<PixelForm> pixelFormOf(const std::filesystem::path& path);
 
 struct VideoFormat {
-  std::string_view extension;  ///< with its dot
+  std::string_view extension;  ///< the extension with its dot
   PixelForm pixels;            ///< form of the pixels that the encoder gets
   bool evenSize;               ///< width and height are even: chroma has half of each
-  bool yuv;                    ///< it holds luma and chroma
+  bool yuv;                    ///< the file holds luma and chroma
   std::string_view encoding;   ///< arguments of ffmpeg, with spaces between
-  std::string_view container;  ///< those of the file
+  std::string_view container;  ///< ffmpeg's arguments for the file's container
 };
 
 /// The video that a file name's extension (any case) asks for; null: it is no video.

@@ -18,11 +18,12 @@ enum class PictureTask : uint32_t { DecodeFloats, DecodeTexels, EncodeBytes, Enc
 struct PictureMessage {
   PictureTask task = PictureTask::DecodeFloats;
   ImageFormat format = ImageFormat::Png;
-  int32_t width = 0;  ///< to decode: of the whole that the header promises
+  int32_t width = 0;  ///< of a picture to decode: the width of the whole that its header promises
   int32_t height = 0;
-  int32_t channelCount = 0;  ///< to decode: at most
-  int32_t bits = 0;         ///< of a channel of EncodeBytes, 8 or 16; of EncodeFloats: 16 where some are half
-  int32_t numberCount = 0;  ///< attributes that are numbers, the last of the texts
+  int32_t channelCount = 0;  ///< of a picture to decode: the largest number of channels
+  /// Of EncodeBytes: bits of a channel, 8 or 16; of EncodeFloats: 16 if some channels are half.
+  int32_t bits = 0;
+  int32_t numberCount = 0;   ///< attributes that are numbers, the last of the texts
   Placement placement = {};  ///< a whole of width 0: none
 };
 
@@ -36,7 +37,7 @@ std::vector<uint8_t> textsOf(const Image& image, int bits);
 struct SentImage {
   Image image;  ///< without values
   std::span<const float> values;
-  std::vector<bool> halves;  ///< with 16 bits: whether a channel is to be stored as 16-bit floats
+  std::vector<bool> halves;  ///< with 16 bits: true for channels that are stored as 16-bit floats
 };
 
 /// Takes values and texts apart. Throws std::runtime_error where they are not what the message says.

@@ -37,7 +37,8 @@ const char* formatName(ImageFormat format) {
 std::string oneLine(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
   std::ranges::replace(text, '\n', ' ');
-  static const std::regex kOwnName("\"?memory\\.[a-z]+\"?");  // by which the library opens what has no file
+  // The name by which the library opens pictures without a file.
+  static const std::regex kOwnName("\"?memory\\.[a-z]+\"?");
   text = std::regex_replace(text, kOwnName, "the picture");
   return text.empty() ? "the image library gives no reason" : text;
 }

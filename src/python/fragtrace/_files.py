@@ -27,7 +27,8 @@ def _color(picture):
 
 
 def diff(picture, reference, metric="rmse"):
-    """How far a picture is from its reference, as a number: rmse, mse, relmse, psnr (dB), max, or flip (of what a display shows).
+    """Returns the distance of a picture from its reference: rmse, mse, relmse, psnr (dB), max, or flip (of what a
+    display shows).
 
     Both are arrays of linear colours (height, width, 3 or 4), or files of such. Alpha is not compared. Raises UsageError for other sizes."""
     a, b = (np.ascontiguousarray(_planes(np.asarray(_color(one)))[0][:, :, :3]) for one in (picture, reference))
@@ -50,7 +51,7 @@ def merge(paths):
 
 
 def info(path):
-    """What a scene holds, as `fragtrace info --json` prints it: a dict. Raises InputError."""
+    """Returns the content of a scene as `fragtrace info --json` prints it: a dict. Raises InputError."""
     ran = subprocess.run([program(), "info", "--json", os.fspath(path)], capture_output=True, text=True, check=False)
     if ran.returncode:
         words = ran.stderr.strip().removeprefix("fragtrace: ")

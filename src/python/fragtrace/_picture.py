@@ -74,7 +74,7 @@ class Layers(dict):
 
     def __init__(self, *arguments, **layers):
         super().__init__(*arguments, **layers)
-        self.channels = {}  # of each layer, their names in a file
+        self.channels = {}  # the names in a file, by layer
 
     @property
     def statistics(self):
@@ -85,7 +85,7 @@ class Layers(dict):
         return self["color"].messages
 
     def save(self, path, *, exposure=None, tone_map=None, half=False, png_depth=8, no_dither=False):
-        """As Picture.save(); an .exr holds all layers."""
+        """Does the same as Picture.save(); an .exr holds all layers."""
         planes = {"" if name == "color" else name: np.asarray(layer) for name, layer in self.items()}
         _save(path, planes, self["color"], exposure, tone_map, half, png_depth, no_dither, self.channels)
 
@@ -126,7 +126,7 @@ def _save(path, planes, made, exposure, tone_map, half, png_depth, no_dither, ch
 
 
 def picture_of(channels, values, attributes):
-    """What _core gives, as a Picture, with its layers."""
+    """Returns the values of _core as a Picture, with its layers."""
     index = {name: i for i, name in enumerate(channels)}
     height, width = values.shape[:2]
     if "R" not in index and "Y" in index:

@@ -54,11 +54,11 @@ class Scene:
         self._core = _core.Scene(True)
 
     def render(self, *, progress=None, **keywords):
-        """As fragtrace.render()."""
+        """Does the same as fragtrace.render()."""
         return _render(self._core, self.path, {**self.keywords, **keywords}, progress)
 
     def info(self):
-        """As fragtrace.info() of its file."""
+        """Does the same as fragtrace.info() of its file."""
         from fragtrace._files import info
         return info(self.path)
 

@@ -15,8 +15,9 @@ constexpr int kCell = 8;  // pixels a side; neighbours are those in 3 x 3 cells
 /// From this evidence on, a pixel counts for itself alone.
 constexpr double kEnoughEvidence = 8.0;
 
-/// The effective number of a pixel's samples: n / (1 + (deviation / mean)^2). They tell as much as so many
-/// samples that all bring the same light, so k of n samples that alone see a lamp count as k.
+/// Returns the effective number k of a pixel's samples: n / (1 + (deviation / mean)^2). The n samples tell as
+/// much as k samples that all bring the same light. So if k of n samples see a lamp and the others see
+/// nothing, the result is k.
 double evidenceOf(const FilmPixel& pixel) {
   const double mean = pixel.luminance();
   if (pixel.samples < 2 || mean == 0.0) return 0.0;

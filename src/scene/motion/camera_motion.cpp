@@ -22,7 +22,7 @@ CameraMotion motionBetween(const Camera& first, const Camera& last) {
   CameraMotion motion;
   glm::dquat turn = orientationOf(last) * glm::conjugate(orientationOf(first));
   if (turn.w < 0.0) turn = -turn;
-  const glm::dvec3 sine(turn.x, turn.y, turn.z);  // of half of the angle, along the axis
+  const glm::dvec3 sine(turn.x, turn.y, turn.z);  // the axis times the sine of half of the angle
   const double length = glm::length(sine);
   constexpr double kLeastTurn = 1e-12;
   if (length > kLeastTurn) {

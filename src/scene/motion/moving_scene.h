@@ -17,7 +17,8 @@ struct Pose {
   std::vector<Camera> cameras;
 };
 
-/// The pose of a scene, taken into another one's space. Nothing but the pose may differ.
+/// Returns the pose of `posed` in the local space of another scene. The two scenes may differ in the pose
+/// alone.
 Pose poseOf(Scene&& posed, const LocalSpace& space);
 
 /// Returns true if both have the same triangles and spheres, so that points of one move to those of the

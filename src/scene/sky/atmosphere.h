@@ -21,7 +21,7 @@ constexpr double wavelengthOf(size_t index) { return 0.395 + 0.035 * double(inde
 inline constexpr double kHalfTurn = glm::pi<double>();  ///< radians
 inline constexpr double kGroundRadius = 6360.0;
 inline constexpr double kAirTop = 6460.0;            ///< radius above which there is no air
-inline constexpr double kSunRadiusDegrees = 0.2665;  ///< of the disc
+inline constexpr double kSunRadiusDegrees = 0.2665;  ///< radius of the disc
 
 /// Parts of the air: molecules, aerosol and ozone.
 enum class Air : size_t { Molecules, Aerosol, Ozone, Count };

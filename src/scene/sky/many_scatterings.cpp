@@ -32,7 +32,8 @@ double cosineBetween(double a, double b, double turn) {
 
 struct ScatteredSums {
   Spectrum twice{};  // radiance that was scattered once before
-  Spectrum again{};  // the part of light of radiance 1 that is scattered again
+  Spectrum
+      again{};  // the radiance that light of radiance 1 from all directions has after one more scattering
 };
 
 /// Adds what a point of the way scatters, or the ground at its end, with a weight.

@@ -11,9 +11,9 @@ namespace fragtrace {
 
 /// The sun's disc, which is no part of the map.
 struct SunDisc {
-  glm::dvec3 direction{0.0, 1.0, 0.0};  ///< of its middle, as places of the map are
-  glm::dvec3 irradiance{0.0};           ///< of a surface that faces it
-  glm::dvec3 radiance{0.0};             ///< of its middle
+  glm::dvec3 direction{0.0, 1.0, 0.0};  ///< direction of the disc's middle, in the map's space
+  glm::dvec3 irradiance{0.0};           ///< irradiance of a surface that faces the sun
+  glm::dvec3 radiance{0.0};             ///< radiance of the disc's middle
 };
 
 /// Powers of the cosine at the sun's surface by which its radiance falls to the limb, for red, green and blue

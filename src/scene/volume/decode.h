@@ -27,7 +27,7 @@ struct GridListing {
 
 struct GridEntry {
   std::array<char, kGridNameBytes> name{};
-  uint64_t isDensity = 0;            ///< of numbers that may be densities or temperatures
+  uint64_t isDensity = 0;            ///< 1: the values may be densities or temperatures
   std::array<int32_t, 3> minimum{};  ///< index of the first active voxel
   std::array<int32_t, 3> maximum{};  ///< and of the last; less than the first where there is none
   uint64_t activeVoxels = 0;
@@ -39,8 +39,9 @@ struct GridHeader {
   std::array<int32_t, 3> bricks{};
   uint64_t stored = 0;  ///< bricks
   double largest = 0.0;
-  std::array<double, 9> axes{};    ///< of a step of an index along X, then Y, then Z, in the file's space
-  std::array<double, 3> origin{};  ///< of index 0
+  /// The vectors of one step of an index along X, then Y, then Z, in the file's space.
+  std::array<double, 9> axes{};
+  std::array<double, 3> origin{};  ///< the place of index 0
 };
 
 /// Decodes one grid, without the file's header. Throws std::runtime_error where its numbers are no densities,

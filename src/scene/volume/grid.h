@@ -28,7 +28,7 @@ struct VolumeGrid {
       radiance;             ///< half floats, R, G, B a voxel of `values`: parts of `brightest`; empty: none
   double largest = 0.0;     ///< density
   double brightest = 0.0;   ///< radiance, cd/m^2
-  glm::dmat4 toWorld{1.0};  ///< from indices of voxels to the file's own space
+  glm::dmat4 toWorld{1.0};  ///< the matrix from indices of voxels to the file's own space
 
   bool empty() const { return values.empty(); }
 
@@ -48,7 +48,7 @@ inline constexpr double kMostAnisotropy = 0.99;
 struct VolumeSource {
   std::filesystem::path file;          ///< .nvdb; empty: there is none
   std::optional<std::string> grid;     ///< its name; none: the first of densities
-  std::optional<glm::dvec3> position;  ///< of the file's origin, metres
+  std::optional<glm::dvec3> position;  ///< place of the file's origin, metres
   std::optional<double> scale;         ///< metres a unit of the file's space; none: 1
   std::optional<double> density;       ///< extinction of a density of 1, 1/m; none: 1
   std::optional<glm::vec3> color;      ///< albedo of one scattering; none: 1
@@ -61,7 +61,7 @@ struct VolumeSource {
 
 inline constexpr double kLeastVolumeScale = 1e-9;
 inline constexpr double kMostVolumeScale = 1e9;
-inline constexpr double kMostVolumeFactor = 1e12;  ///< of density and emission
+inline constexpr double kMostVolumeFactor = 1e12;  ///< largest factor of density and emission
 
 /// File and grid of FILE.nvdb or FILE.nvdb:GRID.
 VolumeSource volumeFile(const std::string& text);
@@ -71,7 +71,7 @@ struct Volume {
   VolumeSource source{};
   std::vector<uint8_t> file{};             ///< its bytes, where the scene's loader has read it
   std::shared_ptr<const VolumeGrid> grid;  ///< null: there is none
-  glm::dmat4 toWorld{1.0};                 ///< from the file's space, metres
+  glm::dmat4 toWorld{1.0};                 ///< the matrix from the file's space, metres
 
   /// From indices of voxels to world space, metres.
   glm::dmat4 voxelsToWorld() const { return toWorld * grid->toWorld; }

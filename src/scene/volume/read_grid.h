@@ -14,12 +14,12 @@ namespace fragtrace {
 
 struct GridDescription {
   std::string name;
-  std::string type;        ///< of its values, as NanoVDB names it
-  bool isDensity = false;  ///< of plain numbers, no level set: it may be a volume
-  glm::ivec3 voxels{0};    ///< of the box of its active voxels
+  std::string type;        ///< type of the values, by NanoVDB's name
+  bool isDensity = false;  ///< the grid has plain numbers and is no level set: it may be a volume
+  glm::ivec3 voxels{0};    ///< size of the box of the active voxels
   uint64_t activeVoxels = 0;
-  double largest = 0.0;  ///< of its values, by listGrids(), as the next
-  BoundsDouble box{};    ///< of its bricks above 0, in the file's own space; may be empty
+  double largest = 0.0;  ///< the largest value; listGrids() sets it and the next
+  BoundsDouble box{};    ///< box of the bricks above 0, in the file's own space; may be empty
 };
 
 /// The grids of a file, of which there is one at least. Those of densities are decoded. Throws InputError,

@@ -278,7 +278,7 @@ namespace {
 struct LayerTask {
   std::string name;
   int samples = 0;
-  double secondsAfter = 0.0;  ///< of the layers that follow
+  double secondsAfter = 0.0;  ///< seconds of the layers that follow
   int interrupts = 0;         ///< more of these end it
   std::function<LayerDraw(const Region& part, const Renderer::Progress& progress)> draw;
 };

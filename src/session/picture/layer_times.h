@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How long the layers of a picture will take, for its progress.
+// Estimates the time that the layers of a picture will take, for its progress.
 #pragma once
 
 #include <vector>

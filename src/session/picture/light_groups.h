@@ -14,8 +14,8 @@ namespace fragtrace {
 
 /// The group of each light, as an index into OutputOptions::lightGroups; none: no layer shows it.
 struct LightGroups {
-  std::vector<std::optional<size_t>> ofMaterials;  ///< by the index of the material
-  std::vector<std::optional<size_t>> ofLights;     ///< by the index of the punctual light
+  std::vector<std::optional<size_t>> ofMaterials;  ///< the group by the index of the material
+  std::vector<std::optional<size_t>> ofLights;     ///< the group by the index of the punctual light
   std::optional<size_t> ofSurroundings;
   std::optional<size_t> ofVolume;
 };

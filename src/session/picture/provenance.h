@@ -25,10 +25,10 @@ struct Provenance {
   std::string settings;  ///< JSON of all that the picture depends on, but for the samples
   uint32_t seed = 0;
   int64_t sampleOffset = 0;
-  int64_t samples = 0;  ///< of every pixel; their mean, rounded, where they differ
+  int64_t samples = 0;  ///< samples of every pixel; if they differ, their mean, rounded
   bool uniform = true;  ///< every pixel has the same samples: neither adaptive nor interrupted
   std::vector<SampleRange> ranges =
-      {};  ///< in ascending order; none: the one that seed, offset and samples say
+      {};  ///< in ascending order; if empty, the range follows from seed, offset and samples
 };
 
 inline constexpr const char* kSettingsAttribute = "fragtrace:settings";

@@ -12,7 +12,7 @@ namespace fragtrace {
 /// One picture of a sequence.
 struct SequenceFrame {
   int number = 0;
-  RenderOptions options;  ///< with its own names and time
+  RenderOptions options;  ///< the options with the picture's own names and time
   double turn = 0.0;      ///< radians about the focal point
   double sweep = 0.0;     ///< the part of the turn for which the shutter is open, radians
 };

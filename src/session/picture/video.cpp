@@ -97,7 +97,7 @@ void writeFrame(Video& video, const std::vector<uint8_t>& bytes) {
     } else if (errno == EINTR) {
       if (isGivenUp()) fail(video, "interrupted, nothing is written");
     } else {
-      const int code = errno;  // of a pipe that nobody reads, most likely
+      const int code = errno;  // most likely nobody reads the pipe
       awaitEncoder(video);
       fail(video, std::string(kEncoder) + " takes no more frames: " + systemReason(code));
     }

@@ -16,12 +16,12 @@ namespace fragtrace {
 struct Video {
   std::filesystem::path file;
   const VideoFormat* format = nullptr;
-  glm::ivec2 size{0};          ///< of all frames, pixels
-  int count = 0;               ///< of whole frames
+  glm::ivec2 size{0};          ///< size of all frames, pixels
+  int count = 0;               ///< number of whole frames
   pid_t encoder = -1;          ///< its process; -1: none runs
   int frames = -1;             ///< the pipe that it reads them from
   int said = -1;               ///< file in memory with its messages
-  std::filesystem::path part;  ///< that it writes; empty: it writes nothing
+  std::filesystem::path part;  ///< the file that is being written; empty: there is none
   Video() = default;
   ~Video();
   Video(const Video&) = delete;

@@ -29,13 +29,13 @@ struct FileQuestion {
   std::vector<FileFilter> filters;
 };
 
-/// For something to show: the filter of environments stands first if they are wanted.
+/// Asks for a file to show. If environments are wanted, their filter stands first.
 FileQuestion openQuestion(const std::filesystem::path& folder, bool environment);
 
-/// For the name of a picture.
+/// Asks for the name of a picture.
 FileQuestion saveQuestion(const std::filesystem::path& picture);
 
-/// For the name of a model, which keeps its extension, and its folder if it refers to other files.
+/// Asks for the name of a model, which keeps its extension, and its folder if it refers to other files.
 FileQuestion saveModelQuestion(const std::filesystem::path& model, bool refersToFiles);
 
 /// Returns true if the filter lets the file pass.

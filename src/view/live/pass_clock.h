@@ -15,10 +15,11 @@ class PassClock {
  public:
   /// With `waits`, each step ends when the device has done it: for measurements.
   explicit PassClock(bool waits) : waits_(waits) {}
-  /// Makes the wall's times the device's own, by its clock, a picture late: for drivers
-  /// that go on with one step while they are told the next. Needs a context, as all calls do from then on.
+  /// From now on, steps are timed by the device's own clock, and the times are known one picture later. This
+  /// is for drivers that begin a step before the last one is done. From this call on, all calls need a
+  /// context.
   void askDevice() { asksDevice_ = true; }
-  /// Has to come before the context ends.
+  /// Must be called before the context ends.
   void forgetDevice();
   /// Begins a time that belongs to no step.
   void restart();

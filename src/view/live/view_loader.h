@@ -16,10 +16,10 @@ namespace fragtrace {
 struct LoadResult {
   RenderOptions options;
   std::unique_ptr<LoadedScene> scene;
-  std::shared_ptr<KeptDocument> document;  ///< for poses, if it is animated
+  std::shared_ptr<KeptDocument> document;  ///< the document for poses, if it is animated
   Statistics stats;
   std::exception_ptr error;
-  bool ownLight = true;                             ///< it needs no default light
+  bool ownLight = true;                             ///< the scene needs no default light
   std::vector<std::filesystem::path> environments;  ///< environmentsNear()
 };
 

@@ -44,7 +44,7 @@ struct ShownTexture {
 /// The settings that make a side's picture.
 struct Showing {
   bool filtered = false;
-  bool byOidn = false;      ///< by OIDN, which must be there; else by variance
+  bool byOidn = false;      ///< Open Image Denoise filters, and must be there; else the variance filter
   int samples = 0;          ///< per pixel
   bool past = true;         ///< uses the picture of the view before
   double expectedMs = 0.0;  ///< time of layers and variance filter, 0: not known
@@ -87,7 +87,7 @@ class PictureMaker {
   SeenPasses seen_;
   std::unique_ptr<VarianceFilter> filter_;  ///< made when it is first needed
   GlTexture counted_;                       ///< a texel
-  // For the moment of a call.
+  // These are used within one call only.
   glm::ivec2 room_{0};
   GlTexture raw_;
   NoisyTextures fresh_;

@@ -136,7 +136,7 @@ void ViewPrograms::keep(std::shared_ptr<ViewProgram> program) {
   size_t count = 0;
   for (auto p = programs_.begin(); p != programs_.end(); ++count) {
     bytes += (*p)->bytes;
-    // One that a side draws with would only be made again.
+    // A program that a side draws with is kept: otherwise it would be made again at once.
     const bool kept =
         p->use_count() > 1 || count < kLeastKept || (count < kMostKept && bytes <= kMostKeptBytes);
     p = kept ? std::next(p) : programs_.erase(p);

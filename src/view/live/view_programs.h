@@ -16,7 +16,7 @@
 namespace fragtrace {
 
 struct ViewProgram {
-  RenderOptions options;  ///< as far as a program depends on them
+  RenderOptions options;  ///< the options on which a program depends
   Tracer tracer;
   std::string variant;
   size_t bytes = 0;                    ///< on the device
@@ -42,7 +42,8 @@ class ViewPrograms {
   bool has(const RenderOptions& options) const;
   /// Compiles it if it is not there; what failed stays failed until forget().
   std::shared_ptr<ViewProgram> of(const RenderOptions& options);
-  /// As of(), but null if the program compiles in the background. That begins now unless another one does.
+  /// Returns the same as of(), but null if the program compiles in the background. That begins now unless
+  /// another one does.
   std::shared_ptr<ViewProgram> soon(const RenderOptions& options);
   /// Returns true if a program that was compiled aside has come since the last call.
   bool takeNews();

@@ -99,7 +99,7 @@ bool ViewTracer::show(Side& side, bool past, const std::function<bool()>& goOn) 
     throw;
   } catch (const RenderError& error) {
     if (!filtered) throw;
-    tracer.renderer->use(tracer.variant);  // it may have been at a layer
+    tracer.renderer->use(tracer.variant);  // the renderer may have drawn a layer
     exchange_.tellError(error.what());
     complete = maker_->show(*side.film, {}, side.options, tracer, side.view, side.memory, into, goOn);
   }
@@ -174,7 +174,7 @@ void ViewTracer::publish(Side& side) {
   if (std::optional<TracedPicture> picture = pictureOf(side)) exchange_.deliver(std::move(*picture));
 }
 
-/// As the window shows it, but for what the camera saw before.
+/// Returns a side's picture as the window shows it, but without reused samples of earlier views.
 Image ViewTracer::seenOf(Side& side) {
   const bool hasPast = side.samples < kNoPastFrom && side.memory.past.size.x > 0;
   const bool seen = denoises(side) && !hasPast && side.shownIn >= 0 &&

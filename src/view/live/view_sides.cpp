@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The beginning of what a side asks the tracing thread for: filter, program, camera, and a quick
-// picture until the program is there.
+// Begins to draw a side of the viewer: filter, program, camera, and a preview until the program is there.
 #include <algorithm>
 
 #include "options/option_row.h"

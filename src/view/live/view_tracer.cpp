@@ -269,7 +269,7 @@ void ViewTracer::pose(const TraceRequest& request) {
   options.camera.resolution = request.size;
   if (!sameNodes) tellWork("updating the scene");
   std::vector<std::string> repeated;
-  const SaidHere silence(repeated);  // it was said when the scene was loaded
+  const SaidHere silence(repeated);  // loading the scene has said it
   try {
     Statistics stats;
     SceneBefore before;
@@ -287,14 +287,15 @@ void ViewTracer::pose(const TraceRequest& request) {
   } catch (const ContextLost&) {
     throw;
   } catch (const std::exception& error) {
-    exchange_.tellError(error.what());  // what is shown stays
+    exchange_.tellError(error.what());  // the picture shown stays
   }
   if (!sameNodes) exchange_.tellNote({});
 }
 
 bool ViewTracer::relight(const TraceRequest& request) {
   const auto airOf = [](SkyOptions sky) {
-    placeSun(sky, {sunOf(sky).elevation, 0.0});  // the environment is turned to its azimuth
+    // The sky is made without the sun's azimuth; the environment is turned by it afterwards.
+    placeSun(sky, {sunOf(sky).elevation, 0.0});
     return sky;
   };
   SkyOptions& shown = loadedOptions_.light.sky;

@@ -120,14 +120,15 @@ class ViewTracer {
   void count(Side& side);
   /// Returns true if the side's picture is filtered.
   static bool denoises(const Side& side);
-  /// By Open Image Denoise, which takes seconds and so runs when the samples have doubled.
+  /// Returns true if Open Image Denoise filters now. It takes seconds, so it runs when the samples have
+  /// doubled.
   bool denoisesByOidn(const Side& side) const;
   /// Makes what the side shows now; false when goOn() said no.
   bool show(Side& side, bool past, const std::function<bool()>& goOn);
   /// The slot of the side's next picture.
   int nextSlot(Side& side);
   ShownTexture& shownOf(const Side& side, int slot);
-  /// For the window; none when there is something else to do.
+  /// Returns the picture for the window, or none if there is something else to do first.
   std::optional<TracedPicture> pictureOf(Side& side);
   void publish(Side& side);
   Image seenOf(Side& side);

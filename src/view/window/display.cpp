@@ -12,7 +12,7 @@ namespace fragtrace {
 
 namespace {
 
-// As shaders/entry/display.frag and shaders/entry/window.frag have them.
+// Locations of the uniforms of shaders/entry/display.frag and shaders/entry/window.frag.
 constexpr GLint kFactor = 0;
 constexpr GLint kToneMap = 1;
 constexpr GLint kDithers = 2;

@@ -22,7 +22,7 @@ namespace fragtrace {
 
 namespace {
 
-constexpr int kContextStatus = 4;  // of ContextError (cli/program.cpp)
+constexpr int kContextStatus = 4;  // the status of ContextError (cli/program.cpp)
 
 struct GlfwErrors {
   std::mutex mutex;

@@ -79,7 +79,8 @@ glm::dvec2 Input::place() const { return inPixels(cursor_) / glm::dvec2(layout_.
 std::optional<glm::dvec2> Input::update(ViewState& state, const WindowLayout& layout, const RunTask& run) {
   layout_ = layout;
   const ImGuiIO& io = ImGui::GetIO();
-  // The field of the list takes what was typed before a key in the frame in which Dear ImGui sees it.
+  // The list's text field gets a key's text in the frame in which Dear ImGui sees the key. So while Dear
+  // ImGui is behind, the list waits with its keys.
   const bool behind = std::exchange(behind_, Interface::isBehind()) || behind_;
   std::vector<Event> events = std::exchange(events_, {});
   if (state.fileList && behind) std::swap(events, events_);

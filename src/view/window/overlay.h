@@ -46,7 +46,7 @@ struct ViewFacts {
   double picturesPerSecond = 0.0;  ///< rate of the first side while something moves; else 0
   bool wantsHistogram = false;     ///< the active side's histogram is shown
   bool wantsThumbnails = false;    ///< the list of environments is open
-  bool errorClosed = false;        ///< it has been read
+  bool errorClosed = false;        ///< the user has read the error
   bool resting = false;
   bool canUndo = false;
   bool canRedo = false;

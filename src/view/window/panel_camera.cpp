@@ -45,7 +45,7 @@ void drawBookmarks(ViewState& state, ViewFacts& facts, Task& task) {
 
 /// An f-number whose blur can be seen, whatever the size of the scene.
 double firstStop(const CameraPose& pose) {
-  constexpr double kRadius = 0.02;  // of the distance to the focal point
+  constexpr double kRadius = 0.02;  // the radius in parts of the distance to the focal point
   const double focalLength = focalLengthOf(glm::radians(pose.viewAngleDegrees));
   const double distance = glm::distance(pose.position, pose.focalPoint);
   return std::clamp(focalLength / (2.0 * kRadius * distance), kLeastStop, kMostStop);

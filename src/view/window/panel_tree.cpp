@@ -55,7 +55,7 @@ void drawNodes(ViewState& state, Places& places, Task& task) {
   const std::vector<SceneNode>& nodes = state.scene->nodes;
   const float indent = ImGui::GetStyle().IndentSpacing;
   int deepest = nodes.empty() ? 0 : nodes[0].depth;  // depth of the deepest open row
-  std::vector<bool> hiddenAt;                        // for each depth, whether the row above is hidden
+  std::vector<bool> hiddenAt;                        // for each depth: true if the row above is hidden
   for (size_t i = 0; i < nodes.size(); ++i) {
     const int depth = nodes[i].depth;
     if (depth > deepest) continue;
@@ -82,7 +82,7 @@ void drawNodes(ViewState& state, Places& places, Task& task) {
   }
 }
 
-/// As high as its rows, up to the most.
+/// Begins a list that is as high as its rows, up to a limit.
 bool beginList(const char* id, size_t rows, ImGuiWindowFlags flags = 0) {
   const float line = ImGui::GetTextLineHeightWithSpacing();
   return ImGui::BeginChild(id, ImVec2(0.0f, line * std::min(float(rows) + 0.5f, kMostRows)), false, flags);

@@ -27,7 +27,7 @@ struct WindowReport {
   uint64_t answered = 0;      ///< the latest change that a picture shown answers
   uint64_t pictures = 0;      ///< pictures of all sides that came
   uint64_t frames = 0;        ///< frames of the window that were drawn
-  std::string camera;         ///< as options of the command line
+  std::string camera;         ///< the camera, as options of the command line
   const char* end = nullptr;  ///< "closed" or "failed"; null: the window is open
   std::vector<std::string> glErrors;
   Responsiveness times;

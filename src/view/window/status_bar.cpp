@@ -18,7 +18,7 @@ namespace {
 constexpr float kProgressWidth = 150.0f;  // pixels at 96 dots an inch
 constexpr float kGap = 18.0f;
 
-/// A word or two for what the viewer does.
+/// Returns a word or two that say what the viewer is doing.
 std::string activity(const ViewState& state, const ViewFacts& facts) {
   if (facts.load.busy) return "loading";
   if (!state.scene) return "no scene";

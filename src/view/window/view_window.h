@@ -30,7 +30,7 @@ class Window {
   /// Until the window is closed. Throws what the tracing thread failed with, and InputError when the scene
   /// that was asked for could never be shown.
   void run();
-  /// For the tracing thread.
+  /// The contexts for the tracing thread.
   SharedContexts shared() const;
   /// The last of the status file: why the window is closed; empty: it was wanted.
   void end(const std::string& failure);
@@ -111,12 +111,13 @@ class Window {
   bool statusWaits_ = false;
   bool newReference_ = false;  ///< its size is not yet compared with the picture's
   bool prepared_ = false;      ///< the display
-  bool skipped_ = false;       ///< the latest frame would have shown the picture before
-  int frames_ = 0;             ///< still to be drawn
-  double drawn_ = -1e30;       ///< when the latest frame was drawn
-  double changed_ = -1.0;      ///< when the traced picture was last changed
-  double again_ = 1e30;        ///< when a picture or its values may have come
-  double fades_ = 1e30;        ///< when a message is to be drawn paler
+  /// The latest frame was not drawn, since it would have shown the previous picture again.
+  bool skipped_ = false;
+  int frames_ = 0;         ///< still to be drawn
+  double drawn_ = -1e30;   ///< time of the latest frame that was drawn
+  double changed_ = -1.0;  ///< time of the latest change of the traced picture
+  double again_ = 1e30;    ///< time to look again for a picture or its values
+  double fades_ = 1e30;    ///< time to draw a message paler
   std::vector<RenderOptions> askedSides_;
   glm::ivec2 askedSize_{0};
   bool savesShown_ = false;  ///< a model is written over the file that is shown

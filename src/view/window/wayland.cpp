@@ -87,7 +87,7 @@ std::string whyNoWayland() {
   if (!library.loaded()) return library.error();
   WaylandLibrary wayland;
   if (!wayland.load(library)) return "libwayland-client lacks a function";
-  wayland.handleLog([](const char*, va_list) {});  // what it would print is returned here
+  wayland.handleLog([](const char*, va_list) {});  // the return value reports errors instead
   Proxy display = wayland.connect(nullptr);
   if (display == nullptr) return "there is no compositor '" + name + "' (WAYLAND_DISPLAY)";
   const Seat seat = lookForSeat(wayland, display);

@@ -19,7 +19,7 @@ enum class MeshoptFilter : uint32_t { None, Octahedral, Quaternion, Exponential,
 
 /// An attribute of a Draco mesh, and the type in which its values are wanted.
 struct CodecAttribute {
-  uint32_t id = 0;  ///< in the Draco stream
+  uint32_t id = 0;  ///< the attribute's id in the Draco stream
   uint32_t componentType = 0;
   uint32_t components = 0;
 };

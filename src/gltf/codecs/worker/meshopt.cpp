@@ -27,7 +27,7 @@ std::string libraryText() {
 
 /// Refuses a stream, and says its version if the library does not know it.
 [[noreturn]] void refuse(const CodecRequest& request, std::span<const uint8_t> input) {
-  constexpr uint8_t kVertices = 0xa0;  // with the version in the lower half
+  constexpr uint8_t kVertices = 0xa0;  // the first byte of a stream; its lower half is the version
   const bool isVertices = request.codec == Codec::MeshoptVertices && !input.empty();
   const int version = isVertices && (input[0] & 0xf0) == kVertices ? input[0] & 0x0f : 0;
   if (version == 0) throw std::runtime_error("the compressed data are broken");

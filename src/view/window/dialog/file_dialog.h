@@ -25,7 +25,7 @@ class FileDialog {
     return desktop_.busy() ? DialogKind::Desktop : list_ ? DialogKind::List : DialogKind::None;
   }
 
-  /// For a key that the list takes, by its code of view/key_table.h.
+  /// Handles a key that the list takes, by its code of view/key_table.h.
   void press(int code);
 
   struct News {
@@ -53,7 +53,7 @@ class FileDialog {
   Background<FolderContent> reading_;
   std::optional<FolderList> list_;
   std::filesystem::path chosen_;
-  double asked_ = 0.0;    ///< when the desktop was, in seconds; infinite: and the user knows
+  double asked_ = 0.0;    ///< the time at which the desktop was asked, in seconds; infinite: the user knows
   bool popup_ = false;    ///< Dear ImGui has one open for the list
   bool scrolls_ = false;  ///< the next frame scrolls to the chosen entry
   int field_ = 0;         ///< a new value makes Dear ImGui reload the text that is edited

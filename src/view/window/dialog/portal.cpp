@@ -33,8 +33,8 @@ constexpr const char* kResponses =
     "interface='org.freedesktop.portal.Request',member='Response'";
 constexpr uint64_t kPatience =
     2000000;                        // microseconds for a call: that a dialog will be shown is said at once
-constexpr uint64_t kLook = 50000;   // from one look at whether the question is given up to the next
-constexpr uint32_t kCancelled = 1;  // of the portal's responses; 0: chosen
+constexpr uint64_t kLook = 50000;   // microseconds between two looks at whether the question is given up
+constexpr uint32_t kCancelled = 1;  // a response of the portal; 0: chosen
 
 struct BusLibrary {
   int (*openUser)(Bus* bus) = nullptr;
@@ -135,7 +135,7 @@ std::string reasonOf(const BusLibrary& library, int result, BusError& error) {
   return reason;
 }
 
-/// For extensions in any case: "*.[gG][lL][bB]".
+/// Returns a pattern that matches an extension in any case: "*.[gG][lL][bB]".
 std::string patternOf(const std::string& extension) {
   std::string pattern = "*";
   for (const char c : extension) {

@@ -8,7 +8,7 @@
 
 namespace fragtrace {
 
-/// By name: left, top, width and height in pixels of the window.
+/// Left, top, width and height by name, in pixels of the window.
 using Places = std::map<std::string, std::array<float, 4>>;
 
 /// Adds the window of Dear ImGui that is being made, or the item that was made last.
