@@ -31,6 +31,7 @@ struct WorkReply {
   uint64_t done = 0;         ///< 1, or 0 with a reason
   uint64_t outputBytes = 0;  ///< bytes of the output
   char reason[1000] = {};
+  char unconfined[104] = {};  ///< why the worker may use all system calls; empty: it may not
 };
 
 template <typename Message>

@@ -10,6 +10,32 @@
 
 namespace fragtrace {
 
+namespace {
+
+struct Unconfined {
+  std::mutex mutex;
+  std::string reason;
+};
+
+Unconfined& unconfined() {
+  static Unconfined theOne;
+  return theOne;
+}
+
+void noteConfinement(const WorkReply& reply) {
+  const size_t length = ::strnlen(reply.unconfined, sizeof reply.unconfined);
+  if (length == 0) return;
+  const std::lock_guard lock(unconfined().mutex);
+  unconfined().reason.assign(reply.unconfined, length);
+}
+
+}  // namespace
+
+std::string whyUnconfined() {
+  const std::lock_guard lock(unconfined().mutex);
+  return unconfined().reason;
+}
+
 void Worker::start() {
   // It is there if somebody has work for it, and may be busy for long.
   if (const std::unique_lock lock(mutex_, std::try_to_lock); lock) startLocked();
@@ -45,6 +71,7 @@ WorkResult Worker::perform(std::initializer_list<std::span<const uint8_t>> parts
   if (!sendWithFile(child_->socket, asMessage(std::as_const(request)), memory->file()) ||
       !awaitReply(*child_, asMessage(reply), patienceMs))
     failLocked(limits);
+  noteConfinement(reply);
   if (reply.done == 0)
     throw std::runtime_error(std::string(reply.reason, ::strnlen(reply.reason, sizeof reply.reason)));
   if (reply.outputBytes > room) throw std::runtime_error("the worker process sent a broken answer");

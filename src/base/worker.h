@@ -36,6 +36,10 @@ struct WorkResult {
   std::span<const uint8_t> output;  ///< lies in the memory
 };
 
+/// Why a worker of this process had all system calls of the system while it worked (base/worker/confine.h);
+/// empty: none had. From any thread.
+std::string whyUnconfined();
+
 /// Serves one request after the other. The process starts with the first request, and again when it has died.
 /// start() and perform() may be called from any thread; they throw std::runtime_error with the bare reason.
 class Worker {

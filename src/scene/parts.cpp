@@ -8,10 +8,31 @@
 
 namespace fragtrace {
 
-std::string withoutControls(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-  return text;
+namespace {
+
+/// The number of bytes at the front of a text (UTF-8) that are a control code of C0 or C1, or that turn the
+/// direction of writing (Unicode Standard Annex 9, section 2); 0 where these are none.
+size_t controlBytes(std::string_view text) {
+  const auto at = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+  const auto isIn = [](unsigned c, unsigned first, unsigned last) { return c >= first && c <= last; };
+  if (at(0) < 0x20 || at(0) == 0x7f) return 1;
+  if (at(0) == 0xc2 && isIn(at(1), 0x80, 0x9f)) return 2;
+  const bool turns = at(1) == 0x80   ? isIn(at(2), 0x8e, 0x8f) || isIn(at(2), 0xaa, 0xae)
+                     : at(1) == 0x81 ? isIn(at(2), 0xa6, 0xa9)
+                                     : false;
+  return at(0) == 0xe2 && turns ? 3 : 0;
+}
+
+}  // namespace
+
+std::string withoutControls(std::string_view text) {
+  std::string shown;
+  while (!text.empty()) {
+    const size_t control = controlBytes(text);
+    shown += control > 0 ? '?' : text.front();
+    text.remove_prefix(std::max<size_t>(control, 1));
+  }
+  return shown;
 }
 
 std::string inQuotes(std::string_view text) {

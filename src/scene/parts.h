@@ -9,8 +9,9 @@
 
 namespace fragtrace {
 
-/// Text from a file may hold line ends or terminal commands: control characters become question marks.
-std::string withoutControls(std::string text);
+/// Text from a file may hold line ends, commands to a terminal, or marks that turn the direction of writing.
+/// Each of these becomes a question mark.
+std::string withoutControls(std::string_view text);
 
 /// Text from a file in quotes, shortened; control characters become question marks.
 std::string inQuotes(std::string_view text);

@@ -15,6 +15,7 @@
 
 #include "base/message.h"
 #include "base/shared_memory.h"
+#include "base/worker/confine.h"
 #include "base/worker/module.h"
 
 namespace fragtrace {
@@ -67,10 +68,12 @@ int main(int argumentCount, char** arguments) {
   if (work == nullptr) return kNotLoaded;
   WorkOutput nothing;
   work({}, nothing);
+  const std::string unconfined = confine();
   WorkRequest request;
   int file = -1;
   while (receiveWithFile(kWorkerSocket, asMessage(request), file)) {
-    const WorkReply reply = answer(work, request, file);
+    WorkReply reply = answer(work, request, file);
+    std::strncpy(reply.unconfined, unconfined.c_str(), sizeof reply.unconfined - 1);
     if (::send(kWorkerSocket, &reply, sizeof reply, MSG_NOSIGNAL) != ssize_t(sizeof reply)) break;
   }
   // The libraries' own end is left out: all they have goes with the process.

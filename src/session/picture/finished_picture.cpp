@@ -5,6 +5,7 @@
 
 #include "base/errors.h"
 #include "base/text.h"
+#include "base/worker.h"
 #include "gl/driver_choice.h"
 #include "image/channels.h"
 #include "render/adaptive.h"
@@ -179,6 +180,8 @@ void sayHowItEnded(const RenderOptions& options, const Statistics& stats) {
   } else if (stats.complete && options.sampling.noise > 0.0 && stats.adaptive->share < 0.95) {
     say(options, "warning: --spp or --time ended the render before the noise asked for");
   }
+  if (const std::string why = whyUnconfined(); options.output.verbose && !why.empty())
+    say(options, "the processes that decode files have all system calls: " + why);
 }
 
 }  // namespace fragtrace
