@@ -19,7 +19,7 @@ float energyTableAt(int first, float cosine, float alpha) {
 /// 1 - albedo of a surface whose facets reflect everything, seen at `cosine`.
 float ggxLoss(float cosine, float alpha) { return kCompensation ? energyTableAt(0, cosine, alpha) : 0.0; }
 
-/// Its cosine-weighted mean over all directions.
+/// The cosine-weighted mean of the loss over all directions.
 float ggxAverageLoss(float alpha) {
   if (!kCompensation) return 0.0;
   const int cells = int(kEnergyCells);

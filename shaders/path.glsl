@@ -190,7 +190,7 @@ vec3 clampIndirect(vec3 light, int scatterings) {
 /// dozens.
 int limitedScatterings(Path p) { return kTransmission || kMedia ? p.bounce - p.freeBounces : p.bounce; }
 
-/// Those that --clamp-indirect counts: what is seen straight through thin walls is as direct as without them.
+/// The scatterings that --clamp-indirect counts. Light straight through thin walls counts as if there were no walls.
 int countedScatterings(Path p) { return kThroughGlass ? p.bounce - p.straightBounces : p.bounce; }
 
 /// Returns true if the shadow ray of a light sample passes smooth glass that does not bend it. It does where the path
@@ -292,8 +292,8 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
     float squared = m.ior * m.ior;
     float before = p.etaScale;
     p.etaScale = s.front ? before * squared : max(before / squared, 1.0);
-    // Nothing is thinner than air: who leaves more than was entered has missed a face that touches another. The weight
-    // has counted it all.
+    // No index is below that of air. A path that would get below it has missed a face that touches another one, so the
+    // scale ends at 1. The weight holds the whole factor, which is corrected here.
     if (!s.front) p.throughput *= before / (squared * p.etaScale);
   }
   p.bounce += 1;

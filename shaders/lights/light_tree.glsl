@@ -32,7 +32,7 @@ Receiver receiverOf(vec3 point, uint normal) {
 /// The row behind the emitters.
 int lightNodes() { return int(frame.emitterCount) * int(kEmitterRows); }
 
-/// One word of four a row.
+/// Reads a word of a list that has four words in a row.
 uint lightWord(int firstRow, int index) {
   uvec4 four = readEmitters(firstRow + index / 4);
   int which = index % 4;

@@ -98,7 +98,7 @@ size_t writeImage(const std::filesystem::path& path, const Image& image, const E
 /// The same on standard output; the path tells the format, and is what messages call it.
 size_t printImage(const std::filesystem::path& path, const Image& image, const Encoding& encoding = {});
 
-/// To be asked before long work: throws what writeImage() would where the library of the format does not
+/// Must be called before long work. Throws what writeImage() would where the library of the format does not
 /// answer, or where there is no room for a picture of that size and so many channels that cannot be
 /// compressed.
 void checkImageWritable(const std::filesystem::path& path, int width, int height, size_t channelCount,

@@ -181,7 +181,7 @@ struct Material {
   }
   bool scattersAtAll() const { return scatterStrength > 0.0f && multiscatterColor != glm::vec3(0.0f); }
   bool scattersInside() const { return attenuates() && scattersAtAll(); }
-  /// And its boundary does not bend light (kEqualIndices of shaders/bsdf.glsl).
+  /// Returns true if also the boundary does not bend light (kEqualIndices of shaders/bsdf.glsl).
   bool scattersMatched() const { return scattersInside() && transmissive() && std::abs(ior - 1.0f) < 0.001f; }
   /// A thin wall whose light comes through diffusely, at least a part of it.
   bool scattersThinly() const { return transmissive() && !solid() && scatterStrength > 0.0f; }

@@ -151,7 +151,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
   if (keeps) {
     takeBack(document, *read);
     read->keyTimes = std::move(document.keyTimes);
-    // It outlives this load.
+    // The document outlives this load, so it must not keep the progress.
     read->document.progress = {};
     read->document.access.progress = {};
     *kept = std::move(read);

@@ -87,7 +87,7 @@ std::string rescuePicture(const RenderOptions& options, const Image& linear, con
   try {
     writeImage(path, linear);
   } catch (const std::exception& error) {
-    // Both say so if the folder is gone.
+    // If the folder is gone, both messages say so.
     const std::string other = error.what();
     const auto cause = [](const std::string& text) { return text.substr(text.rfind(": ") + 1); };
     return reason + "; nor as .pfm" + (cause(other) == cause(reason) ? "" : ": " + other);

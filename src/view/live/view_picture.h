@@ -28,9 +28,9 @@ struct SideMemory {
   SeenPicture past;            ///< picture of the view before
   SeenPicture present;         ///< shown last, before it was filtered
 
-  /// The camera or the resolution is another one.
+  /// Must be called when the camera or the resolution changes.
   void turn();
-  /// Another picture altogether.
+  /// Must be called before a completely different picture: forgets the past.
   void forget();
 };
 

@@ -259,7 +259,7 @@ void Window::takeState(const Delivery& news) {
   frames_ = std::max(frames_, 2);
 }
 
-/// One that was dropped before a model would keep every model from being shown.
+/// An environment that was dropped before a model would keep every model from being shown.
 void Window::forgetBrokenEnvironment() {
   const std::string file = wanted_.light.hdriFile.string();
   if (file.empty() || facts_.error.find(file) == std::string::npos) return;
