@@ -12,7 +12,7 @@ const bool kIdAov = kAov == kAovObject || kAov == kAovMaterial;
 
 const float kAboveAll = 1.0e6;  // local space
 const uint kCameraDimensions = 0u;
-const uint kChannelDimension = 2u;  // one number a path
+const uint kChannelDimension = 2u;  // one number per path
 const uint kLensDimensions = 4u;
 const uint kAlphaDimensions = 0x40000000u;
 const uint kBounceDimensions = 16u;  // a bounce uses 16 dimensions from 16 (bounce + 1) on
@@ -23,7 +23,7 @@ const uint kLightDimension = 4u;  // the light's dimensions are 4 to 7
 const uint kReuseDimension = 8u;  // these are 8 to 10
 const uint kGlassDimension = 12u;
 const uint kFlightDimension = 13u;
-const uint kFlightDimensions = 0x80000000u;  // hashed; 4,096 a bounce
+const uint kFlightDimensions = 0x80000000u;  // hashed; 4,096 per bounce
 const uint kShadowFlights = 0x40000000u;      // shadow rays add this to kFlightDimensions
 
 /// The most that roulette lets a path at smooth glass survive by, and the scattering from which on it always decides.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Many paths a lane: the wavefront (docs/design/architecture.md). Each lane owns the pixels of a column of its tile. A
+// Many paths per lane: the wavefront (docs/design/architecture.md). Each lane owns the pixels of a column of its tile. A
 // round shades what the rays of the last one hit, ends and begins samples, then traces all rays in one loop that gives
 // a lane its next ray as soon as the last one is done, so that no lane waits for the longest ray. What is done to some
 // pixels only is a loop of its own over their bits: llvmpipe executes a branch that no lane takes, but not an

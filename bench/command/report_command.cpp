@@ -71,7 +71,7 @@ void settleReport(const CLI::App& app, ReportOptions& o) {
 constexpr double kMostSecondsOfSlowRows = 10.0;
 constexpr int kSamplesTogether = 8;  // so many that what a draw costs once is shared
 
-/// A row is drawn with a draw for every sample and with many samples a draw. Only the latter has a meaning
+/// A row is drawn with a draw for every sample and with many samples per draw. Only the latter has a meaning
 /// for a picture of many samples, and frames of the iterative traversal are so long that both are one.
 std::vector<TimedSetting> settingsOf(const ReportOptions& options, const Context& context) {
   std::vector<TimedSetting> settings;

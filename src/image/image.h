@@ -44,8 +44,8 @@ struct Image {
   const float* pixel(int x, int y) const { return values.data() + (size_t(y) * width + x) * channels.size(); }
 };
 
-/// 16 bits a channel, RGBA, unassociated alpha, not yet decoded from its transfer curve; the first row is the
-/// top.
+/// 16 bits per channel, RGBA, unassociated alpha, not yet decoded from its transfer curve; the first row is
+/// the top.
 struct TexelImage {
   int width = 0;
   int height = 0;

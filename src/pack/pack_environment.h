@@ -15,7 +15,7 @@ enum class EnvironmentDraws {
 
 struct PackedEnvironment {
   Words texels;     ///< radiance, and the density that shaders/environment.glsl draws by (mean 1)
-  Words inversion;  ///< empty for Nothing, else a row a step: as many steps as the map has rows, then
+  Words inversion;  ///< empty for Nothing, else a row per step: as many steps as the map has rows, then
                     ///< kMostEnvironmentSteps or half as many as it has columns for each row
   glm::ivec2 size{0};
   double power =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Textures of one texel a pixel: writing them, and reading them back from the device.
+// Textures of one texel per pixel: writing them, and reading them back from the device.
 #pragma once
 
 #include <algorithm>

@@ -39,7 +39,7 @@ inline std::string nameOf(const EncodedImage& image) {
   return isFile ? image.name + " (" + image.place + ")" : image.name;
 }
 
-/// The bytes of a picture on the device: four half floats a texel.
+/// The bytes of a picture on the device: four half floats per texel.
 inline size_t texelBytes(const EncodedImage& image) { return size_t(image.width) * size_t(image.height) * 8; }
 
 enum class Wrap : uint8_t { Repeat, ClampToEdge, MirroredRepeat };
@@ -358,7 +358,7 @@ struct Scene {
   LocalSpace space;
   Vertices vertices;
   std::vector<Triangle> triangles;
-  std::vector<uint32_t> insets;  ///< one a triangle, or none (creaseInsets of creases.h)
+  std::vector<uint32_t> insets;  ///< one per triangle, or none (creaseInsets of creases.h)
   std::vector<Sphere> spheres;
   std::vector<Strokes> strokes;
   uint32_t strokeTriangles = 0;  ///< triangles that addStrokes() made of them: the last ones, in local space

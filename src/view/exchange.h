@@ -180,7 +180,7 @@ struct EnvironmentThumbnail {
 
 /// News for the window since it asked last.
 struct Delivery {
-  std::vector<TracedPicture> pictures;  ///< one a side at most
+  std::vector<TracedPicture> pictures;  ///< one per side at most
   std::optional<ViewedScene> scene;     ///< a new one
   std::optional<PickAnswer> pick;
   std::optional<PosedScene> posed;

@@ -59,7 +59,7 @@ glm::dvec3 huntLabOfRgb(glm::dvec3 linear) {
 
 // Filters
 
-/// A value a pixel, row by row.
+/// A value per pixel, row by row.
 struct Plane {
   int width = 0;
   int height = 0;

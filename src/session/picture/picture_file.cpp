@@ -110,7 +110,7 @@ void writeOut(const RenderOptions& options, const Image& image) {
   sayClamped(options, write(options.output.file, image, options.output.encoding));
 }
 
-/// Bits a channel of an output that holdsDisplay().
+/// Bits per channel of an output that holdsDisplay().
 int bitsOf(const OutputOptions& output) {
   if (const auto form = pixelFormOf(output.file)) return form->bits;
   if (const VideoFormat* const video = videoFormatOf(output.file)) return video->pixels.bits;
