@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Many paths per lane: the wavefront (docs/design/architecture.md). Each lane owns the pixels of a column of its tile. A
-// round shades what the rays of the last one hit, ends and begins samples, then traces all rays in one loop that gives
-// a lane its next ray as soon as the last one is done, so that no lane waits for the longest ray. What is done to some
-// pixels only is a loop of its own over their bits: llvmpipe executes a branch that no lane takes, but not an
+// Many paths per lane: the wavefront (docs/design/architecture.md). Each lane owns the pixels of a column of its tile.
+// A round shades what the rays of the last one hit, ends and begins samples, then traces all rays in one loop that
+// gives a lane its next ray as soon as the last one is done, so that no lane waits for the longest ray. What is done to
+// some pixels only is a loop of its own over their bits: llvmpipe executes a branch that no lane takes, but not an
 // iteration. Its loops are the steps of advance() (trace.glsl) one by one, in the same order for each pixel, so
 // pictures are the same bits where a compiler keeps to the text.
 

@@ -33,7 +33,8 @@ BOX_AIM = "< 12.5 ms"
 
 # Parts of `bench report`: the name, and its seconds.
 REPORT_PARTS = (("traversal", 60), ("gi", 40), ("primitives", 120))
-# Milliseconds of the report's GPU by the end of a row's name, as docs/measurements/benchmarks.md has them; None: it has no figure.
+# Milliseconds of the report's GPU by the end of a row's name, from docs/measurements/benchmarks.md; None: the row has
+# no figure.
 REPORT = {
     "15,743 triangles, iterative": "55", "62,975 triangles, iterative": "226", "15,743 triangles, bvh": "0.66",
     "62,975 triangles, bvh": "0.91", "15,743 triangles, front-to-back": "0.38", "62,975 triangles, front-to-back": "0.43",

@@ -13,8 +13,8 @@ vec3 unpackNormal(uint bits) {
   return vec3(float(bits & 0xffu), float(bits >> 8 & 0xffu), float(bits >> 16)) / float(127.0) - float(1.0);
 }
 
-/// A receiver of light is a point with the normal of its surface as packNormal has it, or kNoNormal where light comes
-/// from all around.
+/// A receiver of light is a point with the normal of its surface in the form of packNormal, or kNoNormal if light comes
+/// from all sides.
 struct Receiver {
   vec3 point;
   vec3 normal;

@@ -26,7 +26,7 @@ inline double rowNorm(const glm::dmat3& m) {
 /// A bound on how much a matrix can lengthen a vector: no more than the root of both norms' product.
 inline double stretchBound(const glm::dmat3& m) { return std::sqrt(rowNorm(m) * rowNorm(glm::transpose(m))); }
 
-/// Luminance of linear sRGB (ITU-R BT.709), as shaders/luminance.glsl has it.
+/// Luminance of linear sRGB (ITU-R BT.709). shaders/luminance.glsl computes the same.
 inline constexpr glm::dvec3 kLuminance{0.2126, 0.7152, 0.0722};
 
 inline double luminance(const glm::dvec3& color) { return glm::dot(color, kLuminance); }

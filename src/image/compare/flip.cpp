@@ -128,7 +128,7 @@ Plane filterColumns(const Plane& in, const Kernel& kernel) {
   return out;
 }
 
-/// Both kernels are symmetric or antisymmetric; the sign of the latter does not matter here.
+/// Both kernels are symmetric or antisymmetric. The sign of an antisymmetric one does not matter here.
 Plane filter(const Plane& in, const Kernel& horizontal, const Kernel& vertical) {
   return filterColumns(filterRows(in, horizontal), vertical);
 }

@@ -12,8 +12,8 @@
 
 namespace fragtrace {
 
-/// All that a film holds, as the device has it (shaders/film.glsl): four values per pixel, the first row at
-/// the bottom.
+/// The content of a film on the device (shaders/film.glsl): four values per pixel, the first row at the
+/// bottom.
 struct FilmState {
   glm::ivec2 size{0};
   std::vector<float> sum;

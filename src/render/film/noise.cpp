@@ -106,7 +106,7 @@ constexpr double kPrior = 24.0;
 struct Sums {
   double differences = 0.0;  ///< squared differences of the halves
   double independent = 0.0;  ///< the sum that independent samples would give
-  double squares = 0.0;      ///< sum of squares of the latter
+  double squares = 0.0;      ///< sum of the squares of the terms of `independent`
 
   void add(const Sums& other) {
     differences += other.differences;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Values of a picture on the device, for who looks at them: read without waiting for the device.
+// Reads values of a picture on the device for display, without waiting for the device.
 #pragma once
 
 #include "gl/gl.h"
