@@ -376,7 +376,7 @@ Path spawnShadowRayFrom(Path p, vec3 point, vec3 origin, LightSample light, vec3
     return p;
   }
   if (light.distance < kFarAway) {
-    // The ray begins beside the point, and is aimed anew: near a light, a parallel one would end behind it.
+    // The ray begins beside the point, and is aimed again: near a light, a parallel one would end behind it.
     vec3 towards = light.distance * light.direction - (origin - point);
     float distance = length(towards);
     p.shadowDirection = distance > 0.0 ? towards / distance : light.direction;

@@ -141,7 +141,7 @@ Wave shadeHits(Wave v, uint left, TreeFrame tree) {
     int k = findLSB(left);
     uint bit = 1u << k;
     int row = rowOf(v, k);
-    // Searches in tables of lights are not counted, but for candidates: they take one or two iterations, and lanes
+    // Searches in tables of lights are not counted, except for candidates: they take one or two iterations, and lanes
     // shade together.
     v.steps += 1 + kCandidateIterations;
     Path p = takeUp(v, k);
@@ -231,7 +231,7 @@ Wave settleRay(Wave v, Traversal t, int current, bool isShadow) {
   return v;
 }
 
-/// Traces all rays, but for those that the step budget leaves over. A lane whose ray is done takes its next one.
+/// Traces all rays, except for those that the step budget leaves over. A lane whose ray is done takes its next one.
 Wave traceRays(Wave v, int budget, TreeFrame tree) {
   Traversal t = startTraversal(0.0, 0);
   TreeRay ray = makeTreeRay(vec3(0.0), vec3(1.0), 0.0, tree.origin, tree.cell);
@@ -291,7 +291,7 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
   return v;
 }
 
-/// The samples of these pixels begin anew.
+/// The samples of these pixels begin again.
 Wave beginAnew(Wave v, uint left) {
   v.hits &= ~left;
   v.misses |= left;

@@ -320,7 +320,7 @@ ErrorReport measure(const ErrorOptions& options, const Context& context) {
   std::vector<Contender> contenders;
   int most = 1;
   for (const BenchConfiguration& configuration : options.configurations) {
-    const bool saidBefore = !contenders.empty();  // warnings are said once
+    const bool saidBefore = !contenders.empty();  // each warning is printed once
     contenders.push_back(makeContender(configuration, context, saidBefore));
     if (!configuration.adaptive()) most = std::max(most, configuration.render.sampling.spp);
     checkResultFiles(options.files, inputsOf(contenders.back().loaded.scene));

@@ -374,7 +374,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
 
   packMaterials(scene, bvh, variant, emitters.materialPdf, textures, packed);
   if (kept != nullptr && (keepsGeometry || !kept->textures.empty())) {
-    if (!textures.allKnown()) {  // one that no picture before has shown: all of them are placed anew
+    if (!textures.allKnown()) {  // one that no picture before has shown: all of them are placed again
       kept->textures.clear();
       kept->geometry = false;
       if (!packed.unchanged[kEnvironmentBinding]) kept->environment.reset();

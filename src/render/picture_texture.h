@@ -20,7 +20,7 @@ inline GlTexture makePictureTexture(GLenum format, glm::ivec2 size) {
   return texture;
 }
 
-/// Returns true if a picture of that size has no room, which then grows. The content must then be made anew.
+/// Returns true if a picture of that size has no room, which then grows. The content must then be made again.
 inline bool grows(glm::ivec2& room, glm::ivec2 size) {
   if (glm::all(glm::lessThanEqual(size, room))) return false;
   room = glm::max(size, room);

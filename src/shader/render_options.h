@@ -189,7 +189,7 @@ struct FogOptions {
   bool operator==(const FogOptions&) const = default;
 };
 
-/// The files that are written, what they show, and what is said meanwhile.
+/// The files that are written, their content, and messages meanwhile.
 struct OutputOptions {
   std::filesystem::path file;
   std::string format;  ///< format of standard output

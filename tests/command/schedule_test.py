@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Both schedules draw the same picture, bit for bit (on llvmpipe), with the same rays; why the wavefront does not draw is said."""
+"""Both schedules draw the same picture, bit for bit (on llvmpipe), with the same rays; a message says why the wavefront
+does not draw."""
 import json
 import sys
 

@@ -104,7 +104,7 @@ TEST(ErrorReport, TimeOfAnErrorAboveTheFirstStepIsThatOfTheStep) {
 }
 
 TEST(ErrorReport, BeyondTheLastStepErrorsFallAsOneOverN) {
-  // Whatever the slope so far.
+  // This holds for any slope so far.
   for (double slope : {0.7, 1.5}) {
     const ErrorCurve curve = curveOf(powerLaw(2.0, slope, 64));
     const double last = 2.0 * std::pow(64.0, -slope);

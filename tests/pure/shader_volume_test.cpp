@@ -177,7 +177,7 @@ TEST(ShaderVolume, FlightsEndAsDenselyAsTheIntegralSays) {
   }
 }
 
-/// One brick of a quarter but for a corner of 1: walks are long, and most end by roulette.
+/// One brick of a quarter except for a corner of 1: walks are long, and most end by roulette.
 TEST(ShaderVolume, RouletteKeepsTheMeanOfWhatPassesADenseGrid) {
   VolumeGrid grid;
   grid.bricks = {1, 1, 1};

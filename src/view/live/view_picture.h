@@ -24,7 +24,7 @@ inline constexpr int kNoPastFrom = 16;
 /// The memory that a side keeps on the device from picture to picture.
 struct SideMemory {
   std::optional<Film> guides;  ///< guides of the present view
-  int guideSamples = 0;        ///< samples of the guides; 0: they are drawn anew
+  int guideSamples = 0;        ///< samples of the guides; 0: they are drawn again
   SeenPicture past;            ///< picture of the view before
   SeenPicture present;         ///< shown last, before it was filtered
 

@@ -78,7 +78,7 @@ class ViewTracer {
   void watchFiles();
   void rebuildPrograms();
   void adopt(const TraceRequest& request);
-  /// The options, with front-to-back in place of an automatic traversal if the scene is posed anew.
+  /// The options, with front-to-back in place of an automatic traversal if the scene is posed again.
   RenderOptions asPosed(RenderOptions options) const;
   /// Returns true if the scene has the pose that the request wants.
   bool isPosed(const TraceRequest& request) const;

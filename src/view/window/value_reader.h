@@ -28,7 +28,7 @@ class ValueReader {
   size_t room_ = 0;  ///< bytes
   bool reading_ = false;
   void* done_ = nullptr;  ///< a fence, after which
-  PictureValues asked_;   ///< is read, but for its image
+  PictureValues asked_;   ///< is read, except for its image
   double begun_ = -1.0;
 };
 
