@@ -146,7 +146,8 @@ PACE = ["--resolution", "1280,720", "--interval", "16.667", "--target", "16.667"
 PACE_SECONDS = 20
 PACE_AIM = "60 pictures/s, none after more than 50 ms"
 
-# From the start of the program to a written picture, with an empty cache of the driver's and with a full one: the name, and arguments of `bench start`.
+# These rows measure from the start of the program to a written picture, with an empty and with a full driver cache.
+# Each has a name and arguments of `bench start`.
 START = ["--starts", "2", "--spp", "1"]
 STARTS = (
     ("room with the ball", ["scenes/room-ball.gltf"], []),
@@ -154,7 +155,7 @@ STARTS = (
 )
 START_SECONDS = 40
 
-# To be looked at: the file, and arguments of `render`.
+# Pictures to look at: each has a file and arguments of `render`.
 PICTURES = (
     ("cornell-box.png", ["scenes/cornell-box.gltf", *SIZE, "--spp", "128"], []),
     ("room-ball.png", ["scenes/room-ball.gltf", *SIZE, "--spp", "64"], []),

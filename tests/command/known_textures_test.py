@@ -19,7 +19,7 @@ FIRST, LAST = -0.9, 1.3  # texture coordinates over a square, before the transfo
 
 
 def texture():
-    """Its texels' red, and the same as linear light."""
+    """Returns the red of the texels, and the same as linear light."""
     numbers = random.Random(3)
     texels = [[numbers.randrange(256) for _ in range(TEXELS)] for _ in range(TEXELS)]
     linear = lambda x: x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055)**2.4

@@ -60,7 +60,7 @@ class Schedules(BothSchedules):
 
     def test_instances(self):
         write_field(self.folder, "field", 64, 500)
-        # Without light sampling, too: no shadow rays then.
+        # The schedules agree without light sampling, too: then there are no shadow rays.
         for switch in ("--enable", "--disable"):
             self.same(str(self.folder / "field"), *SKY, "--instancing", "share", "--resolution", "37,40", "--spp", 2, switch, "light-sampling")
 

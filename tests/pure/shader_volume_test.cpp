@@ -105,7 +105,7 @@ struct RayCase {
   dvec3 direction;
 };
 
-/// Towards the middle of the grid, from outside or inside; some along an axis.
+/// Makes a ray towards the middle of the grid, from outside or inside. Some rays run along an axis.
 RayCase rayCase(Draw& draw, int i) {
   const dvec3 middle(0.4, 0.8, 2.4);
   const dvec3 target =
