@@ -5,7 +5,7 @@
 
 const int kEnergyRows = int(kEnergyCells * kEnergyCells + kEnergyCells);
 
-/// The value of a table that begins so many rows behind that of energy, or before it.
+/// Returns a value of a table that begins `first` rows behind the energy table, or before it.
 float energyTableAt(int first, float cosine, float alpha) {
   const int cells = int(kEnergyCells);
   float x = sqrt(clamp(cosine, 0.0, 1.0)) * float(cells);

@@ -45,7 +45,7 @@ const uint kPathPassingRows = 3u;
 const uint kWaveSlots = 32u;
 const uint kWaveLaneRows = kWaveSlots * kPathRows + 1u;
 
-// A draw of the compute entries has a multiple of so many work groups (work_group.glsl).
+// The number of work groups in a draw of the compute entries is a multiple of this (work_group.glsl).
 const uint kWorkGroupHands = 8u;
 
 // The uniform block of one draw, and those of the scene's fog, of its grid, and of a camera that moves.
@@ -188,7 +188,7 @@ const uint kTextureMirrorV = 64u;
 // these.
 const int kMostEnvironmentSteps = 1024;
 
-// The environment's light has so many rows of factors, and levels of lobes.
+// The numbers of rows of factors, and of levels of lobes, of the environment's light.
 const uint kIrradianceRows = 9u;
 const uint kLobeLevels = 6u;
 

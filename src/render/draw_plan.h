@@ -47,7 +47,7 @@ inline std::vector<Work> tilesOf(const Work& work, glm::ivec2 tile) {
   return tiles;
 }
 
-/// One round over the picture: every tile of this size is advanced by so many samples.
+/// One round over the picture: each tile of size `tile` gets more samples.
 struct DrawPlan {
   glm::ivec2 tile{0};
   int samples = 1;

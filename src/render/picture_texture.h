@@ -27,8 +27,8 @@ inline bool grows(glm::ivec2& room, glm::ivec2 size) {
   return true;
 }
 
-/// Reads all texels, row by row in the order of the device, of a format with so many channels of that type.
-/// `where` names the step in errors, as for checkGl().
+/// Reads all texels of a format with `channels` channels of type `type`, row by row in the order of the
+/// device. `where` names the step in errors, as for checkGl().
 template <typename Value>
 std::vector<Value> readPictureTexture(const GlTexture& texture, GLenum format, int channels, GLenum type,
                                       glm::ivec2 size, const char* where) {

@@ -193,7 +193,8 @@ class Renderer {
   bool finishTile(const RenderPass& pass, Flight flight, const std::function<bool()>& goOn);
   bool addParts(Film& film, const View& view, std::span<const Work> parts, RenderTimes& times,
                 const Progress& progress);
-  /// Traces light paths until the film has so many passes, if its picture has any; false if it was stopped.
+  /// Traces light paths until the film has `passes` passes, if its picture has any. Returns false if it was
+  /// stopped.
   bool addLightPaths(Film& film, const View& view, int passes, const GoOn& goOn);
   void compileLightPaths(Film& film, const View& view);
   /// Draws a tile of light paths of the pass with this index. `pass` has the film to which they are added.

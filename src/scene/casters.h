@@ -31,7 +31,7 @@ struct Ball {
   float radius = 0.0f;
 };
 
-/// At most so many balls that together enclose all casters; casters near each other share one.
+/// Returns at most `most` balls that together enclose all casters; casters near each other share one.
 std::vector<Ball> casterBalls(const Scene& scene, size_t most);
 
 }  // namespace fragtrace

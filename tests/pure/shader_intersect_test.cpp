@@ -286,7 +286,7 @@ TEST(ShaderTriangle, SmallTrianglesAreNotHitFromFarBeside) {
     const vec3 middle(draw.inCube(1.0));
     const dvec3 a = 1e-6 * draw.direction();
     const dvec3 b = 1e-6 * draw.direction();
-    // The ray begins beside the triangle, at half of its distance, and points towards it along its plane.
+    // The ray runs along the triangle's plane and passes beside it, by about half of its distance.
     const vec3 direction(glm::normalize(a + 0.3 * b));
     const vec3 origin = middle + vec3(1e6 * (0.5 * a + double(draw.unit()) * b)) - 2.0f * direction;
     const vec3 v1 = middle + vec3(a);

@@ -75,8 +75,8 @@ void recentre(const GltfOptions& options, const Diagnostics& diagnostics, Scene&
     diagnostics.refuse("",
                        "the scene is more than 1e30 m in size, or as far from the point it is recentred on");
   }
-  // Shaders multiply up to five lengths. Where the scene reaches so far from its origin, triangles of a ten
-  // millionth of it, and cameras a million times as far away, stay within what floats can hold.
+  // Shaders multiply up to five lengths. If the scene's largest coordinate is within these limits, triangles
+  // of a ten millionth of it, and cameras a million times as far away, stay within what floats can hold.
   constexpr double kLeastReach = 0x1p-4;
   constexpr double kMostReach = 0x1p16;
   constexpr int kReachBits = 10;

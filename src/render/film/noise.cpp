@@ -99,7 +99,7 @@ std::vector<double> drawnTowardsNeighbours(const FilmPixels& film, const std::ve
 }
 
 constexpr int kWindow = 16;  // pixels per side of one cell of the windows' grid; a window is 3 x 3 cells
-/// The ratio of the whole picture weighs as much as so many pixels of a window.
+/// The ratio of the whole picture weighs as much as this many pixels of a window.
 constexpr double kPrior = 24.0;
 
 /// Sums over pixels, by which a ratio of variances and its reliability are known.

@@ -19,7 +19,7 @@
 
 namespace fragtrace {
 
-inline constexpr int kSettleFrames = 3;  ///< Dear ImGui comes to rest so many frames after an event
+inline constexpr int kSettleFrames = 3;  ///< Dear ImGui comes to rest this many frames after an event
 
 class Window {
  public:
