@@ -3,7 +3,7 @@
 """denoise_sheet.py FRAGTRACE --assets FOLDER --environment FILE --output SHEET.jpg [--oidn-library FILE] [--only NAME,...]
 
 Draws every scene of a folder under an environment at 4 and 16 samples per pixel, raw and by each filter, and a reference, and puts
-them side by side: a row a scene, its columns raw, variance, oidn at 4 and at 16 samples, and the reference. Prints each picture's
+them side by side: a row per scene, its columns raw, variance, oidn at 4 and at 16 samples, and the reference. Prints each picture's
 relative MSE over that of the raw one. Needs ImageMagick's `montage`. The single pictures stay beside the sheet, in SHEET.d.
 """
 import argparse

@@ -4,7 +4,7 @@
 
 usage: drivers.py [--rounds N] [--spp N] [--resolution W,H] [--options "..."] [--folder DIR] SCENE... -- NAME=COMMAND NAME=COMMAND...
 A COMMAND is what comes before `render`: build/fragtrace, "env NAME=VALUE build/fragtrace", or a program in a chroot that sees scenes and DIR by the same
-paths. Rounds draw each scene by each command once. The table has medians, the ratio of million paths a second to that of the first command (median,
+paths. Rounds draw each scene by each command once. The table has medians, the ratio of million paths per second to that of the first command (median,
 least and greatest of the rounds), and how the pictures differ from that of the first. No shader is taken from a cache.
 """
 import argparse

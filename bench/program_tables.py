@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The tables of what `fragtrace bench report` and `bench scale` write, a JSON object a line, for bench/tables.py."""
+"""The tables of what `fragtrace bench report` and `bench scale` write, a JSON object per line, for bench/tables.py."""
 
 import json
 import statistics

@@ -80,7 +80,8 @@ def less(scene, without, folder):
 
 
 def parts(options, folder):
-    """Names of the parts of the picture, and the numbers of their pixels, as a .pfm has them: from the lowest row on."""
+    """Names of the parts of the picture, and the numbers of their pixels, in the order of a .pfm: from the lowest row
+    on."""
     width, height = map(int, options.resolution.split(","))
     found = {"picture": range(width * height)}
     if options.rough:

@@ -113,7 +113,7 @@ vec3 glassReflectance(Bsdf b, float cosine) {
   return b.solid ? r : vec3(thinReflectance(r.x), thinReflectance(r.y), thinReflectance(r.z));
 }
 
-/// Its largest channel: the chance of a reflection.
+/// The largest channel of glassReflectance(): the probability of a reflection.
 float glassFresnel(Bsdf b, float cosine) {
   vec3 r = glassReflectance(b, cosine);
   return kGlassSpecular || kIridescence ? maxComponent(r) : r.x;

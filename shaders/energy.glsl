@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Tables behind the materials: the energy that single scattering loses between GGX facets (src/pack/ggx_energy.cpp) and
-// the albedo of rough glass (src/pack/glass_energy.cpp). Each has one row a cell with the values at its corners, over
-// the roots of cosine and alpha. The first table continues with one row a cell of the average loss.
+// the albedo of rough glass (src/pack/glass_energy.cpp). Each has one row per cell with the values at its corners, over
+// the roots of cosine and alpha. The first table continues with one row per cell of the average loss.
 
 const int kEnergyRows = int(kEnergyCells * kEnergyCells + kEnergyCells);
 
-/// The value of a table that begins so many rows behind that of energy, or before it.
+/// Returns a value of a table that begins `first` rows behind the energy table, or before it.
 float energyTableAt(int first, float cosine, float alpha) {
   const int cells = int(kEnergyCells);
   float x = sqrt(clamp(cosine, 0.0, 1.0)) * float(cells);
@@ -19,7 +19,7 @@ float energyTableAt(int first, float cosine, float alpha) {
 /// 1 - albedo of a surface whose facets reflect everything, seen at `cosine`.
 float ggxLoss(float cosine, float alpha) { return kCompensation ? energyTableAt(0, cosine, alpha) : 0.0; }
 
-/// Its cosine-weighted mean over all directions.
+/// The cosine-weighted mean of the loss over all directions.
 float ggxAverageLoss(float alpha) {
   if (!kCompensation) return 0.0;
   const int cells = int(kEnergyCells);

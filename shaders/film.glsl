@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The film is kept in three images, one texel a pixel.
+// The film is kept in three images, one texel per pixel.
 
 layout(rgba32f, binding = kFilmSumBinding) uniform restrict image2D filmSum;
 layout(rgba32f, binding = kFilmCompensationBinding) uniform restrict image2D filmCompensation;
@@ -20,8 +20,9 @@ void storeFilm(ivec2 pixel, FilmPixel f) {
   imageStore(filmCounts, pixel, uvec4(f.samples, f.rays, f.nonfinite, f.flags));
 }
 
-/// The film of light paths holds records, two texels a path: the light that the camera sees at its first rough surface,
-/// and, in the upper half of the film, light that it sees later. A pixel's records are its part of a column of texels.
+/// The film of light paths holds records, two texels per path: the light that the camera sees at its first rough
+/// surface, and, in the upper half of the film, light that it sees later. A pixel's records are its part of a column of
+/// texels.
 ivec2 recordOf(ivec2 pixel, uint path) { return ivec2(pixel.x, pixel.y * frame.samplesWanted + int(path)); }
 
 /// Stores the light that a light path sends to the camera, and the place in the picture where it is seen.

@@ -178,7 +178,7 @@ vec3 insetFromCreases(vec3 point, vec2 weights, vec3 middle, uint inset, float t
   return point + part * (middle - point);
 }
 
-/// The point at distance t along a ray, moved onto the plane dot(normal, x) = distance on which it lies but for
+/// The point at distance t along a ray, moved onto the plane dot(normal, x) = distance on which it lies except for
 /// rounding. So its error off the plane does not grow with the distance from the ray's origin. It is moved along the
 /// ray, since the distance to a sliver is its least certain number. Where the ray grazes, it is moved along the normal,
 /// since a move along the ray would enlarge the point's own rounding.

@@ -2,32 +2,33 @@
 // Bindings, sentinels and packed layouts that C++ and GLSL share (src/shader/layout.h includes this file).
 
 // Scene buffers: each is read through one function (src/shader/assemble.cpp).
-const uint kNodesBinding = 0u;         // kNodeRows uvec4 a node; behind them kInstanceRows an instance
-const uint kLeavesBinding = 1u;        // 5 uvec4 a leaf: two primitives, structure of arrays
-// kFaceRows uvec4 a leaf slot (leaf * 2 + side): what shading needs of a primitive; behind them 1 a slot: kCreases
+const uint kNodesBinding = 0u;         // kNodeRows uvec4 per node; behind them kInstanceRows per instance
+const uint kLeavesBinding = 1u;        // 5 uvec4 per leaf: two primitives, structure of arrays
+// kFaceRows uvec4 per leaf slot (leaf * 2 + side): what shading needs of a primitive; behind them 1 per slot: kCreases
 const uint kFacesBinding = 2u;
-const uint kNormalsBinding = 3u;       // 1 vec4 a vertex
-const uint kTexcoordsBinding = 4u;     // 1 vec4 a vertex: TEXCOORD_0, TEXCOORD_1
-const uint kTangentsBinding = 5u;      // 1 vec4 a vertex
-const uint kColorsBinding = 6u;        // 1 vec4 a vertex
-const uint kMaterialsBinding = 7u;     // kMaterialRows uvec4 a material
-// 1 uvec2 a texel: RGBA as linear half floats; behind all textures the grid: its table, 1 texel a brick (brickEntry of
-// media/volume.glsl), and the bricks, kBrickTexels texels of 4 densities each, and where it emits 1 a voxel of radiance
+const uint kNormalsBinding = 3u;       // 1 vec4 per vertex
+const uint kTexcoordsBinding = 4u;     // 1 vec4 per vertex: TEXCOORD_0, TEXCOORD_1
+const uint kTangentsBinding = 5u;      // 1 vec4 per vertex
+const uint kColorsBinding = 6u;        // 1 vec4 per vertex
+const uint kMaterialsBinding = 7u;     // kMaterialRows uvec4 per material
+// 1 uvec2 per texel: RGBA as linear half floats; behind all textures the grid: its table, 1 texel per brick (brickEntry
+// of media/volume.glsl), and the bricks: each has kBrickTexels texels of 4 densities, then, if the grid emits, 1 texel
+// of radiance per voxel
 const uint kTexelsBinding = 8u;
-const uint kEmittersBinding = 9u;      // kEmitterRows uvec4 an emitter
-const uint kLightsBinding = 10u;       // kLightRows vec4 a punctual light
-// 1 vec4 a texel: radiance, pdf over the area of the map (mean 1); behind them those of the backdrop, if there is
+const uint kEmittersBinding = 9u;      // kEmitterRows uvec4 per emitter
+const uint kLightsBinding = 10u;       // kLightRows vec4 per punctual light
+// 1 vec4 per texel: radiance, pdf over the area of the map (mean 1); behind them those of the backdrop, if there is
 // one that camera rays see in place of the map, and before gi the environment's light: factors of the irradiance;
 // width, height and first row of each level of lobes; the levels (src/pack/environment_light.h)
 const uint kEnvironmentBinding = 11u;
-// 1 uvec4 a step: of the rows, then of each row (src/pack/inversion_table.h)
+// 1 uvec4 per step: of the rows, then of each row (src/pack/inversion_table.h)
 const uint kEnvironmentInversionBinding = 12u;
 const uint kSceneBufferCount = 13u;
 
 // The first image unit of scene buffers that are read as images; the film has those before it.
 const uint kSceneImageBase = 3u;
 
-// Film images, one texel a pixel.
+// Film images, one texel per pixel.
 const uint kFilmSumBinding = 0u;           // rgba32f: sum of radiance, sum of alpha
 const uint kFilmCompensationBinding = 1u;  // rgba32f: Kahan compensation of the sum, Welford's M2 of the luminance
 const uint kFilmCountsBinding = 2u;        // rgba32ui: samples, rays, non-finite samples, kPixel* flags
@@ -44,7 +45,7 @@ const uint kPathPassingRows = 3u;
 const uint kWaveSlots = 32u;
 const uint kWaveLaneRows = kWaveSlots * kPathRows + 1u;
 
-// A draw of the compute entries has a multiple of so many work groups (work_group.glsl).
+// The number of work groups in a draw of the compute entries is a multiple of this (work_group.glsl).
 const uint kWorkGroupHands = 8u;
 
 // The uniform block of one draw, and those of the scene's fog, of its grid, and of a camera that moves.
@@ -124,7 +125,7 @@ const uint kMaterialVolume = 4u;       // extinction coefficient (1 / local spac
 // normal scale, occlusion strength, emitter pdf (1 / area in local space), flags
 const uint kMaterialMaps = 5u;
 const uint kMaterialPerlin = 6u;       // frequency, amplitude, octaves; and the number of the glTF material, from 1
-const uint kMaterialTextures = 7u;     // then one row a texture slot
+const uint kMaterialTextures = 7u;     // then one row per texture slot
 const uint kSlotBaseColor = 0u;
 const uint kSlotMetallicRoughness = 1u;
 const uint kSlotNormal = 2u;
@@ -157,7 +158,7 @@ const uint kMaterialScatterStrength = kMaterialScatter + 1u;  // strength of a t
 const uint kMaterialRows = kMaterialScatterStrength + 1u;
 
 // Cells along each axis of the tables of energy and of sheen, which stand behind the materials and the transforms of
-// textures. Behind them all are the numbers of objects (kObjectNumbers), four a row: one a leaf slot, then one an
+// textures. Behind them all are the numbers of objects (kObjectNumbers), four per row: one per leaf slot, then one per
 // instance, whose numbers do not begin at 0.
 const uint kEnergyCells = 32u;
 
@@ -187,7 +188,7 @@ const uint kTextureMirrorV = 64u;
 // these.
 const int kMostEnvironmentSteps = 1024;
 
-// The environment's light has so many rows of factors, and levels of lobes.
+// The numbers of rows of factors, and of levels of lobes, of the environment's light.
 const uint kIrradianceRows = 9u;
 const uint kLobeLevels = 6u;
 
@@ -208,10 +209,10 @@ const uint kEmitterPunctual = 0x80000000u;     // flag of a light's index; witho
 const uint kEmitterDoubleSided = 0x80000000u;  // flag of the material's index
 
 // Behind the emitters, where they are chosen by a tree (src/pack/light_tree.h): its nodes, the root first; their
-// parents, four a row; the leaves of emissive triangles, four a row, one a leaf slot of the scene. Node rows: middle,
-// intensity; axis as three 10-bit numbers, cosine of the spread as a 16-bit number and, above it, the thickness along
-// the axis in parts of the radius, radius or -1 for what shines everywhere, first child or kLightLeaf and the emitter,
-// with flags.
+// parents, four per row; the leaves of emissive triangles, four per row, one per leaf slot of the scene. Node rows:
+// middle, intensity; axis as three 10-bit numbers, cosine of the spread as a 16-bit number and, above it, the thickness
+// along the axis in parts of the radius, radius or -1 for what shines everywhere, first child or kLightLeaf and the
+// emitter, with flags.
 const uint kLightNodeRows = 2u;
 const uint kLightLeaf = 0x80000000u;
 const uint kLightBothSides = 0x40000000u;

@@ -13,7 +13,7 @@ const bool kIdAov = kAov == kAovObject || kAov == kAovMaterial;
 
 const float kAboveAll = 1.0e6;  // local space
 const uint kCameraDimensions = 0u;
-const uint kChannelDimension = 2u;  // one number a path
+const uint kChannelDimension = 2u;  // one number per path
 const uint kLensDimensions = 4u;
 const uint kAlphaDimensions = 0x40000000u;
 const uint kBounceDimensions = 16u;  // a bounce uses 16 dimensions from 16 (bounce + 1) on
@@ -24,7 +24,7 @@ const uint kLightDimension = 4u;  // the light's dimensions are 4 to 7
 const uint kReuseDimension = 8u;  // these are 8 to 10
 const uint kGlassDimension = 12u;
 const uint kFlightDimension = 13u;
-const uint kFlightDimensions = 0x80000000u;  // hashed; 4,096 a bounce
+const uint kFlightDimensions = 0x80000000u;  // hashed; 4,096 per bounce
 const uint kShadowFlights = 0x40000000u;      // shadow rays add this to kFlightDimensions
 
 /// The most that roulette lets a path at smooth glass survive by, and the scattering from which on it always decides.
@@ -191,7 +191,7 @@ vec3 clampIndirect(vec3 light, int scatterings) {
 /// dozens.
 int limitedScatterings(Path p) { return kTransmission || kMedia ? p.bounce - p.freeBounces : p.bounce; }
 
-/// Those that --clamp-indirect counts: what is seen straight through thin walls is as direct as without them.
+/// The scatterings that --clamp-indirect counts. Light straight through thin walls counts as if there were no walls.
 int countedScatterings(Path p) { return kThroughGlass ? p.bounce - p.straightBounces : p.bounce; }
 
 /// Returns true if the shadow ray of a light sample passes smooth glass that does not bend it. It does where the path
@@ -293,8 +293,8 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
     float squared = m.ior * m.ior;
     float before = p.etaScale;
     p.etaScale = s.front ? before * squared : max(before / squared, 1.0);
-    // Nothing is thinner than air: who leaves more than was entered has missed a face that touches another. The weight
-    // has counted it all.
+    // No index is below that of air. A path that would get below it has missed a face that touches another one, so the
+    // scale ends at 1. The weight holds the whole factor, which is corrected here.
     if (!s.front) p.throughput *= before / (squared * p.etaScale);
   }
   p.bounce += 1;
@@ -377,7 +377,7 @@ Path spawnShadowRayFrom(Path p, vec3 point, vec3 origin, LightSample light, vec3
     return p;
   }
   if (light.distance < kFarAway) {
-    // The ray begins beside the point, and is aimed anew: near a light, a parallel one would end behind it.
+    // The ray begins beside the point, and is aimed again: near a light, a parallel one would end behind it.
     vec3 towards = light.distance * light.direction - (origin - point);
     float distance = length(towards);
     p.shadowDirection = distance > 0.0 ? towards / distance : light.direction;

@@ -71,7 +71,7 @@ void savePath(Path p, int row, bool begins) {
   }
 }
 
-/// Without its shadow ray. key: of its random numbers.
+/// Loads a path without its shadow ray. key: that of its random numbers.
 Path loadPath(int row, uint key) {
   Path p = newPath();
   vec4 f = uintBitsToFloat(readPathStates(row + kRowRay));

@@ -97,7 +97,7 @@ Surface triangleSurface(uvec4 face, uvec4 place, vec3 origin, vec3 direction, fl
       vec4 end = interpolate(readNormalAt(to.x), readNormalAt(to.y), readNormalAt(to.z), w);
       n = mix(n, vec3(end), moving.part);
     }
-    // One that points backwards is turned round: which side is the front is told by the order of the vertices.
+    // A normal that points backwards is reversed: the order of the vertices decides which side is the front.
     float squared = dot(n, n);
     float side = dot(n, s.geometricNormal) < 0.0 ? -1.0 : 1.0;
     s.shadingNormal = squared > 0.0 ? n * (side * inversesqrt(squared)) : s.geometricNormal;

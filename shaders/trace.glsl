@@ -94,7 +94,7 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "shade.glsl"
 #include "catcher.glsl"
 
-/// Rays are traced from end to end: what the budget ends begins its sample anew in the next draw, and no traversal is
+/// Rays are traced from end to end: what the budget ends begins its sample again in the next draw, and no traversal is
 /// kept from round to round.
 const bool kWholeRays = kGi && !kPassing && !kResumable && kAov == kAovNone;
 
@@ -246,7 +246,7 @@ void tracePixel(ivec2 pixel) {
       film.flags |= kPixelSuspended;
       suspendPath(p, row);
     }
-    // Else the sample begins anew in the next draw, unless it is longer than a whole draw.
+    // Else the sample begins again in the next draw, unless it is longer than a whole draw.
     if (!kResumable && !advanced) atomicAdd(progress.stuck, 1u);
   }
   if (kScatters) reportCut(cut);

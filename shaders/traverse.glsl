@@ -196,7 +196,7 @@ float roundingOf(float t, TreeFrame tree) {
   return 6.103515625e-5f * t + 4.0f * max(max(tree.cell.x, tree.cell.y), tree.cell.z);
 }
 
-/// In the space of the scene's own tree, or (s.instance >= 0) of an instance's mesh.
+/// Returns the ray in the space of the scene's own tree, or (s.instance >= 0) of an instance's mesh.
 TreeRay treeRayOf(Traversal s, vec3 origin, vec3 direction, TreeFrame tree) {
   TreeRay r;
   if (kInstances && s.instance >= 0) {
@@ -211,7 +211,7 @@ TreeRay treeRayOf(Traversal s, vec3 origin, vec3 direction, TreeFrame tree) {
   return r;
 }
 
-/// From an instance of the upper tree to the root of its mesh's, or at kInstanceEnd back out.
+/// Goes from an instance of the upper tree to the root of its mesh's tree, or at kInstanceEnd back to the upper tree.
 Traversal changeSpace(Traversal s) {
   bool ends = s.node == kInstanceEnd;
   int instance = ~s.node - kInstanceLeaf;

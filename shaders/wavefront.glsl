@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Many paths a lane: the wavefront (docs/design/architecture.md). Each lane owns the pixels of a column of its tile. A
-// round shades what the rays of the last one hit, ends and begins samples, then traces all rays in one loop that gives
-// a lane its next ray as soon as the last one is done, so that no lane waits for the longest ray. What is done to some
-// pixels only is a loop of its own over their bits: llvmpipe executes a branch that no lane takes, but not an
+// Many paths per lane: the wavefront (docs/design/architecture.md). Each lane owns the pixels of a column of its tile.
+// A round shades what the rays of the last one hit, ends and begins samples, then traces all rays in one loop that
+// gives a lane its next ray as soon as the last one is done, so that no lane waits for the longest ray. What is done to
+// some pixels only is a loop of its own over their bits: llvmpipe executes a branch that no lane takes, but not an
 // iteration. Its loops are the steps of advance() (trace.glsl) one by one, in the same order for each pixel, so
 // pictures are the same bits where a compiler keeps to the text.
 
@@ -141,7 +141,7 @@ Wave shadeHits(Wave v, uint left, TreeFrame tree) {
     int k = findLSB(left);
     uint bit = 1u << k;
     int row = rowOf(v, k);
-    // Searches in tables of lights are not counted, but for candidates: they take one or two iterations, and lanes
+    // Searches in tables of lights are not counted, except for candidates: they take one or two iterations, and lanes
     // shade together.
     v.steps += 1 + kCandidateIterations;
     Path p = takeUp(v, k);
@@ -231,7 +231,7 @@ Wave settleRay(Wave v, Traversal t, int current, bool isShadow) {
   return v;
 }
 
-/// Traces all rays, but for those that the step budget leaves over. A lane whose ray is done takes its next one.
+/// Traces all rays, except for those that the step budget leaves over. A lane whose ray is done takes its next one.
 Wave traceRays(Wave v, int budget, TreeFrame tree) {
   Traversal t = startTraversal(0.0, 0);
   TreeRay ray = makeTreeRay(vec3(0.0), vec3(1.0), 0.0, tree.origin, tree.cell);
@@ -291,7 +291,7 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
   return v;
 }
 
-/// The samples of these pixels begin anew.
+/// The samples of these pixels begin again.
 Wave beginAnew(Wave v, uint left) {
   v.hits &= ~left;
   v.misses |= left;

@@ -2,7 +2,7 @@
 // Maps work groups to lanes of a tile. llvmpipe gives each of its threads a run of successive groups, so groups are
 // dealt out over the tile: slow pixels are often neighbours, and every thread should get some of them.
 
-/// The lane of a tile of so many lanes. It is outside of the tile for lanes that have nothing to do.
+/// Returns the lane of a tile of `lanes` lanes. It is outside the tile for lanes that have nothing to do.
 ivec2 laneOfTile(ivec2 lanes) {
   uint columns = uint(lanes.x + 7) / 8u;
   uint each = gl_NumWorkGroups.x / kWorkGroupHands;

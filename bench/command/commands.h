@@ -19,7 +19,7 @@ RunCommand addBenchStart(CLI::App& app);
 RunCommand addBenchMotion(CLI::App& app);
 RunCommand addBenchStress(CLI::App& app);
 
-/// In the order of --help.
+/// The benchmarks, in the order of --help.
 inline constexpr std::array kBenchRows{
     CommandRow{"error", "measure error as a function of samples and time", addBenchError},
     CommandRow{"frame", "measure frame times of several settings in turn", addBenchFrame},

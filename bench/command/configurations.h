@@ -45,7 +45,7 @@ std::vector<BenchConfiguration> configurationsOf(const RawConfigurations& raw, c
 BenchConfiguration configurationOf(const CLI::App& app, const std::string& name, const std::string& text,
                                    const std::string& scene);
 
-/// The files that they read, but for the pictures that scenes refer to.
+/// The files that they read, except for the pictures that scenes refer to.
 std::vector<std::filesystem::path> inputsOf(std::span<const BenchConfiguration> configurations);
 
 /// Makes the context that the options ask for.

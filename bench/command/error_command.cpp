@@ -150,8 +150,8 @@ ErrorSample finish(Contender& c, const View& view, const Judge& judge, const Dra
   return judge.judge(denoised, double(totalsOf(draw.drawing.pixels).samples) / pixels, seconds);
 }
 
-/// One whole picture of so many samples: looks at the film on the way count, so that it is no part of a
-/// sequence.
+/// Draws one whole picture with `samples` samples. The time includes reading the film, so the picture is not
+/// a part of a sequence.
 Draw drawWhole(Contender& c, const View& view, int samples, double& compileMs) {
   RenderOptions options = c.configuration.render;
   options.sampling.spp = samples;
@@ -320,7 +320,7 @@ ErrorReport measure(const ErrorOptions& options, const Context& context) {
   std::vector<Contender> contenders;
   int most = 1;
   for (const BenchConfiguration& configuration : options.configurations) {
-    const bool saidBefore = !contenders.empty();  // warnings are said once
+    const bool saidBefore = !contenders.empty();  // each warning is printed once
     contenders.push_back(makeContender(configuration, context, saidBefore));
     if (!configuration.adaptive()) most = std::max(most, configuration.render.sampling.spp);
     checkResultFiles(options.files, inputsOf(contenders.back().loaded.scene));

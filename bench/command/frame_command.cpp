@@ -82,7 +82,8 @@ std::vector<FrameSetting> measure(const FrameOptions& options, const Context& co
     std::vector<TimedSetting> settings;
     for (const BenchConfiguration& configuration : configurations) {
       BenchConfiguration wanted = configuration;
-      wanted.render.output.quiet = wanted.render.output.quiet || !settings.empty();  // warnings are said once
+      // Each warning is printed once.
+      wanted.render.output.quiet = wanted.render.output.quiet || !settings.empty();
       settings.push_back(makeSetting(context, wanted, options.timing));
       checkResultFiles(options.files, inputsOf(settings.back().loaded->scene));
       if (reference) checkSize(*reference, settings.back());

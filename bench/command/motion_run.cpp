@@ -151,7 +151,7 @@ void count(MotionFigures& figures, const TracedPicture& picture) {
   }
 }
 
-/// Returns true if another picture is to be kept once so many have counted.
+/// Returns true if another picture must be kept once `pictures` have counted.
 bool isDue(const MotionFigures& figures, const MotionPlan& plan, int pictures) {
   return figures.kept.size() < size_t(pictures) * size_t(plan.compared) / size_t(plan.pictures);
 }

@@ -71,8 +71,9 @@ void settleReport(const CLI::App& app, ReportOptions& o) {
 constexpr double kMostSecondsOfSlowRows = 10.0;
 constexpr int kSamplesTogether = 8;  // so many that what a draw costs once is shared
 
-/// A row is drawn with a draw for every sample and with many samples a draw. Only the latter has a meaning
-/// for a picture of many samples, and frames of the iterative traversal are so long that both are one.
+/// A row is drawn twice: with a draw for every sample, and with many samples per draw. For a picture of many
+/// samples, only the second way has a meaning. Frames of the iterative traversal are so long that both are
+/// the same.
 std::vector<TimedSetting> settingsOf(const ReportOptions& options, const Context& context) {
   std::vector<TimedSetting> settings;
   for (const DrawnRow& r : options.rows) {

@@ -25,7 +25,7 @@ void addChartOption(CLI::App& app, ResultFiles& files, const char* help);
 /// Throws UsageError where the chart's name does not end in .svg.
 void checkChart(const ResultFiles& files);
 
-/// Before long work, as checkOutputs of session/outputs.h.
+/// Must be called before long work, like checkOutputs of session/outputs.h.
 void checkResultFiles(const ResultFiles& files, std::span<const std::filesystem::path> inputs);
 
 struct ResultTexts {

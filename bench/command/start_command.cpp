@@ -225,7 +225,7 @@ int runStart(const StartOptions& options) {
   const ScratchFolder folder;
   RenderOptions render = options.render;
   render.output.file = folder.path() / render.output.file;
-  // In the order of the file.
+  // The members are in the order of the file.
   Json report = {{"schema", 1},
                  {"bench", "start"},
                  {"scene", render.scene.filename().string()},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `fragtrace bench traversal`: rays a second of each kind, nothing shaded.
+// `fragtrace bench traversal`: rays per second of each kind, nothing shaded.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstring>
@@ -72,7 +72,7 @@ struct MeasuredSet {
   std::vector<Ray> rays;
   std::vector<FoundHit> found;
   size_t count = 0;        ///< of rays that are there
-  std::vector<double> ms;  ///< one a round
+  std::vector<double> ms;  ///< one per round
   size_t wrong = 0;        ///< rays whose hit is not that of double precision
   size_t provedByAll =
       0;  ///< rays on which double precision by the tree is itself held against all primitives
@@ -123,9 +123,9 @@ Json lineOf(Json line, const MeasuredSet& set) {
   return line;
 }
 
-/// Little-endian: "FTRAYS1", 0; numbers of triangles and of rays a set, 32 bits each; nine floats a triangle;
-/// for each kind origin, limit, direction and the distance found (for shadow rays 0; -1: nothing) of each
-/// ray.
+/// Little-endian: "FTRAYS1", 0; numbers of triangles and of rays a set, 32 bits each; nine floats per
+/// triangle; for each kind origin, limit, direction and the distance found (for shadow rays 0; -1: nothing)
+/// of each ray.
 void writeRays(const std::filesystem::path& path, const Scene& scene, const std::vector<MeasuredSet>& sets) {
   std::vector<uint8_t> bytes{'F', 'T', 'R', 'A', 'Y', 'S', '1', 0};
   const auto append = [&](const auto& value) {

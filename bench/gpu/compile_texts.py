@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Compiles programs by the OpenGL driver that the environment names, and prints the driver's messages: compile_texts.py FILE...
 
-Each file is one of MESA_SHADER_CAPTURE_PATH. A line of JSON a file, after one with the driver. Runs in the root of bench/gpu/compilers; needs PyOpenGL.
+Each file is one of MESA_SHADER_CAPTURE_PATH. A line of JSON per file, after one with the driver. Runs in the root of bench/gpu/compilers; needs PyOpenGL.
 """
 import ctypes
 import json

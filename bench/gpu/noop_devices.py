@@ -51,7 +51,7 @@ def why_not():
 
 
 def made():
-    """The system, made anew where it is not finished. Raises RuntimeError, OSError."""
+    """The system, made again where it is not finished. Raises RuntimeError, OSError."""
     finished = FOLDER / "finished"
     if not finished.exists():
         shutil.rmtree(FOLDER, ignore_errors=True)

@@ -33,7 +33,8 @@ BOX_AIM = "< 12.5 ms"
 
 # Parts of `bench report`: the name, and its seconds.
 REPORT_PARTS = (("traversal", 60), ("gi", 40), ("primitives", 120))
-# Milliseconds of the report's GPU by the end of a row's name, as docs/measurements/benchmarks.md has them; None: it has no figure.
+# Milliseconds of the report's GPU by the end of a row's name, from docs/measurements/benchmarks.md; None: the row has
+# no figure.
 REPORT = {
     "15,743 triangles, iterative": "55", "62,975 triangles, iterative": "226", "15,743 triangles, bvh": "0.66",
     "62,975 triangles, bvh": "0.91", "15,743 triangles, front-to-back": "0.38", "62,975 triangles, front-to-back": "0.43",
@@ -145,7 +146,8 @@ PACE = ["--resolution", "1280,720", "--interval", "16.667", "--target", "16.667"
 PACE_SECONDS = 20
 PACE_AIM = "60 pictures/s, none after more than 50 ms"
 
-# From the start of the program to a written picture, with an empty cache of the driver's and with a full one: the name, and arguments of `bench start`.
+# These rows measure from the start of the program to a written picture, with an empty and with a full driver cache.
+# Each has a name and arguments of `bench start`.
 START = ["--starts", "2", "--spp", "1"]
 STARTS = (
     ("room with the ball", ["scenes/room-ball.gltf"], []),
@@ -153,7 +155,7 @@ STARTS = (
 )
 START_SECONDS = 40
 
-# To be looked at: the file, and arguments of `render`.
+# Pictures to look at: each has a file and arguments of `render`.
 PICTURES = (
     ("cornell-box.png", ["scenes/cornell-box.gltf", *SIZE, "--spp", "128"], []),
     ("room-ball.png", ["scenes/room-ball.gltf", *SIZE, "--spp", "64"], []),

@@ -131,7 +131,7 @@ def difference(seen, peer):
 
 
 def speed(name, scene, folder, options):
-    """Million paths a second of each engine, round by round, and how far its pictures are from ours."""
+    """Million paths per second of each engine, round by round, and how far its pictures are from ours."""
     running = start(options, name, scene, options.resolution, True)
     try:
         seconds, seen = draw_in_turn(name, running, folder, options.spp, options)
@@ -143,7 +143,7 @@ def speed(name, scene, folder, options):
 
 
 def samples_to_goal(engine, folder, goal):
-    """Samples a pixel to a relative MSE of the goal, seconds a sample by both clocks, and (samples, error) of each step: four times as many samples from
+    """Samples a pixel to a relative MSE of the goal, seconds per sample by both clocks, and (samples, error) of each step: four times as many samples from
     step to step until about one more would reach the goal, or it is reached; then the straight line through the last two in logarithms."""
     steps, spp = [], 16
     while len(steps) < 2 or steps[-1][1] > 4 * goal:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The rays that `fragtrace bench traversal --rays FILE` wrote, traced by Embree 3 one at a time on all cores.
-// Usage: embree_rays FILE ROUNDS. One line of JSON a kind of rays: rays, hits, milliseconds of each round,
+// Usage: embree_rays FILE ROUNDS. One line of JSON per kind of rays: rays, hits, milliseconds of each round,
 // and on how many rays Embree differs from what the file says was hit.
 #include <embree3/rtcore.h>
 
@@ -28,7 +28,7 @@ struct FileRay {
 };
 
 struct Input {
-  std::vector<float> corners;  // nine a triangle
+  std::vector<float> corners;  // nine per triangle
   std::array<std::vector<FileRay>, 3> sets;
 };
 

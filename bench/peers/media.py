@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Participating media beside Mitsuba 3: camera paths a second, and seconds to a relative MSE, both drawn in turn on the same cores.
+"""Participating media beside Mitsuba 3: camera paths per second, and seconds to a relative MSE, both drawn in turn on the same cores.
 
 usage: media.py FRAGTRACE [SCENE...]   (run by a Python that has mitsuba and numpy; on a quiet machine)
 The scenes are those of tests/reference, whose pictures tell the error. Times are those of drawing alone.

@@ -10,7 +10,7 @@ BLOCK = 8  # pixels
 
 
 def read_pfm(path):
-    """Width and the floats of all rows, three a pixel, from whatever row the file begins with."""
+    """Width and the floats of all rows, three per pixel, from whatever row the file begins with."""
     kind, size, scale, body = Path(path).read_bytes().split(b"\n", 3)
     assert kind == b"PF", path
     values = array("f")

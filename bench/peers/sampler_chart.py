@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The chart of samplers.py: error against samples per pixel, ours and the best of Mitsuba's samplers, a small panel a picture."""
+"""The chart of samplers.py: error against samples per pixel, ours and the best of Mitsuba's samplers, a small panel per picture."""
 
 import math
 from xml.sax.saxutils import escape

@@ -20,11 +20,11 @@ Scene scattered();
 Scene slivers();
 /// Triangles without area, twenty identical ones, and some that overlap in one plane.
 Scene flatAndDouble();
-/// Ten kilometres beside a micrometre.
+/// A triangle of ten kilometres beside one of a micrometre.
 Scene hugeAndTiny();
-/// Round one place, each smaller than the one before, down to a millionth of the first.
+/// Meshes around one point. Each is smaller than the one before, down to a millionth of the first.
 Scene nested();
-/// A hundred, of a millimetre to a metre.
+/// A hundred spheres with sizes from a millimetre to a metre.
 Scene spheres();
 /// A closed room with two boxes, off the origin, turned so that nothing is along an axis.
 Scene room();

@@ -15,7 +15,7 @@ struct Dice {
   std::mt19937 engine;
   explicit Dice(uint32_t seed) : engine(seed) {}
 
-  /// In [0, 1).
+  /// Returns a number in [0, 1).
   double unit() { return double(engine()) * 0x1p-32; }
   double between(double low, double high) { return low + (high - low) * unit(); }
   size_t below(size_t count) { return size_t(unit() * double(count)); }

@@ -67,7 +67,7 @@ AttackRays atRimsFromOutside(const Scene& scene, size_t count, uint32_t seed) {
   });
 }
 
-/// From 10 to 100,000 sizes of the scene away.
+/// The rays begin 10 to 100,000 sizes of the scene away.
 AttackRays fromFarAway(const Scene& scene, size_t count, uint32_t seed) {
   const double size = scene.bounds.extent().x;
   return raysFrom(count, seed, [&](Dice& dice, size_t) {
@@ -101,7 +101,7 @@ AttackRays alongAxes(const Scene& scene, size_t count, uint32_t seed) {
   });
 }
 
-/// In the plane of a triangle, towards it.
+/// The rays lie in the plane of a triangle, and point to it.
 AttackRays inPlanes(const Scene& scene, size_t count, uint32_t seed) {
   return raysFrom(count, seed, [&](Dice& dice, size_t) {
     const auto [a, b, c] = corners(scene, dice.below(scene.triangles.size()));
@@ -127,7 +127,7 @@ AttackRays fromAnywhere(const Scene& scene, size_t count, uint32_t seed) {
 
 // ---- spheres ----
 
-/// From inside, from the surface, and from up to 100,000 radii away.
+/// The rays begin inside a sphere, on its surface, and up to 100,000 radii away.
 AttackRays atSpheres(const Scene& scene, size_t count, uint32_t seed) {
   return raysFrom(count, seed, [&](Dice& dice, size_t i) {
     const Sphere& s = scene.spheres[dice.below(scene.spheres.size())];

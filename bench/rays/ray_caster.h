@@ -37,7 +37,7 @@ class RayCaster {
     GlBuffer buffer_;
   };
 
-  /// Traces a set, one ray a pixel. anyHit: any hit ends a ray; otherwise the nearest one is found. Returns
+  /// Traces a set, one ray per pixel. anyHit: any hit ends a ray; otherwise the nearest one is found. Returns
   /// milliseconds, by the wall clock around glFinish on software, by the device's own timer elsewhere.
   double trace(const RaySet& rays, bool anyHit);
 

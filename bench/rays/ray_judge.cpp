@@ -42,7 +42,7 @@ class Shape {
     return largest;
   }
 
-  /// From the plane of the triangle, or the surface of the sphere.
+  /// Returns the distance from the plane of the triangle, or from the surface of the sphere.
   double heightOver(const dvec3& p) const {
     if (sphere_) return std::abs(glm::distance(p, dvec3(sphere_->center)) - double(sphere_->radius));
     return std::abs(glm::dot(normal_, p - corner_[0]));

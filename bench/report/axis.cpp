@@ -32,7 +32,7 @@ int stepAbove(double value) {
   return roundStep(k) < value ? k + 1 : k;
 }
 
-/// At most nine digits, whatever the locale.
+/// Writes a number with at most nine digits. The locale does not matter.
 std::string decimal(double value) {
   std::array<char, 32> text{};
   const auto end =

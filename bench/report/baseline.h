@@ -33,7 +33,7 @@ struct BaselineChange {
   std::string note;  ///< what is missing
 };
 
-/// Settings match by scene (name and number of triangles), options, size, samples a draw, clock and OpenGL
+/// Settings match by scene (name and number of triangles), options, size, samples per draw, clock and OpenGL
 /// renderer; of several entries that match, the last counts. Slower is what takes more than (1 + tolerance)
 /// times as long.
 std::vector<BaselineChange> compareWithBaseline(const std::vector<BaselineEntry>& baseline,

@@ -8,7 +8,7 @@
 
 namespace fragtrace {
 
-/// In the units of the chart's labels.
+/// A point in the units of the chart's labels.
 struct ChartPoint {
   double x = 0;
   double y = 0;

@@ -61,7 +61,7 @@ std::string ratioText(const std::optional<PairedRatio>& ratio);
 /// Settings of one scene stand together; the first of each is what the others are compared with.
 std::string frameTable(const BenchMachine& machine, const std::vector<FrameSetting>& settings);
 
-/// One object a line and setting, "schema": 1. `command` is that of `bench`.
+/// One object per line and setting, "schema": 1. `command` is that of `bench`.
 std::string frameJson(const std::string& command, const BenchMachine& machine,
                       const std::vector<FrameSetting>& settings);
 

@@ -10,7 +10,7 @@ namespace fragtrace {
 
 /// The kind of noise that the other picture has.
 enum class CheckAgainst : uint8_t {
-  SameSamples,  ///< it was made of the very same samples: pixels are equal, but for rounding
+  SameSamples,  ///< it was made of the very same samples: pixels are equal, except for rounding
   OtherSamples,
   NoiseFree,
 };

@@ -43,7 +43,7 @@ struct StressReport {
 };
 
 std::string stressTable(const StressReport& report);
-/// One line of JSON a row.
+/// One line of JSON per row.
 std::string stressJson(const StressReport& report);
 
 }  // namespace fragtrace

@@ -25,7 +25,7 @@ struct ReportRow {
   const char* method;   ///< "flat", "iterative"
   const char* scene;    ///< file name
   const char* options;
-  double reportLow;   ///< milliseconds a picture; 0: the report has no such row
+  double reportLow;   ///< milliseconds per picture; 0: the report has no such row
   double reportHigh;  ///< the same where it is one figure
   int samples = 1;    ///< of a picture, in every pixel
   double faces = 0;   ///< for the chart; 0: not in it

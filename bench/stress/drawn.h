@@ -10,7 +10,7 @@ namespace fragtrace {
 /// A radiance that comes from everywhere, as an environment map.
 Environment whiteWorld(float radiance);
 
-/// Between the dice of one seed of the setting and those of the next.
+/// The distance between the random seeds of one seed of the setting and those of the next.
 constexpr uint32_t kSeedStride = 1000;
 
 /// The options of a stage with the setting's triangle test.

@@ -175,7 +175,7 @@ void addSpheres(Dice& dice, SceneSketch& sketch) {
   }
 }
 
-/// Dim, but for one bright texel.
+/// Dim, except for one bright texel.
 Image randomSky(Dice& dice) {
   Image sky{16, 8, {"R", "G", "B"}, {}, {}};
   for (int i = 0; i < 3 * sky.width * sky.height; ++i) sky.values.push_back(float(dice.between(0.05, 0.4)));

@@ -28,7 +28,7 @@ RenderOptions flatOptions(const StressSetting& setting, glm::ivec2 size, int spp
   return options;
 }
 
-/// The first of the seeds of a row of so many scenes; every kind of scene is among kSketchKinds that follow
+/// Returns the first seed of a row of `scenes` scenes. Every kind of scene is among kSketchKinds that follow
 /// on one another.
 uint32_t firstSeed(const StressSetting& setting, Form form, uint32_t scenes) {
   return 1000 * (uint32_t(form) + 1) + setting.seed * scenes;

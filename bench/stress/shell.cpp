@@ -106,7 +106,7 @@ StressOutcome scatterInSharedShells(const StressSetting& setting) {
   Dice dice(71 + setting.seed * kSeedStride);
   Scene scene = spikyMesh(dice);
   for (size_t i = 0; i < kShells; ++i) {
-    // Half of them near the origin, half far from it, and none within another.
+    // Half of the shells are near the origin, half far from it. None is within another.
     const glm::dvec3 place =
         glm::dvec3(20.0 * double(i), 0.0, 0.0) + (i % 2 == 0 ? glm::dvec3(0.0) : 1000.0 * dice.direction());
     const glm::dmat4 turned =

@@ -32,7 +32,7 @@ struct StressRow {
   double limit = 0.0;    ///< share of the cases that may fail
   bool fastToo = false;  ///< the fast triangle test is tried as well, for comparison
   std::function<StressOutcome(const StressSetting&)>
-      run;  ///< counts cases and failures; seconds are filled in by who calls
+      run;  ///< counts cases and failures; the caller fills in seconds
 };
 
 /// All rows, in the order of the table. A new one is one function and one line in stress.cpp.

@@ -18,7 +18,7 @@ const int kPrefixCaustic = 2;  // casters since (from the lamp: since the start)
 const int kPrefixSmooth = 3;   // delta lobes since, not all of casters (from the camera)
 
 /// The prefix of a camera path after a scattering. straight: it went straight through a thin wall. caster: the lobe
-/// makes caustics, be it a delta lobe or that of a glossy caster.
+/// makes caustics: it is a delta lobe or that of a glossy caster.
 int cameraPrefix(int prefix, bool first, bool delta, bool straight, bool caster) {
   if (first) return delta ? kPrefixNone : kPrefixDiffuse;
   if (straight || prefix == kPrefixNone) return prefix;

@@ -45,7 +45,8 @@ Guide guideOf(uvec4 bits) {
   return Guide(unpackUnorm4x8(bits.x), unpackSnorm4x8(bits.y).xyz, uintBitsToFloat(bits.z), unpackHalf2x16(bits.w));
 }
 
-/// The logarithm of the weight of a tap that is so many pixels away, 0 or less. It says how alike the surfaces are.
+/// Returns the logarithm of the weight of a tap, 0 or less, by the likeness of the surfaces. `away` is its offset in
+/// pixels.
 float likeness(Guide own, Guide other, vec2 away) {
   const float albedo = 0.5 / (0.08 * 0.08);
   const float normal = 0.5 / (0.3 * 0.3);

@@ -11,8 +11,7 @@ layout(location = 1) uniform int stride;
 layout(location = 0) out vec4 filtered;
 
 const float kDeviationsSquared = 2.5 * 2.5;  // difference of light, in standard deviations, squared
-// A quiet pixel assumes at most so many times its own variance for a noisy one, and the other way round, so that no
-// light is lost.
+// A quiet pixel assumes at most this many times its own variance for a noisy one, and the reverse, so no light is lost.
 const float kUnlike = 20.0;
 const float kRounding = 1e-6;                // rounding of light, squared: such a difference is no noise
 // Share of luminance that is added to the divisor of a channel's difference.

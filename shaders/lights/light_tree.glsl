@@ -13,8 +13,8 @@ vec3 unpackNormal(uint bits) {
   return vec3(float(bits & 0xffu), float(bits >> 8 & 0xffu), float(bits >> 16)) / float(127.0) - float(1.0);
 }
 
-/// A receiver of light is a point with the normal of its surface as packNormal has it, or kNoNormal where light comes
-/// from all around.
+/// A receiver of light is a point with the normal of its surface in the form of packNormal, or kNoNormal if light comes
+/// from all sides.
 struct Receiver {
   vec3 point;
   vec3 normal;
@@ -32,7 +32,7 @@ Receiver receiverOf(vec3 point, uint normal) {
 /// The row behind the emitters.
 int lightNodes() { return int(frame.emitterCount) * int(kEmitterRows); }
 
-/// One word of four a row.
+/// Reads a word of a list that has four words in a row.
 uint lightWord(int firstRow, int index) {
   uvec4 four = readEmitters(firstRow + index / 4);
   int which = index % 4;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Passes over pictures share this (src/render/picture_passes.h). Pictures are textures of one texel a pixel, of which
+// Passes over pictures share this (src/render/picture_passes.h). Pictures are textures of one texel per pixel, of which
 // the part from the corner counts.
 #include "layout.glsl"
 #include "luminance.glsl"

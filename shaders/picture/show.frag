@@ -5,7 +5,7 @@
 
 layout(binding = 0) uniform sampler2D raw;       // linear R, G, B, and alpha
 layout(binding = 1) uniform sampler2D filtered;  // linear R, G, B
-layout(location = 1) uniform float share;        // of the latter
+layout(location = 1) uniform float share;        // share of the filtered picture
 layout(location = 2) uniform bool background;    // the background is seen: nothing shows through
 layout(location = 3) uniform bool overWhite;     // the filtered picture is over white
 

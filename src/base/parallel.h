@@ -27,7 +27,7 @@ void runOnThreads(uint32_t count, const Work& work) {
   for (std::future<void>& other : others) other.get();
 }
 
-/// Calls work(0) ... work(count - 1), each once, on so many threads that are all busy to the end; by default
+/// Calls work(0) ... work(count - 1), each once, on several threads that are all busy to the end; by default
 /// as many as there are processors.
 template <typename Work>
 void forEachIndex(size_t count, const Work& work,

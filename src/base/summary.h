@@ -7,7 +7,7 @@
 
 namespace fragtrace {
 
-/// In the unit of the values. Quantiles are nearest rank: the ceil(q n)-th smallest of n values.
+/// A summary in the unit of the values. Quantiles are nearest rank: the ceil(q n)-th smallest of n values.
 struct Summary {
   double median = 0;
   double mean = 0;
@@ -16,7 +16,7 @@ struct Summary {
   double p95 = 0;  ///< the quantile of q = 0.95
 };
 
-/// In any order, without NaN; all zero when there are none.
+/// The values may be in any order, without NaN. The summary of no values is zero.
 Summary summarize(std::vector<double> values);
 
 /// Returns the slope of the line that fits (log x, log y) best by least squares of the errors in log y: the

@@ -20,7 +20,7 @@ std::string formatted(const char* format, Values... values) {
   return text;
 }
 
-/// At most six digits, as %g prints them.
+/// Writes a number with at most six digits, as %g does.
 inline std::string shortText(double value) { return formatted("%g", value); }
 
 /// "1 part", "2 parts"; the number is a text as printed.

@@ -32,7 +32,7 @@ inline double areaOf(const std::array<glm::dvec3, 3>& corners) {
   return 0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
 }
 
-/// Luminance of linear sRGB (ITU-R BT.709), as shaders/luminance.glsl has it.
+/// Luminance of linear sRGB (ITU-R BT.709). shaders/luminance.glsl computes the same.
 inline constexpr glm::dvec3 kLuminance{0.2126, 0.7152, 0.0722};
 
 inline double luminance(const glm::dvec3& color) { return glm::dot(color, kLuminance); }

@@ -37,14 +37,14 @@ std::string whyUnconfined() {
 }
 
 void Worker::start() {
-  // It is there if somebody has work for it, and may be busy for long.
+  // If the mutex is locked, the worker has started for somebody's work, which may take long.
   if (const std::unique_lock lock(mutex_, std::try_to_lock); lock) startLocked();
 }
 
 const std::string& Worker::whyNot() {
   if (whyNot_) return *whyNot_;
   try {
-    // One that lacks a library starts, and ends at once.
+    // A worker that lacks a library starts, and ends at once.
     perform({}, 1, {.cpuSeconds = 2});  // shared memory cannot be empty
     whyNot_ = "";
   } catch (const std::runtime_error& error) {

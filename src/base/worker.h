@@ -54,7 +54,8 @@ class Worker {
   const std::string& whyNot();
   bool works() { return whyNot().empty(); }
 
-  /// The worker's answer to the parts of the input, one behind the other, with room for so many bytes.
+  /// Returns the worker's answer to the parts of the input, one after the other. The answer has at most
+  /// `room` bytes.
   WorkResult perform(std::initializer_list<std::span<const uint8_t>> parts, uint64_t room,
                      const WorkLimits& limits);
 

@@ -184,7 +184,7 @@ double areaOfTop(const TopNode& top) {
          areaOfTop(*top.second);
 }
 
-// All of a tree, in parts.
+// The parts of a whole tree.
 struct WholeTree {
   std::unique_ptr<TopNode> top;
   std::vector<TopNode*> parts;

@@ -87,8 +87,8 @@ struct BvhQuality {
 };
 BvhQuality bvhQuality(const Bvh& bvh);
 
-/// Returns true if both levels together fit kMaxTwoLevelDepth: a tree over so many primitives and instances,
-/// and a tree over so many triangles of a mesh.
+/// Returns true if both levels together fit kMaxTwoLevelDepth: a tree over `topPrimitives` primitives and
+/// instances, and a tree over `meshTriangles` triangles.
 bool fitsTwoLevels(uint64_t topPrimitives, uint64_t meshTriangles);
 
 /// Without instances it has one level, as buildBvh(primitiveBounds()) builds it. Meshes of instances must

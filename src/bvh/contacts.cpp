@@ -117,7 +117,7 @@ void meetAll(const Bvh& bvh, const Bounds& box, const Meet& meet) {
 /// Moves by place, so that faces that meet stay together.
 class Moves {
  public:
-  /// Moves the place at least so far in this direction.
+  /// Moves the place in the move's direction, by at least its distance.
   void add(const glm::vec3& place, const Move& move) {
     dvec3& sum = moves_[keyOf(place)];
     sum += std::max(0.0, move.by - glm::dot(sum, move.direction)) * move.direction;

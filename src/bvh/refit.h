@@ -14,7 +14,7 @@ namespace fragtrace {
 struct RefittableTree {
   Bvh bvh;
   double builtCost = 0.0;  ///< BvhQuality::sahCost
-  size_t triangles = 0;    ///< the tree was built for so many,
+  size_t triangles = 0;    ///< number of triangles for which the tree was built
   size_t spheres = 0;      ///< number of spheres
 };
 

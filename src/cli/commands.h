@@ -23,7 +23,7 @@ RunCommand addBench(CLI::App& app);
 /// The command's sentence in --help.
 inline constexpr const char* kBenchSentence = "measure speed and error";
 
-/// In the order of --help.
+/// The commands, in the order of --help.
 inline constexpr std::array kCommandRows{
     CommandRow{"render", "render a scene to a file", addRender},
     CommandRow{"view", "show a scene in a window", addView},

@@ -109,7 +109,7 @@ std::vector<std::string> contentsOf(const SceneNode& node) {
   return words;
 }
 
-/// One line a node, below its parent and further in.
+/// Prints a line for each node, indented below its parent.
 void printNodes(const std::vector<SceneNode>& nodes) {
   std::printf("  nodes       %zu\n", nodes.size());
   for (const SceneNode& node : nodes) {

@@ -148,8 +148,8 @@ struct SequenceCounts {
   int skipped = 0;
 };
 
-/// Draws all pictures that are wanted. One that fails is said, and the others are drawn; but a stream ends
-/// there.
+/// Draws all pictures that are wanted. If one fails, a message says so and the others are drawn. A stream
+/// ends there.
 void drawFrames(const RenderOptions& options, SequenceRun& run, SequenceCounts& counts) {
   const SequenceOptions& sequence = options.output.sequence;
   const bool isStreamed = isStream(options.output);

@@ -85,7 +85,7 @@ int runView(const ViewOptions& asked) {
     const auto endsWithin = [&](auto time) { return end.wait_for(time) == std::future_status::ready; };
     const bool soon = failed || endsWithin(kPatience) || (tracer.saving() && endsWithin(kPatienceForFiles));
     if (!soon || (!failed && tracer.loading())) {
-      // Nothing is being written; what is left the system ends sooner than we could.
+      // Nothing is being written, and the system frees everything faster than this program could.
       std::fflush(nullptr);
       std::_Exit(interrupts() > 0 ? kInterruptedStatus : 0);
     }

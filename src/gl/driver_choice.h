@@ -30,10 +30,10 @@ void setVectorWidth(VectorWidth width);
 /// The width with which the driver computes, by GL_RENDERER; 0 if it does not say.
 int vectorWidthOf(const std::string& renderer);
 
-/// Tells llvmpipe not to optimise its programs, if that saves more time than drawing so many paths then takes
-/// longer (docs/measurements/benchmarks.md). Pictures are the same bits. It is for processes that draw once:
-/// it holds for all their contexts, and must be called before the first one is made. A GALLIVM_PERF that is
-/// already set stays. Returns true if llvmpipe was told.
+/// Tells llvmpipe not to optimise its programs, if that saves more time than the slower drawing of `paths`
+/// paths costs (docs/measurements/benchmarks.md). Pictures are the same bits. It is for processes that draw
+/// once: it holds for all their contexts, and must be called before the first one is made. A GALLIVM_PERF
+/// that is already set stays. Returns true if llvmpipe was told.
 bool preferQuickCompilation(double paths);
 
 }  // namespace fragtrace

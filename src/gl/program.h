@@ -16,10 +16,10 @@ struct StartedProgram {
   GlProgram program;
 };
 StartedProgram startProgram(const std::string& vertexText, const std::string& fragmentText);
-/// Waits for it. Throws RenderError with the driver's log, which names shader file and line.
+/// Waits for the program. Throws RenderError with the driver's log, which names shader file and line.
 GlProgram finished(StartedProgram started);
 
-/// Both in turn, of one program. Throws as finished() does.
+/// Starts and finishes one program. Throws as finished() does.
 GlProgram buildProgram(const std::string& vertexText, const std::string& fragmentText);
 GlProgram buildComputeProgram(const std::string& text);
 

@@ -18,8 +18,8 @@ int freeImageUnit(const ShaderVariant& variant) {
 }
 
 /// On llvmpipe the wavefront takes 0.25 to 0.45 s longer to compile, and saves 0.1 to 1.4 us of processor
-/// time a path. That is even at a quarter of a million paths in the room with the ball, and at two million in
-/// Suzanne.
+/// time per path. That is even at a quarter of a million paths in the room with the ball, and at two million
+/// in Suzanne.
 constexpr double kFewPaths = 2e6;
 /// Rays of so few steps hardly wait for each other: many-lights, of 274 nodes, takes equally long with both.
 constexpr size_t kSmallTree = 512;

@@ -25,7 +25,7 @@ std::optional<ImageFormat> formatOfBytes(std::span<const uint8_t> bytes);
 struct Encoding {
   bool half =
       false;  ///< .exr: 16-bit floats in the channels that isStoredAsHalf() names, 32-bit ones elsewhere
-  int pngBits = 8;  ///< .png: 8 or 16 bits a channel
+  int pngBits = 8;  ///< .png: 8 or 16 bits per channel
 
   bool operator==(const Encoding&) const = default;
 };

@@ -44,8 +44,8 @@ struct Image {
   const float* pixel(int x, int y) const { return values.data() + (size_t(y) * width + x) * channels.size(); }
 };
 
-/// 16 bits a channel, RGBA, unassociated alpha, not yet decoded from its transfer curve; the first row is the
-/// top.
+/// 16 bits per channel, RGBA, unassociated alpha, not yet decoded from its transfer curve; the first row is
+/// the top.
 struct TexelImage {
   int width = 0;
   int height = 0;
@@ -98,9 +98,9 @@ size_t writeImage(const std::filesystem::path& path, const Image& image, const E
 /// The same on standard output; the path tells the format, and is what messages call it.
 size_t printImage(const std::filesystem::path& path, const Image& image, const Encoding& encoding = {});
 
-/// To be asked before long work: throws what writeImage() would where the library of the format does not
-/// answer, or where there is no room for a picture of that size and so many channels that cannot be
-/// compressed.
+/// Must be called before long work. Throws the error that writeImage() would throw if the format's library
+/// does not answer, or if there is no room for a picture of that size with `channelCount` incompressible
+/// channels.
 void checkImageWritable(const std::filesystem::path& path, int width, int height, size_t channelCount,
                         const Encoding& encoding = {}, bool isFile = true);
 

@@ -31,7 +31,7 @@ int samplesOf(const RawRender& raw) {
   const SamplingOptions& o = raw.options.sampling;
   const bool adaptive = isAdaptive(raw.options);
   const int spp = raw.spp.value_or(adaptive ? kMostSamples : o.spp);
-  // Two halves of two: one sample says nothing of its error.
+  // The least is two halves of two samples, since one sample says nothing of its error.
   if (adaptive && o.sampleOffset > 0)
     throw UsageError("--sample-offset: adaptive pictures (--noise, --time) are no parts of a render");
   if (adaptive && spp < 4) throw UsageError("--spp: --noise and --time need at least 4");

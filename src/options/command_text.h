@@ -8,8 +8,8 @@
 
 namespace fragtrace {
 
-/// The `fragtrace render` command of a picture with so many samples in every pixel: all that makes the
-/// options' picture what it is. Every number reads back as itself.
+/// Returns the `fragtrace render` command of the options' picture, with all options that change it. Every
+/// number reads back as itself.
 std::string commandText(const RenderOptions& options);
 
 /// The options of a whole command of `render` or `view`, or, where the text begins with an option, the

@@ -12,7 +12,7 @@ namespace fragtrace {
 
 namespace {
 
-/// With a unit or without; none for anything else.
+/// Reads a size with a unit or without. Returns none for anything else.
 std::optional<uint64_t> sizeIn(std::string text) {
   if (text.starts_with('-')) return std::nullopt;
   try {

@@ -41,7 +41,7 @@ enum class OptionGroup : uint8_t {
 
 using AttributeValue = std::variant<bool, int, double, std::string>;
 
-/// All of an option that does not depend on its type.
+/// The properties of an option that do not depend on its type.
 struct OptionTraits {
   Effect effect = Effect::Picture;
   Renewal renewal = Renewal::None;

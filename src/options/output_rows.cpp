@@ -55,7 +55,7 @@ void chooseLayers(const std::vector<std::string>& names, OutputOptions& o) {
       o.aovVariance = true;
     } else if (const auto aov = Aov(index + 1); std::ranges::find(o.aovs, aov) == o.aovs.end()) {
       o.aovs.push_back(aov);
-      // All that a filter needs.
+      // A filter needs the layers `samples` and `variance`, too.
       if (aov == Aov::Guides) o.aovSamples = o.aovVariance = true;
     }
   }

@@ -8,10 +8,10 @@
 
 namespace fragtrace {
 
-/// Both are to converge to one picture.
+/// Returns true if both converge to one picture.
 bool showSame(const RenderOptions& a, const RenderOptions& b);
 
-/// And their samples are the same.
+/// Returns true if both converge to one picture and have the same samples.
 bool drawSameSamples(const RenderOptions& a, const RenderOptions& b);
 
 /// Why such a picture has no noise that a filter could take out; empty: it has.

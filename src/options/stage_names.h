@@ -9,7 +9,7 @@
 
 namespace fragtrace {
 
-/// In the order of stageRows(); `cumulativeOnly`: those that --stage takes.
+/// Returns the names in the order of stageRows(). `cumulativeOnly`: only those that --stage takes.
 std::vector<std::string> stageNames(bool cumulativeOnly);
 
 /// Throws UsageError.

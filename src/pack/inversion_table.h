@@ -35,7 +35,8 @@ struct InversionEntry {
   uint32_t end = 0;    ///< the last number that draws this index
 };
 
-/// One entry an index. Weights are finite and not negative; when all are zero, every index is equally likely.
+/// One entry per index. Weights are finite and not negative; when all are zero, every index is equally
+/// likely.
 std::vector<InversionEntry> makeInversionEntries(std::span<const double> weights);
 
 }  // namespace fragtrace

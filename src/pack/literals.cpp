@@ -30,7 +30,7 @@ std::string chosen(const std::string& index, const std::vector<std::optional<uin
          chosen(index, values, mid, to) + ")";
 }
 
-/// The row of the index-th entry of a buffer that holds `rows` rows an entry.
+/// The row of the index-th entry of a buffer that holds `rows` rows per entry.
 std::string chosenRow(const Words& words, const std::string& index, size_t count, size_t rows, size_t row,
                       const std::vector<bool>& used) {
   std::string text = "uvec4(";

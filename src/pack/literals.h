@@ -12,7 +12,7 @@ namespace fragtrace {
 /// it can.
 std::string whyNoLiterals(const Scene& scene, const GpuScene& packed);
 
-/// Returns true if drawing so many paths with every triangle as a literal takes less time than walking the
+/// Returns true if drawing `paths` paths with every triangle as a literal takes less time than walking the
 /// tree. It weighs the expected instructions of both and the longer compilation (docs/design/traversal.md).
 /// Scenes with spheres, or with too many faces, materials or emitters to choose from, are never drawn so.
 bool paysAsLiterals(const Scene& scene, const Bvh& bvh, const GpuScene& packed, double paths);

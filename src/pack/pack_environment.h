@@ -15,7 +15,7 @@ enum class EnvironmentDraws {
 
 struct PackedEnvironment {
   Words texels;     ///< radiance, and the density that shaders/environment.glsl draws by (mean 1)
-  Words inversion;  ///< empty for Nothing, else a row a step: as many steps as the map has rows, then
+  Words inversion;  ///< empty for Nothing, else a row per step: as many steps as the map has rows, then
                     ///< kMostEnvironmentSteps or half as many as it has columns for each row
   glm::ivec2 size{0};
   double power =
@@ -32,7 +32,7 @@ void appendBackdrop(const Image& image, Words& texels);
 /// Luminance that the sun sends to a disk of unit radius.
 double powerOf(const SunDisc& sun);
 
-/// Appends the rows of a sun before a map of which so much is drawn (shaders/sky/sun.glsl).
+/// Appends the rows of a sun before a map of which `drawnPower` is sampled (shaders/sky/sun.glsl).
 void appendSun(const SunDisc& sun, double drawnPower, Words& texels);
 
 /// An equirectangular map with R, G, B of at most 65,535 x 65,535 texels, with a sun of that power before it.

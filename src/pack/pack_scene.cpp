@@ -143,7 +143,7 @@ void appendMaterial(Words& words, const Material& m, double unit, double emitter
     throw std::logic_error("a packed material has other rows than layout.glsl says");
 }
 
-/// One row a cell of a table with the values at its four corners (shaders/energy.glsl).
+/// One row per cell of a table with the values at its four corners (shaders/energy.glsl).
 void appendCells(Words& words, const EnergyTable& table) {
   constexpr size_t kNodes = EnergyTable::kNodes;
   for (size_t j = 0; j < EnergyTable::kCells; ++j) {
@@ -154,7 +154,7 @@ void appendCells(Words& words, const EnergyTable& table) {
   }
 }
 
-/// The cells of the loss, then one row a cell of the average loss.
+/// The cells of the loss, then one row per cell of the average loss.
 void appendEnergyTable(Words& words) {
   const GgxEnergyTable& table = ggxEnergyTable();
   appendCells(words, table.loss);
@@ -375,7 +375,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
 
   packMaterials(scene, bvh, variant, emitters.materialPdf, casters, textures, packed);
   if (kept != nullptr && (keepsGeometry || !kept->textures.empty())) {
-    if (!textures.allKnown()) {  // one that no picture before has shown: all of them are placed anew
+    if (!textures.allKnown()) {  // one that no picture before has shown: all of them are placed again
       kept->textures.clear();
       kept->geometry = false;
       if (!packed.unchanged[kEnvironmentBinding]) kept->environment.reset();

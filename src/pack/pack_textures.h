@@ -7,7 +7,8 @@
 
 namespace fragtrace {
 
-/// The largest width and height at which all of the scene's pictures together take at most so many bytes.
+/// Returns the largest width and height at which all of the scene's pictures together take at most
+/// `mostBytes`.
 int textureSideWithin(const Scene& scene, int64_t mostBytes);
 
 /// Decodes textures on demand into one array of texels (RGBA as linear half floats). An image is decoded once

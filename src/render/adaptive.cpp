@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kBlock = 8;          // pixels a side that share one number of samples
-constexpr int kTile = 256;         // pixels a side of one draw
+constexpr int kTile = 256;         // pixels per side of one draw
 constexpr int kFirstSamples = 32;  // samples of each half
 
 /// One block of pixels: its samples in each half, and the worth of the next ones.

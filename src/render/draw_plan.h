@@ -47,20 +47,19 @@ inline std::vector<Work> tilesOf(const Work& work, glm::ivec2 tile) {
   return tiles;
 }
 
-/// One round over the picture: every tile of this size is advanced by so many samples.
+/// One round over the picture: each tile of size `tile` gets more samples.
 struct DrawPlan {
   glm::ivec2 tile{0};
   int samples = 1;
 };
 
 /// The plan whose draws take about targetMs at a measured cost of msPerSample for a sample of a pixel (<= 0:
-/// not yet known, a careful start). It has at most `remaining` samples, at most `most` samples a draw, and at
-/// most `mostPixels` a tile.
-/// Small tiles with several samples are preferred to large tiles with one: a pixel whose path ends early
-/// begins its next sample instead of waiting for its neighbours.
+/// not yet known, a careful start). It has at most `remaining` samples, at most `most` samples per draw, and
+/// at most `mostPixels` a tile. Small tiles with several samples are preferred to large tiles with one: a
+/// pixel whose path ends early begins its next sample instead of waiting for its neighbours.
 inline DrawPlan planDraws(glm::ivec2 picture, int remaining, int most, int mostPixels, double msPerSample,
                           double targetMs) {
-  constexpr int kSmallest = 128;  // pixels a side: some tiles of 64 for each core of a software rasteriser
+  constexpr int kSmallest = 128;  // pixels per side: some tiles of 64 for each core of a software rasteriser
   constexpr double kEnoughSamples = 16.0;
   const double affordable = msPerSample > 0.0 ? targetMs / msPerSample : double(kSmallest) * kSmallest;
   const double pixels = double(picture.x) * picture.y;

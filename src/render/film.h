@@ -9,8 +9,8 @@
 
 namespace fragtrace {
 
-/// The size of the film for which programs are compiled. llvmpipe compiles anew for sizes that are a power of
-/// two, which pictures seldom have.
+/// The size of the film for which programs are compiled. llvmpipe compiles again for sizes that are a power
+/// of two, which pictures seldom have.
 inline constexpr glm::ivec2 kCompiledFor{7};
 
 /// Sum, compensation and counts of every pixel on the device (shaders/film.glsl), and the light of light
@@ -31,7 +31,7 @@ class Film {
   FilmPixels read() const;
 
   /// save() returns all of the film, and load() restores it in a film of that size. Samples drawn after that
-  /// have the bits that they would have had. Paths that were suspended between draws begin anew.
+  /// have the bits that they would have had. Paths that were suspended between draws begin again.
   FilmState save() const;
   void load(const FilmState& state);
 

@@ -11,11 +11,11 @@ namespace {
 /// Light paths of a draw along each side. It is the same for every picture and driver, so that sums have the
 /// same bits.
 constexpr int kRecordSide = 256;
-/// A lane draws at most so many light paths of a column one after the other, so that no lane waits for the
+/// A lane draws at most this many light paths of a column one after the other, so that no lane waits for the
 /// longest path of the others. A row of lanes is as wide as the tile, since llvmpipe's threads share squares
 /// of 64 pixels, and rows are even, since it draws two at a time.
 constexpr int kSoftwarePathsPerLane = 16;
-/// A pass has one light path for so many pixels of the picture: caustics are less noisy than the rest even
+/// A pass has one light path for this many pixels of the picture: caustics are less noisy than the rest even
 /// with fewer.
 constexpr int kPixelsPerPath = 4;
 constexpr int kMargin = 4;  // pixels about the film; filters reach 2

@@ -5,8 +5,8 @@
 
 namespace fragtrace {
 
-/// A noisy picture on the device with its guides: means of its samples, a texel a pixel, in textures that may
-/// be larger.
+/// A noisy picture on the device with its guides: means of its samples, a texel per pixel, in textures that
+/// may be larger.
 struct NoisyTextures {
   GlTexture radiance;  ///< linear R, G, B; variance of the mean's luminance (Layers::variance)
   GlTexture counts;    ///< samples; one observation of that variance (observedVariance()), negative: none

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Textures of one texel a pixel: writing them, and reading them back from the device.
+// Textures of one texel per pixel: writing them, and reading them back from the device.
 #pragma once
 
 #include <algorithm>
@@ -20,15 +20,15 @@ inline GlTexture makePictureTexture(GLenum format, glm::ivec2 size) {
   return texture;
 }
 
-/// Returns true if a picture of that size has no room, which then grows. The content must then be made anew.
+/// Returns true if a picture of that size has no room, which then grows. The content must then be made again.
 inline bool grows(glm::ivec2& room, glm::ivec2 size) {
   if (glm::all(glm::lessThanEqual(size, room))) return false;
   room = glm::max(size, room);
   return true;
 }
 
-/// Reads all texels, row by row in the order of the device, of a format with so many channels of that type.
-/// `where` names the step in errors, as for checkGl().
+/// Reads all texels of a format with `channels` channels of type `type`, row by row in the order of the
+/// device. `where` names the step in errors, as for checkGl().
 template <typename Value>
 std::vector<Value> readPictureTexture(const GlTexture& texture, GLenum format, int channels, GLenum type,
                                       glm::ivec2 size, const char* where) {

@@ -30,7 +30,7 @@ constexpr double kSoftwareDrawMs = 200.0;
 constexpr double kHardwareDrawMs = 20.0;
 
 constexpr int kTinyTile = 8;        // pixels
-constexpr uint32_t kGroupSide = 8;  // lanes a side of a work group, as in trace.comp
+constexpr uint32_t kGroupSide = 8;  // lanes per side of a work group, as in trace.comp
 
 layout::Fog packFog(const Fog& fog, const LocalSpace& space) {
   const double falls = std::isfinite(fog.height) ? space.unit / fog.height : 0.0;

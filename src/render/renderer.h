@@ -193,7 +193,8 @@ class Renderer {
   bool finishTile(const RenderPass& pass, Flight flight, const std::function<bool()>& goOn);
   bool addParts(Film& film, const View& view, std::span<const Work> parts, RenderTimes& times,
                 const Progress& progress);
-  /// Traces light paths until the film has so many passes, if its picture has any; false if it was stopped.
+  /// Traces light paths until the film has `passes` passes, if its picture has any. Returns false if it was
+  /// stopped.
   bool addLightPaths(Film& film, const View& view, int passes, const GoOn& goOn);
   void compileLightPaths(Film& film, const View& view);
   /// Draws a tile of light paths of the pass with this index. `pass` has the film to which they are added.
@@ -203,7 +204,7 @@ class Renderer {
   bool storeReservoirs(const Film& film, const View& view, int index, const GoOn& goOn);
   /// Draws the records of a tile into the film of splats, through the pixel filter.
   void splat(const RenderPass& pass, glm::ivec2 tile);
-  /// Allows more samples a draw as long as they fit into the step budget.
+  /// Allows more samples per draw as long as they fit into the step budget.
   void adaptPace(int samples);
 
   /// The amount of a variant's work that goes into one draw.
@@ -227,7 +228,8 @@ class Renderer {
   std::vector<glm::vec4> casters_;     ///< the casters of GpuScene
   float sunChance_ = 0.0f;             ///< probability that a light path of the frame begins at the sun
   std::optional<Film> lightPathFilm_;  ///< two texels per light path (storeRecord of film.glsl)
-  std::optional<Film> reservoirs_;  ///< a reservoir a pixel, for this sample (shaders/reuse/neighbours.glsl)
+  std::optional<Film>
+      reservoirs_;  ///< a reservoir per pixel, for this sample (shaders/reuse/neighbours.glsl)
   GlBuffer frameBuffer_;
   GlBuffer fogBuffer_;
   GlBuffer shutterBuffer_;

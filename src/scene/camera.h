@@ -75,7 +75,7 @@ Camera withOverrides(Camera camera, const CameraOverrides& overrides, const Boun
 /// metres.
 double focalLengthOf(double viewAngle);
 
-/// A camera with a narrower lens, so that the middle of its picture is so many times as large.
+/// Returns a camera with a narrower lens, so that the middle of its picture is `zoom` times as large.
 Camera zoomed(Camera camera, double zoom);
 
 /// A point on the axis about which a turntable turns: the focal point asked for, else that of the camera,

@@ -137,8 +137,8 @@ std::pair<Group, Group> halves(const Group& group) {
   return parts;
 }
 
-/// At most so many balls around these. Groups are divided breadth first, so that the largest ones are divided
-/// before their number reaches the limit.
+/// Returns at most `most` balls around these. Groups are divided breadth first, so that the largest ones are
+/// divided before their number reaches the limit.
 std::vector<Ball> fewBalls(std::vector<Ball> all, size_t most) {
   if (all.empty()) return {};
   std::vector<Group> groups{{std::move(all), {}}};

@@ -31,8 +31,8 @@ struct Ball {
   float radius = 0.0f;
 };
 
-/// At most so many balls that together enclose all casters; casters near each other share one. casters: the
-/// kind of each material.
+/// Returns at most `most` balls that together enclose all casters; casters near each other share one.
+/// `casters` is the kind of each material.
 std::vector<Ball> casterBalls(const Scene& scene, const std::vector<Caster>& casters, size_t most);
 
 }  // namespace fragtrace

@@ -41,7 +41,7 @@ constexpr uint32_t kNone = 0xffffffffu;
 
 /// The triangles around each place: vertices at the same place count as one.
 struct Fans {
-  std::vector<uint32_t> place;   ///< the place of each corner, three a triangle
+  std::vector<uint32_t> place;   ///< the place of each corner, three per triangle
   std::vector<uint32_t> first;   ///< the start of each place in `corner`; one more at the end
   std::vector<uint32_t> corner;  ///< triangle * 3 + corner
 };

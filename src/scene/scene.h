@@ -39,7 +39,7 @@ inline std::string nameOf(const EncodedImage& image) {
   return isFile ? image.name + " (" + image.place + ")" : image.name;
 }
 
-/// The bytes of a picture on the device: four half floats a texel.
+/// The bytes of a picture on the device: four half floats per texel.
 inline size_t texelBytes(const EncodedImage& image) { return size_t(image.width) * size_t(image.height) * 8; }
 
 enum class Wrap : uint8_t { Repeat, ClampToEdge, MirroredRepeat };
@@ -181,7 +181,7 @@ struct Material {
   }
   bool scattersAtAll() const { return scatterStrength > 0.0f && multiscatterColor != glm::vec3(0.0f); }
   bool scattersInside() const { return attenuates() && scattersAtAll(); }
-  /// And its boundary does not bend light (kEqualIndices of shaders/bsdf.glsl).
+  /// Returns true if also the boundary does not bend light (kEqualIndices of shaders/bsdf.glsl).
   bool scattersMatched() const { return scattersInside() && transmissive() && std::abs(ior - 1.0f) < 0.001f; }
   /// A thin wall whose light comes through diffusely, at least a part of it.
   bool scattersThinly() const { return transmissive() && !solid() && scatterStrength > 0.0f; }
@@ -358,7 +358,7 @@ struct Scene {
   LocalSpace space;
   Vertices vertices;
   std::vector<Triangle> triangles;
-  std::vector<uint32_t> insets;  ///< one a triangle, or none (creaseInsets of creases.h)
+  std::vector<uint32_t> insets;  ///< one per triangle, or none (creaseInsets of creases.h)
   std::vector<Sphere> spheres;
   std::vector<Strokes> strokes;
   uint32_t strokeTriangles = 0;  ///< triangles that addStrokes() made of them: the last ones, in local space

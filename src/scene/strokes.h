@@ -20,7 +20,7 @@ size_t trianglesOf(const Strokes& strokes);
 /// hexagonal prism with pyramids at both ends; the hexagons have the area of the circle. The width of a
 /// segment changes evenly from one end to the other. Strokes behind the camera are as wide as at the same
 /// distance before it. Materials follow glTF 2.0 (section 3.7.2.1): without textures of normals, and unlit
-/// where no normals were given. Sets scene.insets anew. Does nothing to a scene without strokes.
+/// where no normals were given. Sets scene.insets again. Does nothing to a scene without strokes.
 void addStrokes(Scene& scene, const Camera& camera, glm::ivec2 pictureSize, double pixels);
 
 }  // namespace fragtrace

@@ -11,15 +11,16 @@ inline constexpr int kInterruptedStatus = 130;  ///< exit status of a program th
 /// 130.
 void countInterrupts();
 
-/// The same, but the second ends the program with status 130 at once.
+/// Does the same, but the second signal ends the program with status 130 at once.
 void countOneInterrupt();
 
-/// The number of interruptions of the program: one means stop and write what is finished, more mean write
-/// nothing. In a thread with an InterruptSource it is that source's number.
+/// Returns the number of interruptions of the program: one means stop and write what is finished, more mean
+/// write nothing. In a thread with an InterruptSource it is that source's number.
 int interrupts();
 
-/// While it lives, interrupts() of the thread that made it are counted there and not by signals: for
-/// programs that handle these themselves. One a thread; the counter must outlive it.
+/// While an object of this class exists, interrupts() in the thread that made it returns `counter`. Signals
+/// are not counted then: the program handles them itself. A thread has at most one, and the counter must
+/// outlive it.
 class InterruptSource {
  public:
   explicit InterruptSource(const std::atomic<int>& counter);
@@ -28,14 +29,14 @@ class InterruptSource {
   InterruptSource& operator=(const InterruptSource&) = delete;
 };
 
-/// Until then: either ends the program at once with status 130 and a line that says so, as nothing has been
-/// written yet.
+/// From now until countInterrupts() or countOneInterrupt(), these signals end the program at once with status
+/// 130 and a line that says so, as nothing has been written yet.
 void exitOnInterrupt();
 
 /// From now on a crash, such as Mesa's when an allocation fails, ends with a message and status 1; so does a
 /// library that ends the process by exit(), as Mesa's parser does without memory.
 void sayWhenCrashing();
-/// Before main() returns: the end is the program's own.
+/// Must be called before main() returns: from now on, exit() is not an error.
 void endAsMeant();
 
 }  // namespace fragtrace

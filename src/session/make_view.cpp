@@ -26,7 +26,7 @@ uint32_t materialOf(const Scene& scene, uint32_t primitive) {
 std::optional<uint32_t> solidAround(const Scene& scene, const Bvh& bvh, const glm::dvec3& point) {
   if (bvh.leaves.empty()) return std::nullopt;
   const ExactTracer tracer(scene, bvh);
-  // Along no axis, so that it runs along no wall.
+  // The direction is along no axis, so that it runs along no wall.
   const glm::dvec3 direction = glm::normalize(glm::dvec3(0.2113, 0.9371, 0.2776));
   std::map<uint32_t, int> entered;
   glm::dvec3 origin = point;

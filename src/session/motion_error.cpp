@@ -13,7 +13,7 @@ namespace fragtrace {
 
 namespace {
 
-constexpr double kBeside = 1.1;  ///< points within so many times the picture's size still count
+constexpr double kBeside = 1.1;  ///< points within this many times the picture's size still count
 
 /// Places of points in a camera's picture, in pixels.
 class PixelMeasure {

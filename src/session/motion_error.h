@@ -20,8 +20,8 @@ struct Moment {
 using Moments = std::map<double, Moment>;
 
 /// Pixels by which the most distant point that the camera sees is off its way at any of these moments, if
-/// surfaces move in so many straight segments; the moments between which they move are among them. Points of
-/// triangles that reach beyond the picture count where they are in it. `camera` is that of the picture.
+/// surfaces move in `segments` straight segments; the moments between which they move are among them. Points
+/// of triangles that reach beyond the picture count where they are in it. `camera` is that of the picture.
 double surfacesOff(const Moments& moments, uint32_t segments, const Scene& scene, const Camera& camera,
                    glm::ivec2 size);
 

@@ -21,17 +21,17 @@ struct NamedOutput {
 /// Returns true if a path means standard output, for options that allow it.
 bool isStandardOutput(const std::filesystem::path& path);
 
-/// Before long work: throws RenderError when an output cannot be written, UsageError when one is a file that
-/// is read, two are one file, or one is "-" and not for standard output.
+/// Must be called before long work. Throws RenderError when an output cannot be written, UsageError when one
+/// is a file that is read, two are one file, or one is "-" and not for standard output.
 void checkOutputs(std::span<const NamedOutput> outputs, std::span<const std::filesystem::path> inputs);
 
 /// Makes a file hold this text, whole or not at all, or prints it where the path is that of standard output;
 /// nothing when there is no path. Throws RenderError.
 void replaceText(const std::filesystem::path& path, const std::string& text);
 
-/// The files that a render reads, but for the pictures that the scene refers to.
+/// Returns the files that a render reads, except for the pictures to which the scene refers.
 std::vector<std::filesystem::path> inputsOf(const RenderOptions& options);
-/// Those pictures, once the scene is loaded.
+/// Returns the pictures that the scene names, once it is loaded.
 std::vector<std::filesystem::path> inputsOf(const Scene& scene);
 /// Returns true if the output holds layers and attributes: an .exr, or memory if no file is named.
 bool holdsLayers(const RenderOptions& options);

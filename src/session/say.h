@@ -13,8 +13,8 @@ namespace fragtrace {
 /// Says a line on stderr unless quiet. From any thread.
 void say(const RenderOptions& options, const std::string& text);
 
-/// From now on every line goes to the listener, too, be it quiet or not; stderr has each only once, since
-/// what a viewer does again and again says the same. The listener is called from any thread.
+/// From now on every line also goes to the listener, quiet or not. stderr gets each line only once, since a
+/// viewer repeats its work and its messages. The listener is called from any thread.
 void passOnWhatIsSaid(std::function<void(const std::string&)> listener);
 
 /// While an object of this class exists, say() of the thread that made it appends to `lines`, and the text

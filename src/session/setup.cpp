@@ -337,7 +337,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   const Scene& scene = loaded.scene;
   checkOutputs(outputsOf(options), inputsOf(scene));
   const OwnLight light = lightOf(options, scene);
-  std::vector<std::string> ofEnvironment;  // warnings, which are said as they come
+  std::vector<std::string> ofEnvironment;  // warnings, which are printed at once
   const auto settleEnvironment = [&] {
     PhaseTimer timer("sky");
     loaded.environment = before.environment ? std::move(*before.environment)

@@ -88,7 +88,7 @@ FittedPoints pointsToFit(const Scene& scene, const Environment& environment, con
 /// Camera paths that the picture takes; infinite where time or noise ends it.
 double pathsOf(const RenderOptions& options, glm::ivec2 size);
 
-/// Fog as the options have it, round a scene of these bounds.
+/// Makes fog from the options, around a scene with these bounds.
 Fog fogOf(const FogOptions& options, const BoundsDouble& bounds);
 
 /// Returns the part of the options that needs neither another program nor other buffers.

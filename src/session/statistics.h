@@ -28,7 +28,7 @@ struct AdaptiveStatistics {
 struct DenoiseStatistics {
   std::string filter;      ///< name and version; empty: none ran
   std::string skipped;     ///< why none ran
-  double compileMs = 0.0;  ///< programs, built anew
+  double compileMs = 0.0;  ///< programs, built again
   double filterMs = 0.0;   ///< wall clock, with the way to the device and back
   std::string library;     ///< the file of the library that filtered; empty: the built-in filter
   double loadMs = 0.0;     ///< time to open the library

@@ -74,7 +74,7 @@ Phase buildProgram(ProgramCache& programs, const ShaderVariant& variant) {
   return timer.end();
 }
 
-/// Over the words of each array, and over these hashes; arrays that are unchanged have theirs.
+/// Returns a hash of the hashes of all arrays. `arrays` already has those of unchanged arrays.
 uint64_t sceneHash(const GpuScene& scene, std::array<uint64_t, layout::kSceneBufferCount>& arrays) {
   for (size_t i = 0; i < arrays.size(); ++i) {
     if (!scene.unchanged[i]) arrays[i] = hashOf(scene.buffers[i]);

@@ -35,7 +35,7 @@ struct AovRow {
   std::string_view channels;  ///< a letter each, behind the name and a dot
 };
 
-/// In the order of Aov.
+/// The layers, in the order of Aov.
 inline constexpr std::array<AovRow, 16> kAovRows{{{"", ""},
                                                   {"albedo", "RGB"},
                                                   {"normal", "XYZ"},
@@ -85,7 +85,7 @@ struct DebugViewRow {
   Aov aov;  ///< drawn for it; None: it shows counts, of samples drawn as ever or of nodes
 };
 
-/// In the order of DebugView.
+/// The debug views, in the order of DebugView.
 inline constexpr std::array<DebugViewRow, 10> kDebugViewRows{{
     {"none", "Radiance", "the picture itself", Aov::None},
     {"geometric-normal", "Geometric normal", "0.5 + 0.5 N of the triangle, towards the camera",

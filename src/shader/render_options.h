@@ -48,7 +48,7 @@ inline constexpr std::array<std::string_view, 3> kTuneNames{"auto", "software", 
 /// (docs/design/platforms.md).
 enum class VectorWidth : uint8_t { Auto, Bits256, Bits512 };
 inline constexpr std::array<std::string_view, 3> kVectorWidthNames{"auto", "256", "512"};
-/// The way in which paths share the lanes of a draw: one pixel a lane, or many, whose rays are traced
+/// The way in which paths share the lanes of a draw: one pixel per lane, or many, whose rays are traced
 /// together (shaders/wavefront.glsl).
 enum class Schedule : uint8_t { Auto, Megakernel, Wavefront };
 inline constexpr std::array<std::string_view, 3> kScheduleNames{"auto", "megakernel", "wavefront"};
@@ -189,7 +189,7 @@ struct FogOptions {
   bool operator==(const FogOptions&) const = default;
 };
 
-/// The files that are written, what they show, and what is said meanwhile.
+/// The files that are written, their content, and messages meanwhile.
 struct OutputOptions {
   std::filesystem::path file;
   std::string format;  ///< format of standard output

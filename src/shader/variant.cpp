@@ -92,7 +92,7 @@ void dropIdle(ShaderVariant& v) {
     off(Stage::Refraction);
     off(Stage::Schlick);
   }
-  // Only shadow rays would find its light.
+  // Without shadow rays, no light is found through thin glass.
   if (!stage(Stage::Shadows)) drop(v.traits, {Trait::ThinGlass});
   if (!hasLamps(v.traits)) drop(v.traits, {Trait::LightTree});
   if (!hasLamps(v.traits) && !samplesSun(v.traits)) drop(v.traits, {Trait::Caustics});

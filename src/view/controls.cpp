@@ -70,7 +70,7 @@ void chooseSceneCamera(ViewState& state, int index) {
   state.posed = false;
 }
 
-/// Moves on by so many cameras in the file's order, and starts again at the end.
+/// Moves on by `further` cameras in the file's order, and starts again at the end.
 void nextSceneCamera(ViewState& state, int further) {
   const int count = state.scene ? int(state.scene->cameras.size()) : 0;
   if (count > 0) chooseSceneCamera(state, (std::max(state.sceneCamera, 0) + further + count) % count);

@@ -10,7 +10,8 @@
 
 namespace fragtrace {
 
-/// Environment maps beside the scene and beside the one that lights it now, by name; at most so many.
+/// Returns environment maps beside the scene and beside the one that lights it now, by name, at most
+/// kMostEnvironments.
 inline constexpr size_t kMostEnvironments = 200;
 std::vector<std::filesystem::path> environmentsNear(const RenderOptions& options);
 

@@ -79,7 +79,7 @@ struct SharedTexture {
   unsigned texture = 0;
   void* ready = nullptr;  ///< the GLsync after which it holds the picture; the tracing thread's
 };
-/// One that the window shows, one that waits for it, one that is drawn.
+/// There are three textures for a side: one is shown, one waits, one is drawn.
 inline constexpr size_t kSlots = 3;
 
 /// A finished picture of one side.
@@ -180,7 +180,7 @@ struct EnvironmentThumbnail {
 
 /// News for the window since it asked last.
 struct Delivery {
-  std::vector<TracedPicture> pictures;  ///< one a side at most
+  std::vector<TracedPicture> pictures;  ///< one per side at most
   std::optional<ViewedScene> scene;     ///< a new one
   std::optional<PickAnswer> pick;
   std::optional<PosedScene> posed;

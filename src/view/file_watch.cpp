@@ -7,7 +7,7 @@ namespace fragtrace {
 
 namespace {
 
-constexpr int kLooksAway = 4;  // a file is gone if so many looks in turn miss it
+constexpr int kLooksAway = 4;  // a file is gone if this many looks in turn miss it
 
 }  // namespace
 

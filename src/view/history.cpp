@@ -45,7 +45,7 @@ bool differs(Settings a, Settings b) {
   return a != b;
 }
 
-/// All but what has to be loaded.
+/// Restores all settings except those that need loading.
 void take(ViewState& state, const Settings& settings) {
   const std::array<RenderOptions, 2> before = std::exchange(state.sides, settings.sides);
   for (size_t i = 0; i < 2; ++i) {

@@ -23,7 +23,7 @@ struct Settings {
   bool operator==(const Settings&) const = default;
 };
 
-/// At most so many steps back; older ones are forgotten.
+/// The limit of steps back. Older ones are forgotten.
 inline constexpr size_t kMostSteps = 200;
 
 struct History {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sets of stages with a name, for those who do not want to choose each.
+// Named sets of stages, for users who do not want to choose each one.
 #pragma once
 
 #include <array>

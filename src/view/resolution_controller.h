@@ -9,7 +9,7 @@
 
 namespace fragtrace {
 
-/// The steps that a resolution may be at: a pixel drawn stands for so many a side.
+/// The steps that a resolution may be at: the width and height, in pixels of the window, of a drawn pixel.
 inline constexpr std::array<double, 5> kResolutionSteps{1.0, 1.5, 2.0, 3.0, 4.0};
 
 /// Its state, changed by the functions below alone. Steps are indices into kResolutionSteps.
@@ -36,17 +36,17 @@ ResolutionController controllerFor(bool software);
 /// that it has (>= 1) and the time that they took.
 int samplesThatFit(const ResolutionController& controller, double elapsedMs, int samples);
 
-/// Something else is drawn from now on, whose pixels take so long (0: not known): its first frame is at the
-/// step that keepMoving() would choose.
+/// Must be called when something else is drawn, whose pixels take `msPerPixel` (0: not known). Its first
+/// frame is at the step that keepMoving() would choose.
 void drawSomethingElse(ResolutionController& controller, glm::ivec2 full, double msPerPixel);
 
 /// Nothing moves any more: the next frame is one step finer than the last, or at full resolution if that is
 /// expected to take less than a tenth of a second.
 void refine(ResolutionController& controller, glm::ivec2 full);
 
-/// A frame of so many pixels took so long. While moving, the step becomes coarser after two frames of three
-/// beyond the target, or after one of twice its time, and finer after eight that would all have held it with
-/// a fifth to spare. Times that are not above zero count nothing.
+/// Must be called after a frame of `drawn` pixels that took `ms`. While moving, the step becomes coarser
+/// after two frames of three beyond the target, or after one of twice its time, and finer after eight that
+/// would all have held it with a fifth to spare. Times that are not above zero count nothing.
 void frameTaken(ResolutionController& controller, glm::ivec2 full, glm::ivec2 drawn, double ms);
 
 }  // namespace fragtrace

@@ -15,8 +15,8 @@ inline constexpr size_t kMostNameCharacters = 60;  ///< characters of one name a
 inline constexpr size_t kMostLineCharacters = 400;
 inline constexpr size_t kMostPageCharacters = 4000;
 
-/// The text, if it has at most so many characters (UTF-8); else its beginning and its end, with what is left
-/// out counted between them. Other control characters than line feeds become spaces.
+/// Returns the text if it has at most `most` characters (UTF-8); else its beginning and its end, with what is
+/// left out counted between them. Other control characters than line feeds become spaces.
 std::string shownText(std::string_view text, size_t most);
 
 /// Text for the command line, as a window says it: without options in brackets, " (--option)".

@@ -19,7 +19,7 @@ struct Playback {
   double at = -1.0;  ///< the time of the latest step, in seconds; negative: the animation did not play then
 };
 
-/// The picture enlarged, without drawing it anew, so that its pixels can be told apart.
+/// The picture enlarged, without drawing it again, so that its pixels can be told apart.
 struct Magnifier {
   int steps = 0;           ///< each doubles; 0: pixel by pixel
   glm::dvec2 center{0.5};  ///< the place of the picture in the middle: parts of width and height

@@ -9,7 +9,7 @@ namespace fragtrace {
 
 namespace {
 
-// At 96 dots an inch.
+// Sizes are in pixels at 96 dots an inch.
 constexpr float kMargin = 8.0f;
 constexpr float kPanelWidth = 352.0f;
 constexpr float kLeastPanel = 240.0f;

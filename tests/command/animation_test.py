@@ -197,7 +197,7 @@ class Selections(Case):
             self.assertEqual((self.folder / "node.pfm").read_bytes(), (self.folder / f"{name}.pfm").read_bytes(), name)
 
     def test_any_direction_may_point_up(self):
-        """A turn by 30 degrees about Z moves what lies on the Z axis nowhere; what is wrong is said."""
+        """A turn by 30 degrees about Z moves what lies on the Z axis nowhere; a message reports errors."""
         up = (math.sin(math.radians(30)), math.cos(math.radians(30)), 0)
         gltf = Gltf()
         corner = [(x, y, z) for x, y, z in ((0, 0, 1), (2 * up[0], 2 * up[1], 0), (3 * up[1], -3 * up[0], 0))]

@@ -94,7 +94,7 @@ def remake(names):
 
 
 def blocks(values, side):
-    """Sums over blocks of so many pixels a side."""
+    """Sums over blocks of so many pixels per side."""
     sums = [0.0] * (SIDE // side) ** 2
     for i, value in enumerate(values):
         sums[i // SIDE // side * (SIDE // side) + i % SIDE // side] += value

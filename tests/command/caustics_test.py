@@ -252,8 +252,8 @@ class Caustics(Case):
         self.assertEqual(max(self.seen(scene, spp=1, bounces=0)), 0)
 
     def test_all_light_of_a_lamp_beside_a_ball_of_glass_reaches_the_walls(self):
-        """Those of a closed dark room, each seen on its own, from between ball and wall: 4 pi times the intensity, of which the ball turns
-        aside 29 %."""
+        """The walls are those of a closed dark room. Each is seen on its own, from between ball and wall. Its light is
+        4 pi times the intensity, of which the ball turns aside 29 %."""
         half, radius, away, intensity, albedo = 1.5, 0.5, 0.55, 2.0, 1e-5
         turns = {(0, 0, -1): [0, 0, 0, 1], (0, 0, 1): OVER, (-1, 0, 0): TURN, (1, 0, 0): [0, -TURN[1], 0, TURN[3]],
                  (0, -1, 0): BACK, (0, 1, 0): [math.sqrt(0.5), 0, 0, math.sqrt(0.5)]}

@@ -11,7 +11,7 @@ LAYERS = [f"0{i}.{c}" for i in range(3) for c in "RGBA"]
 
 
 def hex_of(value):
-    """The 8 digits of a float's bits, as the manifest has them."""
+    """Returns the 8 digits of a float's bits, as in the manifest."""
     return "%08x" % struct.unpack("<I", struct.pack("<f", value))
 
 

@@ -15,7 +15,7 @@ SAMPLES = (16, 64, 256, 1024)
 SEEDS = range(16)
 MOST = 1.02        # of filtered over noisy error
 STUDENT = 1.753    # 95 % of Student's t with fifteen degrees of freedom, one-sided
-DARK = 0.01        # of the mean, squared in relative errors as docs/output.md has it
+DARK = 0.01        # the part of the mean that is squared in the relative errors of docs/output.md
 SKY = ["--hdri-file", SCENES / "sky.pfm"]
 PICTURES = {
     "cornell-box": [],

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Scenes without a camera: all of the object is in the picture, and something of it is seen, or that is said."""
+"""Scenes without a camera: all of the object is in the picture, and part of it is seen; otherwise a message says so."""
 import json
 import math
 import os

@@ -30,7 +30,7 @@ class GlossyCaustics(caustics_test.Case):
         return json.loads(path.read_text())["caustics"]
 
     def test_a_brushed_wall_and_metal_that_the_camera_sees(self):
-        """The latter throws the light of the wall at the camera, with a lobe that is narrow, or wide."""
+        """The metal throws the light of the wall at the camera, with a lobe that is narrow, or wide."""
         tilt = [0, -math.sin(math.pi / 8), 0, math.cos(math.pi / 8)]
         for roughness in (0.1, 0.3):
             seen = self.metal(roughness), {"translation": [0.3, 0, 0.35], "rotation": tilt, "scale": [0.4, 0.4, 1]}

@@ -12,7 +12,7 @@ from support import SCENES, Case, main, read_pfm
 MATT = {"metallicFactor": 0}
 SPECULAR = {"KHR_materials_specular": {"specularFactor": 0}}
 SEEN = 2.2 * math.tan(0.45)  # half of the width of what the camera of quad() sees of the ground
-SPACING = 48                 # points a side at which a sum over the ground is taken
+SPACING = 48                 # points per side at which a sum over the ground is taken
 
 
 def cross(a, b):

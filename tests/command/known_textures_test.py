@@ -12,14 +12,14 @@ from support import Case, main
 WRAPS = {"repeat": 10497, "clamp": 33071, "mirror": 33648}
 FILTERS = {"linear": 9729, "nearest": 9728}
 SIDE = 16      # pixels of a square
-PARTS = 8      # points a side of a pixel in the expected mean
+PARTS = 8      # points per side of a pixel in the expected mean
 TEXELS = 4     # a side of the texture
 OFFSET, ROTATION, SCALE = (0.4, -0.3), 0.2, (1.2, 0.9)  # of KHR_texture_transform
 FIRST, LAST = -0.9, 1.3  # texture coordinates over a square, before the transform
 
 
 def texture():
-    """Its texels' red, and the same as linear light."""
+    """Returns the red of the texels, and the same as linear light."""
     numbers = random.Random(3)
     texels = [[numbers.randrange(256) for _ in range(TEXELS)] for _ in range(TEXELS)]
     linear = lambda x: x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055)**2.4

@@ -75,7 +75,7 @@ class Ktx2(Case):
     @has_codec
     def test_it_is_drawn_and_counted(self):
         for required in (False, True):
-            # Half of red and of green, in sRGB.
+            # The colour is half of red and of green, in sRGB.
             (red, green, blue), said = self.middle(self.scene(required))
             self.assertNotIn("ktx2", said.lower())
             self.assertAlmostEqual(red, 0.21, delta=0.05)

@@ -59,7 +59,7 @@ class FirstHits(Case):
         for x in (14, 20, 26):
             self.close(exr.pixel(x, 12, *NAMES["albedo"]), (0.725, 0.71, 0.68))
             self.close(exr.pixel(x, 12, *NAMES["normal"]), (0, 0, 1))
-            # From z = (279.6 + 800) / 278 to z = -279.6 / 278, the same over the whole wall.
+            # The depth is from z = (279.6 + 800) / 278 to z = -279.6 / 278; it is the same over the whole wall.
             self.close(exr.pixel(x, 12, *NAMES["depth"]), (1359.2 / 278,), 1e-5)
         self.close(exr.pixel(4, 20, *NAMES["albedo"]), (0.63, 0.065, 0.05))
         self.close(exr.pixel(35, 20, *NAMES["albedo"]), (0.14, 0.45, 0.091))

@@ -101,7 +101,7 @@ class Lens(Case):
         self.assertLess(statistics.fmean(abs(a - b) for a, b in zip(*values)), 0.02 * statistics.fmean(values[0]))
 
     def test_a_wide_pinhole_is_no_lens(self):
-        """At a huge f-number the picture is that of the pinhole, but for rounding."""
+        """At a huge f-number the picture is that of the pinhole, except for rounding."""
         plain, stopped = self.lamp(), self.lamp("--f-stop", "1e6")
         self.assertLess(max(abs(a[0] - b[0]) for one, other in zip(plain, stopped) for a, b in zip(one, other)), 0.02 * max(pixel[0] for row in plain for pixel in row))
 

@@ -109,7 +109,7 @@ class Materials(Case):
         self.assert_same(self.picture_of(quad(glossy, images=[white(51)]), "--spp", "4"), expected, 1e-3)
 
     def spheres(self, materials):
-        """In a row, each filling a square of the picture, seen from far away."""
+        """Makes spheres in a row. Each fills a square of the picture, seen from far away."""
         count = len(materials)
         nodes = [{"extras": {"shape": 0, "material": i}, "translation": [2 * i - count + 1, 0, 0]} for i in range(count)]
         nodes.append({"camera": 0, "translation": [0, 0, 5]})
@@ -159,7 +159,7 @@ class Materials(Case):
         gltf = quad({"pbrMetallicRoughness": {"metallicFactor": 0}}) | {}
         gltf["materials"].append(lamp)
         gltf["meshes"].append({"primitives": [dict(gltf["meshes"][0]["primitives"][0], material=1)]})
-        # Beside the first quad, upright, and facing it at a grazing angle.
+        # The second quad stands beside the first one, upright, and faces it at a grazing angle.
         gltf["nodes"].append({"mesh": 1, "translation": [-1, 0, 1], "rotation": [0, 0.70710678, 0, 0.70710678]})
         gltf["scenes"][0]["nodes"].append(2)
         means = []

@@ -185,7 +185,7 @@ class ConfigFaults(Case):
 
 
 class InVain(Case):
-    """Options that change nothing are said, once, and the picture is drawn."""
+    """Options that change nothing are reported, once, and the picture is drawn."""
 
     def warned(self, says, *options, name="x.png", scene=BOX, json_too=False):
         stats = self.folder / "s.json"
@@ -218,7 +218,8 @@ class InVain(Case):
         self.assertNotIn("the plane is", result.stderr)
 
     def test_emissive_textures_alone(self):
-        """Bright ones are said to be the only light. Beside dim ones a catcher and light paths say nothing of lamps."""
+        """A message says that bright ones are the only light. With dim ones, the messages of the catcher and of light
+        paths do not mention lamps."""
         root = quad({"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0}, "pbrMetallicRoughness": {"roughnessFactor": 0}}, images=[png(1, 1, bytes([255] * 4))])
         scene = self.folder / "screen.gltf"
         for factor, says in ((1, ["emissive textures are the scene's only light (--studio"]), (1e-3, ["emissive textures are too dim to light it"])):

@@ -61,7 +61,7 @@ class Sketch:
 
 
 def small_object(pixels):
-    """A quad of so many pixels a side in a picture of 64 x 64, black all round; its edges keep off the next pixels."""
+    """A quad of so many pixels per side in a picture of 64 x 64, black all round; its edges keep off the next pixels."""
     sketch = Sketch(32)
     sketch.quad(0, 0, 0, pixels / 2 - 0.001, sketch.material())
     sketch.quad(0, 40, 10, 6, sketch.material(500), down=True)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Both schedules draw the same picture, bit for bit (on llvmpipe), with the same rays; why the wavefront does not draw is said."""
+"""Both schedules draw the same picture, bit for bit (on llvmpipe), with the same rays; a message says why the wavefront
+does not draw."""
 import json
 import sys
 
@@ -59,7 +60,7 @@ class Schedules(BothSchedules):
 
     def test_instances(self):
         write_field(self.folder, "field", 64, 500)
-        # Without light sampling, too: no shadow rays then.
+        # The schedules agree without light sampling, too: then there are no shadow rays.
         for switch in ("--enable", "--disable"):
             self.same(str(self.folder / "field"), *SKY, "--instancing", "share", "--resolution", "37,40", "--spp", 2, switch, "light-sampling")
 

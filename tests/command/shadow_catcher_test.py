@@ -98,7 +98,8 @@ class ShadowCatcher(CatcherCase):
         return scene + ".gltf"
 
     def test_fit_holds_the_shadow(self):
-        """Under the studio, under a low sun, from all sides, and of all frames; no pixel of the edge misses a tenth of the light."""
+        """The shadow is in the picture under the studio, under a low sun, from all sides, and for all frames. No pixel
+        of the edge misses a tenth of the light."""
         sun = {"rotation": [-0.354, 0, 0, 0.935]}, {"type": "directional", "intensity": 3}
         for lights, options in (((), ["--studio"]), ((sun,), []), ((sun,), ["--camera-orbit", "180,60"])):
             alpha = self.picture(self.ball(lights), "x.exr", "--resolution", "48,48", "--spp", 64, "--no-background", "--shadow-catcher", "0.3", "--fit", *options).layers["A"]

@@ -25,8 +25,9 @@ constexpr double kMeanBias = 0.005;
 /// The largest difference of two renderers in float and double without any noise, relative to a pixel plus a
 /// tenth of the picture's mean: texels are half floats (2^-12 = 2.4e-4).
 constexpr double kRounding = 3e-4;
-constexpr int kBlocks[] = {1, 4};  // pixels a side: each pixel, and averages that show what is small and wide
-constexpr int kOptions = 6;        // the first argument that is one
+constexpr int kBlocks[] = {1,
+                           4};  // pixels per side: each pixel, and averages that show what is small and wide
+constexpr int kOptions = 6;     // the first argument that is one
 
 /// The z above which a normal variable lies with probability p on either side (bisection on erfc).
 double normalQuantile(double p) {

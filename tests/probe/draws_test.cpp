@@ -235,7 +235,7 @@ TEST_P(Draws, AVariantThatSuspendsFromTheStart) {
   EXPECT_EQ(bitsOf(drawn([&](Film& film) { add(film, 0, kMany); })), bitsOf(expected));
 }
 
-/// Work that ends by an exception, be it between light paths, leaves the renderer with the picture's own
+/// If work ends by an exception, even between light paths, the renderer is left with the picture's own
 /// program.
 TEST_P(Draws, WorkThatIsThrownOutOf) {
   constexpr int kFew = 2;

@@ -40,7 +40,7 @@ struct Enlarged {
 
 class Enlarging : public GlProbe {
  protected:
-  /// Both ways to enlarge, of a grey picture.
+  /// Enlarges a grey picture in both ways.
   std::vector<float> enlarged(const std::vector<float>& grey) {
     const GlProgram program =
         buildComputeProgram("#version 450 core\n" + shaderText("picture/enlarge.glsl") + R"(

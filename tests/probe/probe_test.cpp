@@ -71,7 +71,7 @@ class Probe : public GlProbe {
 
 /// Returns the distance of two numbers, in units in the last place of numbers as large as `scale`.
 // Limits leave room for what the specification lets a driver round (division 2.5 ulps, sine and cosine 2^-11
-// in theory, a few ulps in practice); llvmpipe rounds as C++ does, but for sine and cosine.
+// in theory, a few ulps in practice); llvmpipe rounds as C++ does, except for sine and cosine.
 double ulpsApart(double a, double b, double scale) { return std::abs(a - b) / (scale * 0x1p-23); }
 double ulpsApart(const vec3& a, const vec3& b) { return double(glm::distance(a, b)) * 0x1p23; }
 

@@ -23,7 +23,7 @@ TEST_P(SceneArrays, AreReadTheFastestWayThatHoldsThem) {
   const auto chosen = [&](uint32_t binding, size_t bytes, BufferReads wanted, bool software) {
     return chooseReads(wanted, software, sceneWith(binding, bytes), limits);
   };
-  const uint32_t rows = layout::kLeavesBinding;   // 16 bytes a texel
+  const uint32_t rows = layout::kLeavesBinding;   // 16 bytes per texel
   const uint32_t pairs = layout::kTexelsBinding;  // 8
   EXPECT_EQ(chosen(rows, 1600, BufferReads::Auto, true).reads, BufferReads::Image);
   EXPECT_EQ(chosen(rows, 1600, BufferReads::Auto, true).fallback, "");

@@ -33,7 +33,7 @@ Camera cameraAt(double x, double distance) {
   return camera;
 }
 
-/// A picture with the layers of a noisy one, and who saw it. The wall looks the same upside down.
+/// A picture with the layers of a noisy one, and the camera that saw it. The wall looks the same upside down.
 struct Seen {
   Image layers;
   Camera camera;

@@ -38,7 +38,7 @@ class TreeShapes : public GlProbe {
     view_.background = glm::vec3(0.25f, 0.0f, 0.5f);
   }
 
-  /// In calls of so many samples.
+  /// Draws in calls of `step` samples.
   FilmPixels drawn(int step, bool resumable = false) {
     Film film(size_);
     variant_.resumable = resumable;
@@ -126,7 +126,7 @@ TEST_P(TreeShapes, SizesInAGeometricProgression) {
   const FilmPixels whole = drawn(kSamples);
   expectExact(whole);
   expectSame(whole, drawn(5));
-  // Towards the point at which they end.
+  // The camera looks towards the point at which the triangles end.
   view_.camera.position = {0.9999, 0.0, 0.0005};
   view_.camera.fovY = 1.5;
   expectExact(drawn(kSamples));

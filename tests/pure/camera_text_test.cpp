@@ -13,7 +13,7 @@
 namespace fragtrace {
 namespace {
 
-/// Options as the viewer has them after a movement.
+/// Returns the viewer's options after a movement.
 RenderOptions optionsOf(const CameraPose& pose) {
   RenderOptions options;
   options.camera.overrides = overridesOf(pose);

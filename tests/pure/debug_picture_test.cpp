@@ -40,7 +40,7 @@ TEST(DebugPicture, NormalsAreHalfAndHalf) {
     const Image image = debugPicture(view, film);
     expectNear(shown(image, 0, 1), {0.5, 0.5, 1.0});
     expectNear(shown(image, 1, 1), {0.0, 0.5, 0.5});
-    // Half covered: half of the light of the colour.
+    // The pixel is half covered, so it has half of the colour's light.
     const float* half = image.pixel(0, 0);
     EXPECT_NEAR(half[0], 0.5 * decodeSrgb(0.8), 1e-6);
     EXPECT_NEAR(half[1], 0.5 * decodeSrgb(0.1), 1e-6);

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// One repetition: relative MSE = error x samples^-slope, a millisecond a sample, steps 1, 2, 4, ... `most`.
+/// One repetition: relative MSE = error x samples^-slope, a millisecond per sample, steps 1, 2, 4, ...
+/// `most`.
 std::vector<ErrorSample> powerLaw(double error, double slope, double most) {
   std::vector<ErrorSample> steps;
   for (double n = 1.0; n <= most; n *= 2.0) {
@@ -103,7 +104,7 @@ TEST(ErrorReport, TimeOfAnErrorAboveTheFirstStepIsThatOfTheStep) {
 }
 
 TEST(ErrorReport, BeyondTheLastStepErrorsFallAsOneOverN) {
-  // Whatever the slope so far.
+  // This holds for any slope so far.
   for (double slope : {0.7, 1.5}) {
     const ErrorCurve curve = curveOf(powerLaw(2.0, slope, 64));
     const double last = 2.0 * std::pow(64.0, -slope);

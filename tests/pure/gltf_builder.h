@@ -178,7 +178,7 @@ inline glm::dvec3 worldCornerOf(const Scene& scene, size_t triangle, int corner)
   return glm::dvec3(cornerOf(scene, triangle, corner)) * scene.space.unit + scene.space.origin;
 }
 
-/// Not unit; on the front side.
+/// Returns a normal on the front side. It is not a unit vector.
 inline glm::vec3 frontOf(const Scene& scene, size_t triangle) {
   const glm::vec3 a = cornerOf(scene, triangle, 0);
   return glm::cross(cornerOf(scene, triangle, 1) - a, cornerOf(scene, triangle, 2) - a);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Containers, URIs, pictures, extensions, and what is said of files that cannot be loaded.
+// Tests of containers, URIs, pictures, extensions, and messages about files that cannot be loaded.
 #include <chrono>
 #include <filesystem>
 #include <utility>

@@ -125,7 +125,7 @@ TEST(History, AnAnimationThatHoldsTheCameraIsNoStep) {
   EXPECT_TRUE(history.past.empty());
   EXPECT_TRUE(redo(history, state));
   EXPECT_EQ(state.sides[0].output.exposure, 1.0);
-  EXPECT_TRUE(state.posed);  // or it would be framed anew
+  EXPECT_TRUE(state.posed);  // or it would be framed again
 }
 
 /// Changes the state as a newly loaded scene does.

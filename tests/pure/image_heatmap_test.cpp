@@ -31,7 +31,7 @@ TEST(Heatmap, FewCountsAreBlueManyRedAndTheCountsAreKept) {
   EXPECT_EQ(painted.pixel(90, 10)[3], 100.0f);
 }
 
-/// The white cells of a part of the picture, a line a row.
+/// The white cells of a part of the picture, a line per row.
 std::string cells(const Image& image, int left, int top, int width, int height) {
   std::string text;
   for (int y = top; y < top + height; ++y) {

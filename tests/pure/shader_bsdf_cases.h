@@ -137,7 +137,7 @@ inline auto integrateBins(Function f) {
   constexpr double kStepPhi = 2.0 * M_PI / (kTurns * kInner);
   std::vector<decltype(f(dvec3()))> bins(kBands * kTurns);
   for (size_t band = 0; band < kBands * kInner; ++band) {
-    // Gauss's rule of two points a step: midpoints would be 0.2 % off in narrow lobes about the pole.
+    // Gauss's rule of two points per step: midpoints would be 0.2 % off in narrow lobes about the pole.
     const double side = band % 2 == 0 ? 1.0 - std::sqrt(1.0 / 3.0) : std::sqrt(1.0 / 3.0);
     const double theta = kStepTheta * (double(band) + side);
     const double r = std::sin(theta);

@@ -83,7 +83,7 @@ TEST(ShaderBsdfAtRandom, TransmissionIsReciprocalInRadianceOverTheSquaredIndex) 
         const dvec3 o = draw.directionAbove();
         const dvec3 i = -draw.directionAbove();
         const dvec3 there = glsl_double::evaluateBsdf(b.front, o, i).value / -i.z;
-        // In the frame of the back, whose z points to the other side: x and z turn.
+        // In the frame of the back, z points to the other side, so x and z change sign.
         const dvec3 back =
             glsl_double::evaluateBsdf(b.back, dvec3(-i.x, i.y, -i.z), dvec3(-o.x, o.y, -o.z)).value / o.z;
         ASSERT_LE(glm::distance(there * squaredIndex, back), 1e-7 * glm::length(back) + 1e-14) << b.name;

@@ -127,7 +127,7 @@ TEST(ShaderEnvironment, MiddleOfATexelShowsTheTexelAndTheMiddleOfTheMapIsAlongX)
 TEST(ShaderEnvironment, FilteringIsBilinearAndWrapsAround) {
   const Image image = sunnyMap();
   const Surrounded here(image, 0.0);
-  // Between the last column and the first, a quarter of the way from row 7 to row 8.
+  // The point is between the last column and the first, a quarter of the way from row 7 to row 8.
   const double v = (7.75) / kHeight;
   const auto at = [&](int x, int y) { return double(image.pixel(x, y)[1]); };
   const double expected =

@@ -49,7 +49,7 @@ TEST(ShaderFilm, AShadowInAlphaAloneHasTheVarianceOfThePictureOverWhite) {
     f = glsl_float::addSample(f, vec3(0.0f), 0.25f);
     f = glsl_float::addSample(f, vec3(0.0f), 0.75f);
     f = glsl_float::addSample(f, vec3(0.5f), 1.0f);
-    // Over white: 0.75, 0.25 and 0.5.
+    // Over white, the samples are 0.75, 0.25 and 0.5.
     EXPECT_NEAR(f.m2, overWhite ? 0.125f : 1.0f / 6.0f, 1e-6f);
   }
 }

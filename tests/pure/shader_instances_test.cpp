@@ -236,7 +236,7 @@ TEST(ShaderInstances, ARayNeverHitsTheTriangleOfTheInstanceItLeaves) {
           const Outcome hit = traceFloat(p, Method::FrontToBack, ray);
           if (hit.slot < 0) continue;
           const Point point = pointHit(p, hit.slot, number, ray, float(hit.t));
-          // Half of them grazing.
+          // Half of the directions graze.
           dvec3 direction = draw.direction();
           if (k % 2 == 0)
             direction -= 0.99999 * glm::dot(direction, dvec3(point.normal)) * dvec3(point.normal);

@@ -170,7 +170,8 @@ TEST(ShaderTriangle, WithoutAreaIsNeverHit) {
   }
 }
 
-/// Along the ray, by the plain quadratic in long double; negative: none.
+/// Returns the distance along the ray, by the plain quadratic in long double. A negative result means that
+/// there is no hit.
 long double sphereDistance(const vec3& origin, const vec3& direction, const vec3& center, float radius,
                            bool far) {
   std::array<long double, 3> f;
@@ -285,7 +286,7 @@ TEST(ShaderTriangle, SmallTrianglesAreNotHitFromFarBeside) {
     const vec3 middle(draw.inCube(1.0));
     const dvec3 a = 1e-6 * draw.direction();
     const dvec3 b = 1e-6 * draw.direction();
-    // Beside it by half its distance, towards it along its plane.
+    // The ray runs along the triangle's plane and passes beside it, by about half of its distance.
     const vec3 direction(glm::normalize(a + 0.3 * b));
     const vec3 origin = middle + vec3(1e6 * (0.5 * a + double(draw.unit()) * b)) - 2.0f * direction;
     const vec3 v1 = middle + vec3(a);
@@ -319,7 +320,7 @@ TEST(ShaderOffset, ARayNeverHitsTheTriangleItLeaves) {
     if (!point) continue;
     const float error = float(hitPointError(v));
     vec3 direction(draw.direction());
-    // Half of them graze.
+    // Half of the rays graze.
     const float graze = 1.0f - std::pow(10.0f, -float(k % 8));
     if (k % 2 == 1) direction = glm::normalize(direction - graze * glm::dot(direction, normal) * normal);
     const vec3 origin = glsl_float::offsetOrigin(*point, error, normal, direction);

@@ -26,7 +26,7 @@ dvec3 filmByIntegration(const dvec3& baseF0, double index, double thickness, dou
     const double base = (1.0 + root) / (1.0 - root);
     const double r23 = schlick(dvec3(std::pow((base - index) / (base + index), 2.0)), 1.0, inside).x;
     shifts[c] = M_PI + (base < index ? M_PI : 0.0);
-    const double both = std::clamp(r12 * r23, 1e-5, 0.9999);  // as the extension has it
+    const double both = std::clamp(r12 * r23, 1e-5, 0.9999);  // the limits of the extension
     order[c] = std::sqrt(both);
     const double sum = (1.0 - r12) * (1.0 - r12) * r23 / (1.0 - both);
     result[c] = r12 + sum;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// shaders/caustics: light paths are drawn as densely as they are said to be, towards every caster, and no
-// rounding error weighs them.
+// shaders/caustics: light paths towards every caster have the pdf that is reported for them, and no rounding
+// error weighs them.
 #include <gtest/gtest.h>
 
 #include "glsl_lights.h"

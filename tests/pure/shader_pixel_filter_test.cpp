@@ -47,7 +47,7 @@ double pdfOf(int filter, const dvec2& p) {
   return squared < 4.0 ? std::exp(-2.0 * squared) * 2.0 / (M_PI * (1.0 - std::exp(-8.0))) : 0.0;
 }
 
-/// Along one axis.
+/// Returns the variance along one axis.
 double varianceOf(int filter) {
   if (filter == kBoxFilter) return 1.0 / 12.0;
   if (filter == kGaussianFilter) return 0.25 * (1.0 - 8.0 * std::exp(-8.0) / (1.0 - std::exp(-8.0)));

@@ -21,7 +21,7 @@ using glsl_float::randomFloat;
 constexpr int kDimensions = 48;
 constexpr int kPaths = 1 << 17;
 
-// Paths as a picture has them: neighbouring pixels, a few samples each.
+// Paths of a picture: neighbouring pixels, a few samples each.
 uint32_t keyOf(int path) { return pathKey(pixelKey(path & 127, path >> 7 & 127, 0), path >> 14); }
 
 TEST(ShaderRandom, MixBitsJoinsNoTwoOfAMillionNeighbours) {

@@ -68,7 +68,7 @@ inline PackedTree packTree(const std::vector<Corners>& triangles, const std::vec
   return packTreeOf(std::move(scene), ready);
 }
 
-/// The tree that needs the most stack: a chain, one triangle a leaf, every box the whole, the chain visited
+/// The tree that needs the most stack: a chain, one triangle per leaf, every box the whole, the chain visited
 /// before the leaf. One more triangle than it is deep.
 inline PackedTree packChain(const std::vector<Corners>& triangles) {
   Bvh bvh;

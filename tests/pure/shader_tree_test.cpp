@@ -55,7 +55,7 @@ TEST(ShaderTree, DecodedBoxesHoldThePackedOnes) {
           constexpr double kPadding = 0.125 - 1e-6;
           EXPECT_LE(origin + cell * (low[side][axis] + kPadding), box.minimum[axis]) << named.name;
           EXPECT_GE(origin + cell * (high[side][axis] - kPadding), box.maximum[axis]) << named.name;
-          // Not wasteful either: two cells at most on each side.
+          // The boxes are not too large either: by at most two cells on each side.
           EXPECT_GT(origin + cell * (low[side][axis] + 2.0), box.minimum[axis]) << named.name;
           EXPECT_LT(origin + cell * (high[side][axis] - 2.0), box.maximum[axis]) << named.name;
         }

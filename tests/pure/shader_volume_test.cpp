@@ -105,7 +105,7 @@ struct RayCase {
   dvec3 direction;
 };
 
-/// Towards the middle of the grid, from outside or inside; some along an axis.
+/// Makes a ray towards the middle of the grid, from outside or inside. Some rays run along an axis.
 RayCase rayCase(Draw& draw, int i) {
   const dvec3 middle(0.4, 0.8, 2.4);
   const dvec3 target =
@@ -177,7 +177,7 @@ TEST(ShaderVolume, FlightsEndAsDenselyAsTheIntegralSays) {
   }
 }
 
-/// One brick of a quarter but for a corner of 1: walks are long, and most end by roulette.
+/// One brick of a quarter except for a corner of 1: walks are long, and most end by roulette.
 TEST(ShaderVolume, RouletteKeepsTheMeanOfWhatPassesADenseGrid) {
   VolumeGrid grid;
   grid.bricks = {1, 1, 1};

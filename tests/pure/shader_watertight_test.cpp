@@ -74,8 +74,8 @@ TEST(ShaderWatertight, RaysAlongAxesThroughVerticesHit) {
   for (const vec3& point : mesh.points) {
     for (int axis = 0; axis < 3; ++axis) {
       for (float sign : {-1.0f, 1.0f}) {
-        // From outside through the vertex and the whole ball: in and out, or past it on both sides of a
-        // silhouette.
+        // The ray comes from outside through the vertex and the whole ball: in and out, or past it on both
+        // sides of a silhouette.
         vec3 origin = point;
         origin[axis] = -4.0f * sign;
         vec3 direction(0.0f);

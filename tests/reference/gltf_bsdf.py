@@ -161,8 +161,9 @@ class GltfSurface(mi.BSDF):
 
 
 class ThinRoughGlass(mi.BSDF):
-    """KHR_materials_transmission with transmission 1: the transmitted lobe is the reflected one on the other side of the wall. The reflectance
-    is that of two parallel interfaces, as docs/design/surfaces.md has it. Properties: tint, roughness, ior."""
+    """KHR_materials_transmission with transmission 1: the transmitted lobe is the reflected one on the other side of
+    the wall. The reflectance is that of two parallel interfaces, see docs/design/surfaces.md. Properties: tint,
+    roughness, ior."""
 
     def __init__(self, properties):
         super().__init__(properties)

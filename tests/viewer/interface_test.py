@@ -162,7 +162,7 @@ class Overlaps(Case):
     def test_nothing_covers_anything(self):
         viewer = self.view("furnace", "--spp", "1", "--stage", "flat")
         viewer.at(200, 300)
-        viewer.xdotool("click", 1)  # what is said of it does not fade
+        viewer.xdotool("click", 1)  # the message about it does not fade
         viewer.key("z")
         viewer.xdotool("windowsize", "--sync", viewer.id, 1280, 720)
         viewer.until(lambda s: s["places"].get("status", [0] * 4)[2] == 1280, "the size")

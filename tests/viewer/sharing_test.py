@@ -47,7 +47,8 @@ class Sharing(Case):
             self.ends_well(viewer, viewer.close())
 
     def test_two_sides_and_another_scene_give_textures_back(self):
-        """More pictures than there are textures, of both sides, of sizes that change, and of a scene that is loaded anew."""
+        """More pictures than there are textures, of both sides, of sizes that change, and of a scene that is loaded
+        again."""
         viewer = self.view("cornell-box", *SIZE, "--denoise", "variance")
         viewer.rest()
         viewer.key("c")

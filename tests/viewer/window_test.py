@@ -97,7 +97,8 @@ class Ends(Case):
     def test_signals_and_the_end_of_the_display_are_told_in_one_line(self):
         viewer = self.view("furnace", *FEW)
         viewer.process.terminate()
-        self.assertEqual((viewer.end(), viewer.stderr().count("\n"), viewer.status()["state"]), (130, 1, "closed"))  # the light is said
+        # A message names the light.
+        self.assertEqual((viewer.end(), viewer.stderr().count("\n"), viewer.status()["state"]), (130, 1, "closed"))
         screen = Screen()
         for process in (screen.server, screen.manager):
             self.addCleanup(process.wait)

@@ -154,7 +154,7 @@ void forEachCorner(const MeshPrimitive& primitive, const Use& use) {
   }
 }
 
-/// None of an instance that is scaled to a single point, as files hide things.
+/// Appends an instance's strokes, but none if it is scaled to a single point: files hide things in this way.
 void appendStrokes(const PrimitiveInstance& instance, uint32_t firstVertex, Scene& scene) {
   if (instance.joints.empty() && glm::dmat3(instance.world) == glm::dmat3(0.0)) return;
   Strokes& strokes = scene.strokes.emplace_back(instance.primitive->strokes);

@@ -75,8 +75,8 @@ void recentre(const GltfOptions& options, const Diagnostics& diagnostics, Scene&
     diagnostics.refuse("",
                        "the scene is more than 1e30 m in size, or as far from the point it is recentred on");
   }
-  // Shaders multiply up to five lengths. Where the scene reaches so far from its origin, triangles of a ten
-  // millionth of it, and cameras a million times as far away, stay within what floats can hold.
+  // Shaders multiply up to five lengths. If the scene's largest coordinate is within these limits, triangles
+  // of a ten millionth of it, and cameras a million times as far away, stay within what floats can hold.
   constexpr double kLeastReach = 0x1p-4;
   constexpr double kMostReach = 0x1p16;
   constexpr int kReachBits = 10;
@@ -151,7 +151,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
   if (keeps) {
     takeBack(document, *read);
     read->keyTimes = std::move(document.keyTimes);
-    // It outlives this load.
+    // The document outlives this load, so it must not keep the progress.
     read->document.progress = {};
     read->document.access.progress = {};
     *kept = std::move(read);

@@ -71,7 +71,8 @@ Material readMaterial(Document& document, TextureTable& textures, size_t index) 
   result.name = source.name;
   result.place = pointerTo("materials", index);
   for (const auto& extension : source.extensions) result.extensions.push_back(extension.first);
-  // Both may be given: specular-glossiness is what is meant, the other for who does not know it.
+  // A file may have both. Specular-glossiness takes precedence; metallic-roughness is for readers that do not
+  // know it.
   if (extensionOf(source, "KHR_materials_pbrSpecularGlossiness") == nullptr)
     readMetallicRoughness(source.pbrMetallicRoughness, part.below("pbrMetallicRoughness", kNothing), result);
   readCommon(source, part, result);

@@ -29,8 +29,8 @@ void writeNumbers(nlohmann::json& root, const std::string& pointer, const Number
 /// Throws UsageError for a place without numbers, and for too few or too many.
 void checkNumbers(const nlohmann::json& root, std::span<const SetNumber> set);
 
-/// Checks and writes the user's numbers; warns of colours that glTF does not allow. What the loader then
-/// finds wrong there is said of --set.
+/// Checks and writes the user's numbers; warns of colours that glTF does not allow. Errors that the loader
+/// then finds there are reported as errors of --set.
 void writeNumbers(nlohmann::json& root, const std::vector<SetNumber>& set, Diagnostics& diagnostics);
 
 }  // namespace fragtrace

@@ -133,7 +133,7 @@ class PrimitiveReader {
     }
   }
 
-  /// Those of the file, else all vertices.
+  /// Returns the indices of the file, or those of all vertices.
   std::vector<uint32_t> readIndexList() {
     const size_t vertexCount = result_.vertices.position.size();
     std::vector<uint32_t> indices;
@@ -179,7 +179,8 @@ class PrimitiveReader {
       diagnostics_.warn(place_ + "/indices", "holds the primitive restart value, which is taken as an index");
   }
 
-  /// Not unit: the triangle's area is its weight.
+  /// Returns the triangle's normal. It is not a unit vector: its length is proportional to the triangle's
+  /// area.
   glm::vec3 geometricNormal(const Triangle& triangle) const {
     const auto& position = result_.vertices.position;
     const glm::dvec3 a(position[triangle.vertex.x]);

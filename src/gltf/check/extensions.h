@@ -32,11 +32,11 @@ struct Extension {
 /// The place of extensions without an object of their own, and a second place that does not exist.
 inline constexpr std::string_view kNowhere = "nowhere";
 
-/// Those of materials stand with the functions that read them (build/material_extensions.cpp), in the order
-/// in which they are read.
+/// The extensions of materials. Their table is beside the functions that read them
+/// (build/material_extensions.cpp), in the order in which they are read.
 std::span<const Extension> materialExtensions();
 
-/// All of them.
+/// All extensions.
 const std::vector<Extension>& extensions();
 
 /// Returns null for an extension that is not in the table.

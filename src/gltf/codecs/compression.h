@@ -13,7 +13,7 @@
 
 namespace fragtrace {
 
-/// In the order of the document; empty where a buffer has no data.
+/// The bytes of the document's buffers, in its order. A buffer without data is empty.
 using Buffers = std::vector<std::vector<uint8_t>>;
 
 /// Returns true if a buffer only stands in for readers that cannot decode EXT_ or KHR_meshopt_compression.

@@ -13,9 +13,9 @@ namespace fragtrace {
 /// read.
 void checkChange(const std::filesystem::path& from, std::span<const SetNumber> set);
 
-/// Writes the .gltf or .glb `from` to `to`, with these numbers in its JSON; all other bytes stay, but for the
-/// lengths in a .glb and the spaces at the end of its JSON. Buffers and images are referred to as before: a
-/// file that refers to others is only written into its own folder. `to` may be `from`. Throws InputError if
+/// Writes the .gltf or .glb `from` to `to`, with these numbers in its JSON; all other bytes stay, except for
+/// the lengths in a .glb and the spaces at the end of its JSON. Buffers and images are referred to as before:
+/// a file that refers to others is only written into its own folder. `to` may be `from`. Throws InputError if
 /// the file cannot be read, has no such number, or is not to be written under that name; RenderError if it
 /// cannot be written.
 void writeChanged(const std::filesystem::path& from, const std::filesystem::path& to,

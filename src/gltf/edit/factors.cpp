@@ -53,7 +53,7 @@ std::string pointerOf(size_t light, const char* member) {
   return "/extensions/KHR_lights_punctual/lights/" + std::to_string(light) + "/" + member;
 }
 
-/// Its texture could not be read, and another colour or value stands in for it.
+/// Returns true if the factor's texture could not be read, so that another colour or value replaces it.
 bool isLost(const Factor& factor, const Material& m) {
   const std::string_view part = factor.part;
   const std::string_view member = factor.member;

@@ -23,7 +23,7 @@ size_t skipSpace(const std::string& text, size_t at) {
   return std::min(text.find_first_not_of(kSpace, at), text.size());
 }
 
-/// From its opening quote on.
+/// Returns the end of the string whose opening quote is at `at`.
 size_t endOfString(const std::string& text, size_t at) {
   for (++at; text.at(at) != '"'; ++at) at += text[at] == '\\';
   return at + 1;
@@ -51,7 +51,7 @@ struct Entry {
   Range value;
 };
 
-/// Those of the object or array that begins there.
+/// Returns the entries of the object or array that begins at `at`.
 std::vector<Entry> entriesAt(const std::string& text, size_t at) {
   const bool isObject = text.at(at) == '{';
   std::vector<Entry> entries;
@@ -113,7 +113,7 @@ void replaceValue(std::string& text, const Range& range, const std::vector<doubl
     text.replace(range.begin, range.end - range.begin, valueText(values, true));
     return;
   }
-  // From behind, so that places before stay.
+  // The last value is replaced first, so that the places before it stay.
   for (size_t i = values.size(); i-- > 0;) replaceNumber(text, elements[i].value, values[i]);
 }
 

@@ -40,7 +40,7 @@ class Diagnostics {
  public:
   explicit Diagnostics(std::string file) : file_(std::move(file)) {}
 
-  /// From now on, what is wrong at this place, or at what holds it, is the user's.
+  /// From now on, errors at this place, or at a place that holds it, are reported as errors of --set.
   void noteSet(std::string place) { set_.push_back(std::move(place)); }
 
   /// Throws InputError "FILE: PLACE: REASON"; an empty place is left out. Throws UsageError "--set: PLACE:

@@ -108,7 +108,7 @@ std::vector<uint8_t> readRegularFile(int file, const FileAccess& access, const M
   throw std::runtime_error(reason);
 }
 
-/// "; wood.png lies there" where a file of the folder has the same name but for the case of its letters;
+/// "; wood.png lies there" where a file of the folder has the same name except for the case of its letters;
 /// systems that do not tell the two apart write such files.
 std::string likeNamed(const std::filesystem::path& path) {
   std::error_code error;

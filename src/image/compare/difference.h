@@ -9,8 +9,8 @@
 
 namespace fragtrace {
 
-/// Over all pixels and the channels R, G, B (a grey picture counts as R = G = B); alpha and other channels
-/// are left out.
+/// Differences over all pixels and the channels R, G, B (a grey picture counts as R = G = B). Alpha and other
+/// channels are left out.
 struct Difference {
   double mse = 0;      ///< mean of (a - b)^2
   double rmse = 0;     ///< its square root

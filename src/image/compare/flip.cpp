@@ -59,7 +59,7 @@ glm::dvec3 huntLabOfRgb(glm::dvec3 linear) {
 
 // Filters
 
-/// A value a pixel, row by row.
+/// A value per pixel, row by row.
 struct Plane {
   int width = 0;
   int height = 0;
@@ -128,7 +128,7 @@ Plane filterColumns(const Plane& in, const Kernel& kernel) {
   return out;
 }
 
-/// Both kernels are symmetric or antisymmetric; the sign of the latter does not matter here.
+/// Both kernels are symmetric or antisymmetric. The sign of an antisymmetric one does not matter here.
 Plane filter(const Plane& in, const Kernel& horizontal, const Kernel& vertical) {
   return filterColumns(filterRows(in, horizontal), vertical);
 }
@@ -221,8 +221,8 @@ double colorDistance(glm::dvec3 a, glm::dvec3 b) {
   return std::pow(std::abs(a.x - b.x) + glm::distance(glm::dvec2(a.y, a.z), glm::dvec2(b.y, b.z)), kQc);
 }
 
-/// To 0..1: [0, p_c c_max] goes to [0, p_t], the rest of [0, c_max] to what is left; c_max is the distance of
-/// green from blue, the largest that a display has ("Color Metric").
+/// Maps a distance to 0..1: [0, p_c c_max] goes to [0, p_t], the rest of [0, c_max] to what is left; c_max is
+/// the distance of green from blue, the largest that a display has ("Color Metric").
 double redistribute(double distance) {
   constexpr double kPc = 0.4;
   constexpr double kPt = 0.95;
@@ -265,7 +265,7 @@ Features detectFeatures(Plane y, double pixelsPerDegree) {
   return {lengths(first), lengths(second)};
 }
 
-/// To the power q_f, in 0..1 ("Feature Metric").
+/// Returns the difference to the power q_f, in 0..1 ("Feature Metric").
 double featureDifference(const Features& a, const Features& b, size_t i) {
   const double difference = std::max(std::abs(a.edges[i] - b.edges[i]), std::abs(a.points[i] - b.points[i]));
   return std::sqrt(difference / std::numbers::sqrt2);  // q_f = 0.5

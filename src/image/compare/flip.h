@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// LDR-FLIP: the difference that somebody sees who flips between two pictures. Andersson, Nilsson,
+// LDR-FLIP: the difference that a person sees when flipping between two pictures. Andersson, Nilsson,
 // Akenine-Moller, Oskarsson, Astrom and Fairchild, "FLIP: A Difference Evaluator for Alternating Images",
 // Proceedings of the ACM on Computer Graphics and Interactive Techniques 3 (2), HPG 2020.
 #pragma once

@@ -20,7 +20,7 @@ constexpr LayerNames kOidnColor{"R", "G", "B"};
 constexpr LayerNames kOidnAlbedo{kGuideChannels[0], kGuideChannels[1], kGuideChannels[2]};
 constexpr LayerNames kOidnNormal{kGuideChannels[4], kGuideChannels[5], kGuideChannels[6]};
 
-/// Three floats a pixel, rows from the top.
+/// Three floats per pixel, rows from the top.
 using Triples = std::vector<float>;
 
 bool hasLayer(const Image& image, const LayerNames& names) {

@@ -21,8 +21,8 @@ bool hasOidnGuides(const Image& picture);
 /// R, G and B of the picture that `noisy` converges to, estimated from its linear R, G and B, which it must
 /// have and which are not clamped, and from albedo (0..1) and normal (-1..1) of kGuideChannels, if it has
 /// both. Pixels whose coverage among these is 0 stay as they are. Values that are not finite count as 0.
-/// Takes about `memoryBytes` at most, beside fifteen floats a pixel. Nothing when `progress` stops it. Throws
-/// RenderError with what the library says.
+/// Takes about `memoryBytes` at most, beside fifteen floats per pixel. Nothing when `progress` stops it.
+/// Throws RenderError with what the library says.
 std::optional<Image> denoisedByOidn(const Image& noisy, const OidnLibrary& library, uint64_t memoryBytes,
                                     const OidnProgress& progress = {});
 

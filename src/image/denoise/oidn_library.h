@@ -3,7 +3,7 @@
 // needs. Names, numbers and meanings are those of https://www.openimagedenoise.org/documentation.html.
 //
 // It runs in our process. Its input is our own numbers, not a file from anywhere, so there is no fault of a
-// decoder to fence off; a process of its own would cost its start and a copy of up to nine floats a pixel.
+// decoder to fence off; a process of its own would cost its start and a copy of up to nine floats per pixel.
 #pragma once
 
 #include <cstddef>

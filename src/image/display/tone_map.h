@@ -23,7 +23,7 @@ glm::dvec3 applyToneMap(ToneMap toneMap, glm::dvec3 color);
 /// The sRGB transfer function (IEC 61966-2-1) of a linear value in 0..1.
 double encodeSrgb(double linear);
 
-/// Its inverse: the linear value of an encoded one in 0..1.
+/// The inverse of encodeSrgb(): returns the linear value of an encoded one in 0..1.
 double decodeSrgb(double encoded);
 
 /// R, G, B in 0..1, sRGB-encoded, after a factor of 2^exposureEv and the curve. With a channel A the colour

@@ -67,7 +67,7 @@ int channelsOf(Bytes value) {
   return count;
 }
 
-/// Scan lines a block, by compression (OpenEXR, "File Layout").
+/// Scan lines per block, by compression (OpenEXR, "File Layout").
 int64_t linesOf(uint8_t compression) {
   constexpr int64_t kLines[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
   if (compression >= std::size(kLines)) throw std::runtime_error("its OpenEXR compression is not known");

@@ -148,7 +148,7 @@ JpegFrame readJpegFrame(Bytes bytes) {
     if (at + 1 >= bytes.size()) return frame;
     const bool isFrame = marker >= kFirstFrame && marker <= kLastFrame && marker != kHuffmanTable &&
                          marker != kExtension && marker != kArithmeticTable;
-    // B.2.2: length, precision, lines, samples a line.
+    // B.2.2: length, precision, lines, samples per line.
     constexpr size_t kFrameSize = 7;
     if (isFrame && bytes.size() - at >= kFrameSize) {
       frame.height = bytes[at + 3] << 8 | bytes[at + 4];

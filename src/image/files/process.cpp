@@ -48,7 +48,7 @@ WorkResult decode(PictureTask task, Bytes bytes, const ImageHeader& header, uint
                         .cpuSeconds = unsigned(2 + values / kValuesASecond)});
 }
 
-/// More room than any of the formats makes of incompressible values.
+/// The room is more than any of the formats needs for incompressible values.
 std::vector<uint8_t> encode(const PictureMessage& request, Bytes values, Bytes texts) {
   constexpr uint64_t kHeader = 1 << 20;
   constexpr uint64_t kOfALine = 64;

@@ -14,7 +14,7 @@
 namespace fragtrace {
 
 /// Pixels of a display (sRGB-encoded, unassociated alpha) one after the other, R, G, B and perhaps A, from
-/// the top left; 16 bits a channel are little-endian.
+/// the top left; 16 bits per channel are little-endian.
 struct PixelForm {
   int bits = 8;
   bool alpha = false;

@@ -51,8 +51,8 @@ void writeToStandardOutput(std::span<const uint8_t> bytes);
 /// Throws what replaceFile would when the folder is missing or closed to us: to be asked before long work.
 void checkReplaceable(const std::filesystem::path& path);
 
-/// Throws what replaceFile would when there is no room for a file of so many bytes, on the disk or within
-/// ulimit -f.
+/// Throws the error that replaceFile would throw if there is no room for a file of `bytes` bytes, on the disk
+/// or within ulimit -f.
 void checkRoom(const std::filesystem::path& path, uint64_t bytes);
 
 }  // namespace fragtrace

@@ -22,7 +22,7 @@ bool isRedAndGreen(const basist::ktx2_transcoder& file) {
 
 }  // namespace
 
-/// Level 0 as 16 bits a channel, of which 8 are known.
+/// Level 0 as 16 bits per channel, of which 8 are known.
 extern "C" void fragtraceWork(std::span<const uint8_t> input, WorkOutput& output) {
   if (input.empty()) return basist::basisu_transcoder_init();
   const auto request = takeMessage<PictureMessage>(input);

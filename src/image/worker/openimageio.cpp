@@ -98,7 +98,7 @@ OIIO::TypeDesc typeOfNumbers(size_t count) {
   return {OIIO::TypeDesc::FLOAT, int(count)};
 }
 
-/// Those of kNumberAttributes that the file has.
+/// Returns those attributes of kNumberAttributes that the file has.
 std::map<std::string, std::vector<float>> numberAttributes(const OIIO::ImageSpec& spec) {
   std::map<std::string, std::vector<float>> attributes;
   for (const NumberAttribute& row : kNumberAttributes) {

@@ -12,7 +12,7 @@
 
 namespace fragtrace {
 
-/// All that a film holds, as the device has it (shaders/film.glsl): four values a pixel, the first row at the
+/// The content of a film on the device (shaders/film.glsl): four values per pixel, the first row at the
 /// bottom.
 struct FilmState {
   glm::ivec2 size{0};

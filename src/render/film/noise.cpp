@@ -11,7 +11,7 @@ namespace {
 // Pixels help to estimate the noise of their neighbours: a pixel to which few samples brought light knows too
 // little about its own.
 
-constexpr int kCell = 8;  // pixels a side; neighbours are those in 3 x 3 cells
+constexpr int kCell = 8;  // pixels per side; neighbours are those in 3 x 3 cells
 /// From this evidence on, a pixel counts for itself alone.
 constexpr double kEnoughEvidence = 8.0;
 
@@ -98,15 +98,15 @@ std::vector<double> drawnTowardsNeighbours(const FilmPixels& film, const std::ve
   return result;
 }
 
-constexpr int kWindow = 16;  // pixels a side of one cell of the windows' grid; a window is 3 x 3 cells
-/// The ratio of the whole picture weighs as much as so many pixels of a window.
+constexpr int kWindow = 16;  // pixels per side of one cell of the windows' grid; a window is 3 x 3 cells
+/// The ratio of the whole picture weighs as much as this many pixels of a window.
 constexpr double kPrior = 24.0;
 
 /// Sums over pixels, by which a ratio of variances and its reliability are known.
 struct Sums {
   double differences = 0.0;  ///< squared differences of the halves
   double independent = 0.0;  ///< the sum that independent samples would give
-  double squares = 0.0;      ///< sum of squares of the latter
+  double squares = 0.0;      ///< sum of the squares of the terms of `independent`
 
   void add(const Sums& other) {
     differences += other.differences;

@@ -32,7 +32,8 @@ bool isSame(const Pose& a, const Pose& b);
 /// lights and cameras stay those of the scene.
 Scene movingScene(Scene scene, std::span<const Pose> poses);
 
-/// A primitive where its segment ends, as movingScene() has them; else the primitive itself.
+/// Returns a primitive at the end of its segment, for scenes of movingScene(); otherwise the primitive
+/// itself.
 Triangle atEnd(const Scene& scene, Triangle triangle);
 const Sphere& atEnd(const Scene& scene, uint32_t sphere);
 

@@ -72,7 +72,7 @@ class AirTable {
   std::vector<AirColumns> values_;
 };
 
-/// The same as AirTable, integrated with so many steps.
+/// Returns the same as AirTable, integrated in `steps` steps.
 AirColumns integrateColumns(double radius, double cosine, int steps);
 
 /// The part of the light that columns let pass.

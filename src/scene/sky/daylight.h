@@ -9,7 +9,7 @@
 
 namespace fragtrace {
 
-/// A picture's value of 1 is the luminance of a white surface in so much light, in lux.
+/// A picture's value of 1 is the luminance of a white surface in this much light, in lux.
 inline constexpr double kFullDaylight = 1e5;
 
 /// Linear Rec.709 of sunlight of irradiance 1 (outside the atmosphere) at each wavelength. The sum over

@@ -21,7 +21,8 @@ constexpr int kRaySteps = 32;    // along a ray
 struct RayStep {
   double distance;
   double radius;
-  Spectrum molecules;  // the part of the sun's light there that comes to the eye, but for the phase function
+  // The part of the sun's light there that comes to the eye, except for the phase function.
+  Spectrum molecules;
   Spectrum aerosol;
 };
 

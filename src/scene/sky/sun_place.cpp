@@ -81,7 +81,7 @@ SunPlace sunPlaceAt(double days, const glm::dvec2& latitudeLongitude) {
   const double height = sine(latitude) * sine(season.declination) +
                         cosine(latitude) * cosine(season.declination) * cosine(hourAngle);
   const double elevation = glm::degrees(std::asin(glm::clamp(height, -1.0, 1.0)));
-  // From south, westwards.
+  // The azimuth is measured from south, westwards.
   const double east = sine(hourAngle) * cosine(season.declination);
   const double south = cosine(hourAngle) * sine(latitude) * cosine(season.declination) -
                        sine(season.declination) * cosine(latitude);

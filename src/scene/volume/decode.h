@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The worker's module for NanoVDB files. Its input is a request and the bytes of the file; its output either
-// a GridListing and that many GridEntry, or a GridHeader, the table of bricks (32 bits a brick) and the
+// a GridListing and that many GridEntry, or a GridHeader, the table of bricks (32 bits per brick) and the
 // values of those that are stored (16 bits a voxel): scene/volume/grid.h.
 #pragma once
 

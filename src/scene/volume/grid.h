@@ -73,7 +73,7 @@ struct Volume {
   std::shared_ptr<const VolumeGrid> grid;  ///< null: there is none
   glm::dmat4 toWorld{1.0};                 ///< the matrix from the file's space, metres
 
-  /// From indices of voxels to world space, metres.
+  /// Returns the matrix from indices of voxels to world space, metres.
   glm::dmat4 voxelsToWorld() const { return toWorld * grid->toWorld; }
   /// The corners of the box of its bricks, in world space, metres.
   std::array<glm::dvec3, 8> corners() const;

@@ -20,7 +20,7 @@ std::string measuredText(const Statistics& before, const RenderTimes& now);
 /// Restores what measuredText() saved. Throws std::runtime_error.
 void restoreMeasured(const std::string& text, Statistics& stats);
 
-/// The checkpoint from which to continue. None: the picture begins anew, and a message says so. Throws
+/// The checkpoint from which to continue. None: the picture begins again, and a message says so. Throws
 /// UsageError that names the differences if it belongs to another job, and InputError that names the file if
 /// it is broken.
 std::optional<Checkpoint> readCheckpoint(const PictureJob& job, const DrawingPlan& plan);

@@ -40,7 +40,8 @@ Image pictureOf(const Drawing& drawing, const RenderOptions& options, bool withS
 /// The number of samples of layers that nobody has asked for, or for which the user waits.
 inline constexpr int kFewLayerSamples = 16;
 
-/// The number of samples of a layer of a picture with so many: a filter needs no more than a few.
+/// Returns the number of samples of a layer, for a picture with `ofPicture` samples: a filter needs no more
+/// than a few.
 int samplesOfLayer(const RenderOptions& options, Aov aov, int ofPicture);
 
 /// A layer, with its time and its counts.

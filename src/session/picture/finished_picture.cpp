@@ -49,7 +49,7 @@ double blackShare(const Image& picture) {
 void sayWhatIsDark(const RenderOptions& options, const LoadedScene& loaded, const Image& picture,
                    const Statistics& stats) {
   constexpr double kNearlyAll = 0.95;
-  constexpr double kEnoughSamples = 16.0;  // with so many samples, chance explains no black pixel
+  constexpr double kEnoughSamples = 16.0;  // with this many samples, chance explains no black pixel
   const double pixels = double(stats.size.x) * stats.size.y;
   const bool isLit = has(options.stages, Stage::Gi) && options.output.debugView == DebugView::None;
   const bool filled = double(stats.film.hitPixels) >= kNearlyAll * pixels;

@@ -21,7 +21,7 @@ struct Device {
   std::optional<OidnLibrary> oidn;
 };
 
-/// Opens a context for so many camera paths in all. Throws ContextError.
+/// Opens a context for `paths` camera paths in all. Throws ContextError.
 void openContext(const RenderOptions& options, double paths, Device& device, Statistics& stats);
 
 /// Draws the picture's samples, and says what is odd about them. Its layers need `plan` later. Nothing if the

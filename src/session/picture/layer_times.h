@@ -12,7 +12,7 @@ namespace fragtrace {
 /// AOVs, then of light groups. Compiles all layers. The film is empty afterwards.
 std::vector<double> measureAovs(const PictureJob& job, Film& film, const View& view, Statistics& stats);
 
-/// The seconds that the layers from `first` on will take if the picture has so many samples.
+/// Returns the seconds that the layers from `first` on will take if the picture has `samples` samples.
 double secondsOfAovs(const PictureJob& job, const DrawingPlan& plan, size_t first, int samples);
 
 /// The time that layers will take at least: those of an adaptive picture have the fewest samples of any

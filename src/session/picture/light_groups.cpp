@@ -13,8 +13,8 @@ namespace fragtrace {
 
 namespace {
 
-/// Light that is dimmed so much vanishes in the rounding of any sum. It is not 0, since the shader leaves out
-/// the shadow rays of light samples that are 0, and with them random numbers.
+/// Light that is dimmed by this factor vanishes in the rounding of any sum. It is not 0, since the shader
+/// leaves out the shadow rays of light samples that are 0, and with them random numbers.
 constexpr float kDimmed = 0x1p-60f;
 
 constexpr const char* kSurroundings = "environment";

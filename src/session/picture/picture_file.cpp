@@ -87,7 +87,7 @@ std::string rescuePicture(const RenderOptions& options, const Image& linear, con
   try {
     writeImage(path, linear);
   } catch (const std::exception& error) {
-    // Both say so if the folder is gone.
+    // If the folder is gone, both messages say so.
     const std::string other = error.what();
     const auto cause = [](const std::string& text) { return text.substr(text.rfind(": ") + 1); };
     return reason + "; nor as .pfm" + (cause(other) == cause(reason) ? "" : ": " + other);
@@ -110,7 +110,7 @@ void writeOut(const RenderOptions& options, const Image& image) {
   sayClamped(options, write(options.output.file, image, options.output.encoding));
 }
 
-/// Bits a channel of an output that holdsDisplay().
+/// Bits per channel of an output that holdsDisplay().
 int bitsOf(const OutputOptions& output) {
   if (const auto form = pixelFormOf(output.file)) return form->bits;
   if (const VideoFormat* const video = videoFormatOf(output.file)) return video->pixels.bits;

@@ -22,7 +22,7 @@ struct SampleRange {
 /// The string attributes fragtrace:settings, :seed, :sampleOffset, :samples, :uniform and, if these do not
 /// give all ranges, :ranges, a JSON array of [seed, first, count].
 struct Provenance {
-  std::string settings;  ///< JSON of all that the picture depends on, but for the samples
+  std::string settings;  ///< JSON of all that the picture depends on, except for the samples
   uint32_t seed = 0;
   int64_t sampleOffset = 0;
   int64_t samples = 0;  ///< samples of every pixel; if they differ, their mean, rounded

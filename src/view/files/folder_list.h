@@ -57,7 +57,7 @@ FolderList listFor(FileQuestion question);
 /// Shows what was read.
 void takeContent(FolderList& list, FolderContent content);
 
-/// After a change of the text or the filter.
+/// Must be called after a change of the text or the filter.
 void findEntries(FolderList& list);
 
 /// An entry of those shown was chosen; of a name to save under, it takes the place.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The steps of a picture take the tracing thread, and the device, so long.
+// Measures the time that the steps of a picture take, of the tracing thread and of the device.
 #pragma once
 
 #include <chrono>

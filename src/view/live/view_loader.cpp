@@ -55,10 +55,10 @@ void SceneLoader::start(const RenderOptions& options) {
       result.ownLight =
           known ? !result.stats.defaultLight : ownLight(result.scene->scene) == OwnLight::Enough;
       result.environments = environmentsNear(options);
-      // From now on it is told by its index, as others are that are chosen in the window.
+      // From now on the camera is named by its index, like cameras that are chosen in the window.
       result.options.camera.index = result.scene->cameraIndex;
       result.options.selection.camera.clear();
-      // So is a camera that was placed by the scene's vertices.
+      // A camera that was placed by the scene's vertices is also kept by its numbers.
       if (result.scene->overrides.fit)
         result.options.camera.overrides =
             overridesOf(poseOf(result.scene->camera, result.scene->scene.bounds));
@@ -79,7 +79,7 @@ void SceneLoader::start(const RenderOptions& options) {
 
 void SceneLoader::cancel() {
   if (job_) {
-    // From here on it tells nothing more.
+    // From here on the job reports nothing more.
     const std::lock_guard lock(job_->mutex);
     job_->cancelled = true;
   }

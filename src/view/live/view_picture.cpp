@@ -16,7 +16,7 @@ namespace {
 constexpr double kAllUpTo = 64.0;  // samples
 constexpr double kNoneFrom = 256.0;
 constexpr int kGuideStep = 4;              // samples from one set of guides to the next
-constexpr double kMostPastSamples = 16.0;  // the past counts for so many samples at most
+constexpr double kMostPastSamples = 16.0;  // the past counts as at most this many samples
 constexpr double kQuickMs = 25.0;          // a filter that takes less is not interrupted
 
 void fit(ShownTexture& shown, glm::ivec2 size) {

@@ -24,13 +24,13 @@ inline constexpr int kNoPastFrom = 16;
 /// The memory that a side keeps on the device from picture to picture.
 struct SideMemory {
   std::optional<Film> guides;  ///< guides of the present view
-  int guideSamples = 0;        ///< samples of the guides; 0: they are drawn anew
+  int guideSamples = 0;        ///< samples of the guides; 0: they are drawn again
   SeenPicture past;            ///< picture of the view before
   SeenPicture present;         ///< shown last, before it was filtered
 
-  /// The camera or the resolution is another one.
+  /// Must be called when the camera or the resolution changes.
   void turn();
-  /// Another picture altogether.
+  /// Must be called before a completely different picture: forgets the past.
   void forget();
 };
 

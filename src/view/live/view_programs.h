@@ -51,14 +51,14 @@ class ViewPrograms {
   bool compiling() const { return coming_.valid(); }
   /// Waits for it.
   void settle();
-  /// Makes all anew when they are asked for again.
+  /// Makes all again when they are asked for again.
   void forget();
   /// The scene and its tree are those of another time of its animation, loaded with these options: programs
-  /// that somebody holds draw it from now on, all others are made anew when they are asked for again. Throws
+  /// that somebody holds draw it from now on, all others are made again when they are asked for again. Throws
   /// as replaceScene().
   void showPose(const RenderOptions& options);
   /// The same where surfaces and lights alone have other numbers, which the selection has: nothing else is
-  /// packed. A program whose text holds the whole scene is made anew when it is asked for again.
+  /// packed. A program whose text holds the whole scene is made again when it is asked for again.
   void showSurfaces(const SceneSelection& selection);
 
   /// The same for other surroundings of the same kind. Throws as replaceSurroundings().

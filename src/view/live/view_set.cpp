@@ -14,7 +14,7 @@ bool ViewTracer::setSurfaces(const TraceRequest& request) {
   const auto isText = [](const RenderOptions& side) {
     return side.device.traversal == TraversalMethod::Literals;
   };
-  // An animation may drive the same numbers, and lines are built anew for another camera.
+  // An animation may drive the same numbers, and lines are built again for another camera.
   if (!sameMoment(wanted, loadedOptions_.selection) || wanted.animationTime ||
       !loaded_->scene.strokes.empty() || std::ranges::any_of(request.sides, isText))
     return false;

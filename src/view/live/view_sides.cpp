@@ -68,7 +68,8 @@ void ViewTracer::adoptSide(Side& side, const RenderOptions& asked) {
   side.stale = true;
 }
 
-/// Through the scene's first camera where it does not have the one asked for, as when its file has changed.
+/// Returns the view of the options' camera, or of the scene's first one if that does not exist, as when the
+/// file has changed.
 View ViewTracer::viewOf(const RenderOptions& options) {
   Camera camera = loaded_->camera;
   try {
@@ -104,7 +105,7 @@ void ViewTracer::preview(Side& side, const RenderOptions& wanted) {
   publish(side);
 }
 
-/// From any thread, as the next.
+/// Any thread may call this and the next function.
 void ViewTracer::tellWork(const std::string& what) {
   switch (shows_.load()) {
     case Shows::Nothing:
@@ -128,7 +129,7 @@ std::shared_ptr<ViewProgram> ViewTracer::programFor(const RenderOptions& options
     exchange_.tell("driver: " + message);
   exchange_.tellNote({});
   exchange_.tellError(program->error.empty() ? loadError_ : program->error);
-  // It says the same again.
+  // The driver's log would only repeat this error.
   if (!program->error.empty()) driverLog_->take();
   return program;
 }

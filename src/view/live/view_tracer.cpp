@@ -106,7 +106,7 @@ void ViewTracer::enterContext(const SharedContexts& shared) {
   maker_ = std::make_unique<PictureMaker>(start_.render.device.shaderFolder, oidn_, clock_);
 }
 
-/// Makes anew what was in the context, in another one, which may be lost meanwhile, too.
+/// Makes again what was in the context, in another one, which may be lost meanwhile, too.
 void ViewTracer::recover(ContextLost error) {
   for (;;) {
     if (++losses_ > kMostLosses) throw ContextLost(error);
@@ -234,8 +234,8 @@ void ViewTracer::rebuildPrograms() {
   }
 }
 
-/// The options for a scene that is posed anew: its triangles are no shader text, which would be compiled each
-/// time.
+/// The options for a scene that is posed again: its triangles are no shader text, which would be compiled
+/// each time.
 RenderOptions ViewTracer::asPosed(RenderOptions options) const {
   const SceneSelection& s = options.selection;
   const bool changes = s.animationTime || !s.hiddenNodes.empty() || !loaded_->scene.strokes.empty() ||

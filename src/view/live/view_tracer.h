@@ -37,7 +37,7 @@ class ViewTracer {
   ViewTracer& operator=(const ViewTracer&) = delete;
   ~ViewTracer() { passOnWhatIsSaid({}); }
 
-  /// Until the exchange says quit; to be called in the thread that is to draw. In a context that shares its
+  /// Draws until the exchange says quit. It is called in the thread that draws. In a context that shares its
   /// objects with the window's, if that can be had and is no worse than one of its own: pictures then stay on
   /// the device.
   void run(const SharedContexts& shared);
@@ -78,7 +78,7 @@ class ViewTracer {
   void watchFiles();
   void rebuildPrograms();
   void adopt(const TraceRequest& request);
-  /// The options, with front-to-back in place of an automatic traversal if the scene is posed anew.
+  /// The options, with front-to-back in place of an automatic traversal if the scene is posed again.
   RenderOptions asPosed(RenderOptions options) const;
   /// Returns true if the scene has the pose that the request wants.
   bool isPosed(const TraceRequest& request) const;
@@ -107,7 +107,7 @@ class ViewTracer {
   /// A film of the size that is drawn at now; empty, if it was of another.
   void fitFilm(Side& side);
   bool resting(const Side& side) const;
-  /// Nothing moves, and the resolution is the full one.
+  /// Returns true if nothing moves and the resolution is the full one.
   bool settled() const;
   /// Draws samples of the side that has the fewest, or a frame of each while something moves; false when all
   /// rest.

@@ -19,8 +19,8 @@ constexpr double kPublishShare = 4.0;
 constexpr double kFilteredShare = 1.0;
 constexpr size_t kFrames = 64;        ///< whose times are summarised
 constexpr int kMeanwhileSamples = 4;  ///< samples of a picture that another one replaces soon
-/// The edges of fewer samples are ragged: the coarser picture before, which is smooth, stays until there are
-/// so many, but no longer than this.
+/// With fewer samples, edges are ragged. So the coarser picture before, which is smooth, stays until there
+/// are kSmoothSamples, but for at most kSmoothMs.
 constexpr int kSmoothSamples = 4;
 constexpr double kSmoothMs = 500.0;
 

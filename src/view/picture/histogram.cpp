@@ -28,7 +28,7 @@ Histogram histogramOf(const Image& image, double exposure, size_t mostPixels) {
   size_t above = 0;
   double sum = 0.0;
   for (size_t i = 0; i < looked; ++i) {
-    // In the middle of equal parts of the picture's pixels.
+    // The pixels are the middles of equal parts of the picture.
     const size_t pixel = (2 * i + 1) * pixels / (2 * looked);
     for (size_t c = 0; c < 3; ++c) {
       const double value = factor * double(image.values[pixel * channels + c]);

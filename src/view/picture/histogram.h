@@ -18,7 +18,7 @@ inline constexpr size_t kHistogramBins = 64;
 /// is in the first bin, what is above in the last; values that are not finite count nowhere.
 struct Histogram {
   std::array<std::array<float, kHistogramBins>, 3> shares{};
-  float highest = 0.0f;  ///< largest share but for the first bins, which black fills
+  float highest = 0.0f;  ///< largest share except for the first bins, which black fills
   double mean = 0.0;     ///< mean of the three channels, with the factor
   double most = 0.0;     ///< the largest value, with the factor
   double above = 0.0;    ///< share of values above 1

@@ -18,7 +18,7 @@ namespace {
 constexpr int kTexelsPerSide = 4;  ///< texels that are read in a pixel's part
 constexpr double kMeanShown = 0.25;
 
-/// In the middle of equal parts of a pixel's part of the map.
+/// Returns the texel in the middle of the step-th of equal parts of a pixel's area of the map.
 int texelOf(int pixel, int step, int pixels, int texels) {
   const double place = (pixel + (step + 0.5) / kTexelsPerSide) / pixels;
   return std::clamp(int(place * texels), 0, texels - 1);

@@ -133,7 +133,7 @@ void Display::map(Side& side, const DisplaySide& settings) {
 
 void Display::prepare() {
   if (shows(0) || waits()) return;
-  constexpr glm::ivec2 kSize{7};  // no power of two, for which llvmpipe compiles anew
+  constexpr glm::ivec2 kSize{7};  // no power of two, for which llvmpipe compiles again
   const GlTexture nothing = makeTexture(GL_TEXTURE_2D);
   glTextureStorage2D(nothing.name(), 1, GL_RGBA32F, kSize.x, kSize.y);
   show(sides_[0], nothing.name(), kSize, false);

@@ -67,7 +67,7 @@ class Display {
     uint64_t number = 0;  ///< number of the picture
     ValueReader reader;
     GlTexture displayed;
-    GlFramebuffer framebuffer;  ///< framebuffer of the latter
+    GlFramebuffer framebuffer;  ///< framebuffer of `displayed`
     glm::ivec2 size{0};
     bool asItIs = false;
     bool fresh = false;    ///< `displayed` holds the traced picture

@@ -19,7 +19,7 @@ class Interface {
   Interface& operator=(const Interface&) = delete;
   ~Interface();
 
-  /// Between these two what is to be seen is put together; the latter draws it.
+  /// The interface is put together between these two calls; the second one draws it.
   void begin();
   void end();
   /// Ends it in place of end(), and draws nothing.

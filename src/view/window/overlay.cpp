@@ -268,7 +268,7 @@ Task drawWelcome(ViewFacts& facts, const WindowLayout& layout) {
   return task;
 }
 
-/// Those lines of the sheet that hold the text, whatever its case.
+/// Returns the lines of the sheet that hold the text, in upper or lower case.
 std::vector<SheetLine> foundLines(const std::string& text) {
   const auto lower = [](std::string s) {
     std::ranges::transform(s, s.begin(), [](unsigned char c) { return char(std::tolower(c)); });

@@ -35,7 +35,7 @@ void drawPresets(ViewState& state, Places& places) {
   }
 }
 
-/// Those that build on each other, or the switches.
+/// Draws the stages that build on each other, or the switches.
 void drawStages(ViewState& state, Places& places, bool cumulative) {
   RenderOptions& o = state.options();
   for (const StageRow& row : stageRows()) {

@@ -14,7 +14,7 @@ constexpr float kPlotHeight = 72.0f;  // pixels at 96 dots an inch
 constexpr std::array<ImU32, 3> kPlotColors{IM_COL32(220, 70, 70, 150), IM_COL32(70, 190, 80, 150),
                                            IM_COL32(90, 120, 240, 150)};
 
-/// Computed anew only for another picture or exposure.
+/// Computed again only for another picture or exposure.
 const Histogram& current(const ViewState& state, ViewFacts& facts) {
   const size_t side = state.shownSide();
   ShownHistogram& shown = facts.histogram;

@@ -171,7 +171,7 @@ Task drawLight(ViewState& state, ViewFacts& facts) {
   if (!state.scene->options.light.hdriFile.empty() || state.scene->options.light.sky.on) {
     label(places, "Blur");
     const double blur = state.scene->options.light.backgroundBlur;
-    // It is blurred once, when the slider is let go.
+    // The map is blurred once, when the slider is let go.
     float wanted = state.blur.value_or(float(blur));
     if (ImGui::SliderFloat("##blur", &wanted, 0.0f, kMostBlur, wanted > 0.0f ? "%.1f degrees" : "none",
                            kBounded))

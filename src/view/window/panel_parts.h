@@ -17,7 +17,7 @@ namespace fragtrace {
 inline constexpr ImGuiSliderFlags kBounded = ImGuiSliderFlags_AlwaysClamp;
 inline constexpr ImGuiSliderFlags kBoundedLogarithmic = kBounded | ImGuiSliderFlags_Logarithmic;
 
-/// In a dim colour at the right end of the line, or of a line of its own where that has no room.
+/// Draws a text in a dim colour at the right end of the line, or of a new line if there is no room.
 void dimAtEnd(const std::string& text);
 
 /// A label, and room for a control up to the end of the row, which has the label's place.

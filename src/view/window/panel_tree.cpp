@@ -12,7 +12,7 @@ namespace {
 constexpr float kMostRows = 12.0f;
 constexpr int kDepthOpen = 2;  ///< rows above are open at first
 
-/// In brackets what is to be known of a node beside its name.
+/// Returns the facts about a node that follow its name in brackets.
 std::string notesOf(const SceneNode& node) {
   std::string notes;
   if (node.light) notes += notes.empty() ? "light" : ", light";

@@ -69,7 +69,7 @@ void drawPixelValues(const ViewState& state, const ViewFacts& facts, const Windo
   const double factor = std::exp2(state.magnifier.steps);
   const bool difference = state.compares() && state.comparison == CompareMode::Difference;
   const glm::dvec2 size(layout.picture);
-  // In parts of the picture, from its top left.
+  // The place is in parts of the picture, from its top left.
   const glm::dvec2 corner = magnifiedPlace(state, glm::dvec2(0.0));
   const glm::ivec2 first(corner * size);
   const glm::ivec2 last((corner + 1.0 / factor) * size);

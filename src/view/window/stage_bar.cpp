@@ -61,7 +61,7 @@ constexpr std::array kEndButtons{EndButton{"All", Action::ToggleOverview, 2},
                                  EndButton{"Screenshot", Action::Screenshot, 1, Errand::Screenshot},
                                  EndButton{"Panel", Action::TogglePanel, 0}};
 
-/// The width of the first so many ranks.
+/// Returns the width of the first `ranks` ranks.
 float widthOf(int ranks) {
   float width = 0.0f;
   for (const EndButton& button : kEndButtons) width += button.rank < ranks ? widthOf(button.text) : 0.0f;

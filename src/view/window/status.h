@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The state of the window, as JSON for those who drive it from outside (docs/viewer.md).
+// The state of the window as JSON, for programs that drive it from outside (docs/viewer.md).
 #pragma once
 
 #include <deque>

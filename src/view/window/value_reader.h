@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Values of a picture on the device, for who looks at them: read without waiting for the device.
+// Reads values of a picture on the device for display, without waiting for the device.
 #pragma once
 
 #include "gl/gl.h"
@@ -28,7 +28,7 @@ class ValueReader {
   size_t room_ = 0;  ///< bytes
   bool reading_ = false;
   void* done_ = nullptr;  ///< a fence, after which
-  PictureValues asked_;   ///< is read, but for its image
+  PictureValues asked_;   ///< is read, except for its image
   double begun_ = -1.0;
 };
 

@@ -19,7 +19,7 @@
 
 namespace fragtrace {
 
-inline constexpr int kSettleFrames = 3;  ///< Dear ImGui comes to rest so many frames after an event
+inline constexpr int kSettleFrames = 3;  ///< Dear ImGui comes to rest this many frames after an event
 
 class Window {
  public:
@@ -27,8 +27,8 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
   ~Window() { exchange_.setWake({}); }
-  /// Until the window is closed. Throws what the tracing thread failed with, and InputError when the scene
-  /// that was asked for could never be shown.
+  /// Runs until the window is closed. Throws what the tracing thread failed with, and InputError when the
+  /// scene that was asked for could never be shown.
   void run();
   /// The contexts for the tracing thread.
   SharedContexts shared() const;

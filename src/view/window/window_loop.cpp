@@ -26,8 +26,8 @@ constexpr double kFrameSeconds = 1.0 / 60;
 /// If another thread's glfwPostEmptyEvent() has read events from the connection, GLFW 3.3 on X11 sleeps
 /// although they wait. So an event is late by this at most. Ten looks a second are no load.
 constexpr double kLongestSleep = 0.1;
-// While something moves, the window is drawn for each new picture, for which it looks so often, or after this
-// time.
+// While something moves, the window is drawn for each new picture, or after kSameSeconds. It looks for new
+// pictures every kLookSeconds.
 constexpr double kLookSeconds = 0.004;
 constexpr double kSameSeconds = 0.25;
 constexpr double kStatusSeconds = 0.05;  // between two status files
@@ -259,7 +259,7 @@ void Window::takeState(const Delivery& news) {
   frames_ = std::max(frames_, 2);
 }
 
-/// One that was dropped before a model would keep every model from being shown.
+/// An environment that was dropped before a model would keep every model from being shown.
 void Window::forgetBrokenEnvironment() {
   const std::string file = wanted_.light.hdriFile.string();
   if (file.empty() || facts_.error.find(file) == std::string::npos) return;

@@ -126,7 +126,7 @@ void Window::pick(const Task& task) {
   if (sideAt(state_, task.place) >= kMostSides) return;
   PickUse use = PickUse::Select;
   if (task.errand == Errand::CenterOn) use = PickUse::Center;
-  // Without a first point, this one is it.
+  // If there is no first point, this is the first one.
   if (task.errand == Errand::Measure && facts_.pick && facts_.pick->hit) use = PickUse::Measure;
   if (task.errand == Errand::Level) {
     if (!facts_.pick || !facts_.pick->end)
@@ -291,7 +291,7 @@ void Window::takePictures(std::vector<TracedPicture> pictures) {
     if (!picture.file.empty()) {
       takeReference(picture);
     } else if (side == 1 && !state_.reference.empty()) {
-      // It was on its way when the reference took its place.
+      // This picture was on its way when the reference took its place.
       if (picture.shared.slot >= 0) exchange_.giveBack(side, picture.shared, nullptr);
       continue;
     }

@@ -25,7 +25,7 @@ struct CodecAttribute {
 };
 inline constexpr size_t kMostCodecAttributes = 32;
 
-/// Draco's output: indices of 32 bits, three a triangle, then one attribute after the other, each from the
+/// Draco's output: indices of 32 bits, three per triangle, then one attribute after the other, each from the
 /// next multiple of four bytes on.
 struct CodecRequest {
   Codec codec = Codec::Draco;

@@ -101,7 +101,7 @@ void listGrids(std::span<const uint8_t> bytes, WorkOutput& output) {
   }
 }
 
-/// One grid, whose bytes stay where they are.
+/// A view of one grid. Its bytes stay where they are.
 class Grid {
  public:
   explicit Grid(std::span<uint8_t> bytes)

@@ -29,7 +29,7 @@ class FileDialog {
   void press(int code);
 
   struct News {
-    bool changed = false;        ///< the list is to be drawn anew
+    bool changed = false;        ///< the list is to be drawn again
     std::filesystem::path file;  ///< the chosen file; empty: none
     std::string message;         ///< text for the user; empty: none
   };

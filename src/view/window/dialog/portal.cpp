@@ -32,7 +32,8 @@ constexpr const char* kResponses =
     "type='signal',sender='org.freedesktop.portal.Desktop',"
     "interface='org.freedesktop.portal.Request',member='Response'";
 constexpr uint64_t kPatience =
-    2000000;                        // microseconds for a call: that a dialog will be shown is said at once
+    // Microseconds for a call: the portal answers at once whether it will show a dialog.
+    2000000;
 constexpr uint64_t kLook = 50000;   // microseconds between two looks at whether the question is given up
 constexpr uint32_t kCancelled = 1;  // a response of the portal; 0: chosen
 

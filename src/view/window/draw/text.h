@@ -15,7 +15,7 @@ inline constexpr ImGuiWindowFlags kLabelFlags =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
 
-/// At most so many characters of it (shownText).
+/// Draws at most `most` characters of the text (shownText).
 inline void drawText(std::string_view text, size_t most) {
   const std::string shown = shownText(text, most);
   ImGui::TextUnformatted(shown.data(), shown.data() + shown.size());
