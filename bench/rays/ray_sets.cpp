@@ -17,7 +17,7 @@ constexpr float kRayLimit = 1e30f;
 
 double uniform(std::mt19937& random) { return double(random()) * 0x1p-32; }
 
-/// Where a primary ray has hit, and the normal on its side.
+/// The place that a primary ray has hit, and the normal on the ray's side.
 struct Place {
   glm::dvec3 point;
   glm::dvec3 normal;
