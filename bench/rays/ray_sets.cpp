@@ -114,7 +114,8 @@ std::vector<Ray> diffuseRays(const ExactTracer& tracer, std::span<const Ray> pri
 
 std::vector<Ray> shadowRays(const ExactTracer& tracer, const Scene& scene, std::span<const Ray> primary,
                             std::span<const ExactHit> hits, uint32_t seed) {
-  constexpr double kShortOf = 1.0 - 1e-4;  // of the way, so that the target itself is not met
+  // The ray ends before the target, so that it does not meet the target itself.
+  constexpr double kShortOf = 1.0 - 1e-4;
   const Targets targets(scene);
   std::mt19937 random(seed);
   std::vector<Ray> rays(primary.size());
