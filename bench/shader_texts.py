@@ -2,7 +2,8 @@
 """The texts that a program hands to Mesa, which writes them into the folder that MESA_SHADER_CAPTURE_PATH names."""
 import re
 
-FILE_ENDINGS = {"vertex": "vert", "fragment": "frag", "compute": "comp"}  # by kind, as glslangValidator wants them
+# The endings by kind that glslangValidator needs.
+FILE_ENDINGS = {"vertex": "vert", "fragment": "frag", "compute": "comp"}
 
 
 def sections(file):

@@ -180,7 +180,7 @@ LightChoice makeChoice(int emitter, float chance, uvec2 bits, float u, float v) 
   return c;
 }
 
-/// An emitter drawn by power, with `chance` that any is.
+/// Chooses an emitter by power. `chance` is the probability that the light sample goes to an emitter at all.
 LightChoice emitterByPower(float chance, uvec2 bits) {
   int emitter = emitterAt(bits.x);
   uvec4 entry = emitterRow(emitter, 0);

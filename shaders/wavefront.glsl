@@ -9,7 +9,7 @@
 /// Rows of a path.
 const int kWaveRows = int(kPassingRows ? kPathRows : kPathRows - kPathPassingRows);
 
-const int kWaveSamples = 64;  // the most samples a round that end in the surroundings at once
+const int kWaveSamples = 64;  // largest number of samples per round that end in the surroundings at once
 
 // Steps count iterations of loops, as llvmpipe does, which ends all of them at 65,535 (src/render/renderer.cpp):
 // samples that fall out so are never drawn. A round: its own iteration, and the first of each of the five loops in it,

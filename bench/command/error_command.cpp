@@ -95,14 +95,14 @@ struct Contender {
   Tracer tracer;
   ErrorCurve curve;
   std::optional<PictureFilter> filter;
-  ErrorCurve filtered;  ///< of --denoise
+  ErrorCurve filtered;  ///< the curve with --denoise
 };
 
 /// A picture that has been drawn and may still be filtered.
 struct Draw {
   Drawing drawing;
   int layerSamples = 0;
-  double seconds = 0.0;  ///< that it took so far
+  double seconds = 0.0;  ///< seconds that the draw has taken so far
 };
 
 struct Judge {

@@ -182,7 +182,7 @@ class References {
   }
 
   const MotionOptions& options_;
-  RenderOptions shown_;  ///< as they are loaded
+  RenderOptions shown_;  ///< the options of the loaded scene
   Statistics stats_;
   std::unique_ptr<Context> context_;
   LoadedScene loaded_;

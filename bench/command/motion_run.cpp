@@ -26,7 +26,7 @@ namespace fragtrace {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kDolly = 0.5;                    // of the distance
+constexpr double kDolly = 0.5;                    // the share of the distance
 constexpr double kLowSun = 2.0, kHighSun = 60.0;  // degrees
 constexpr double kSmooth = 0.1, kRough = 0.9;
 
@@ -213,7 +213,7 @@ MotionFigures runMotion(const MotionPlan& plan, const std::function<bool(double 
   double counted = 0.0;  // since when
   double cpuBefore = 0.0;
   double last = 0.0;
-  RenderOptions answered;  // by the latest picture
+  RenderOptions answered;  // the options that the latest picture answers
   // A picture that is to be kept may come after the last that counts, as it has to be asked for.
   while ((seen < all || figures.kept.size() < size_t(plan.compared)) &&
          goOn(std::min(double(seen) / all, 1.0))) {

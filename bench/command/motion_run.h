@@ -29,7 +29,7 @@ struct MotionPlan {
   double intervalMs = 1000.0 / 60;  ///< from one move to the next
   int warmUp = 20;                  ///< pictures that do not count
   int pictures = 100;
-  int compared = 0;  ///< of these, evenly spread, are kept
+  int compared = 0;  ///< number of pictures, evenly spread, that are kept
 };
 
 /// A picture, and the options that `render` draws it with.
@@ -40,10 +40,10 @@ struct KeptPicture {
 
 /// Over the pictures that count.
 struct MotionFigures {
-  double seconds = 0.0;  ///< that they took
+  double seconds = 0.0;  ///< seconds that all pictures took
   int pictures = 0;
-  double pixels = 0.0;      ///< of them all
-  double cpuMs = 0.0;       ///< of the tracing thread
+  double pixels = 0.0;      ///< pixels of all pictures
+  double cpuMs = 0.0;       ///< CPU time of the tracing thread
   double movedBytes = 0.0;  ///< between host and device
   PassTimes passes{};
   std::vector<double> latencyMs{};  ///< from a move to the first picture that answers it

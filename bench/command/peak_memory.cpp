@@ -9,7 +9,7 @@
 namespace fragtrace {
 
 bool resetPeakMemory() {
-  malloc_trim(0);                               // what was freed before is not to count
+  malloc_trim(0);                               // memory that is already free must not count
   std::ofstream file("/proc/self/clear_refs");  // man proc_pid_clear_refs: 5 resets VmHWM
   file << "5" << std::flush;
   return bool(file);

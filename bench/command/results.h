@@ -29,7 +29,7 @@ void checkChart(const ResultFiles& files);
 void checkResultFiles(const ResultFiles& files, std::span<const std::filesystem::path> inputs);
 
 struct ResultTexts {
-  std::string table;  ///< for standard output
+  std::string table;  ///< the table for standard output
   std::string json;
   std::string csv;
   std::string chart;

@@ -102,7 +102,7 @@ std::vector<size_t> sizesOf(const ScaleOptions& options) {
   return sizes;
 }
 
-constexpr double kRoundMs = 300.0;  // of frames, each round
+constexpr double kRoundMs = 300.0;  // milliseconds of frames in each round
 constexpr int kMostFrames = 64;
 
 /// One traversal of one scene on the device.

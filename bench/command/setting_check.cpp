@@ -13,7 +13,7 @@ namespace fragtrace {
 
 namespace {
 
-constexpr int kLeastSamples = 4;  // that tell of noise
+constexpr int kLeastSamples = 4;  // fewer samples do not show the noise
 
 void judge(TimedSetting& s, const FilmPixels& other, CheckAgainst against, const std::string& name) {
   if (against != CheckAgainst::SameSamples && s.report.frames < kLeastSamples) {

@@ -20,8 +20,9 @@ namespace fragtrace {
 /// The length and number of the rounds.
 struct FrameTiming {
   int rounds = 10;
-  double roundSeconds = 0.5;  ///< as many frames a round as take this long, unless --spp says how many
-  int leastFrames = 8;        ///< a round, as long as these take no more than 5 times as long
+  /// A round has as many frames as take this long, unless --spp sets their number.
+  double roundSeconds = 0.5;
+  int leastFrames = 8;  ///< a round, as long as these take no more than 5 times as long
   double mostSeconds =
       0.0;  ///< fewer rounds where they take longer; a first frame that does is the only one; 0: no limit
   int samplesPerDraw = 0;  ///< at most; 0: as many as the renderer puts into a draw

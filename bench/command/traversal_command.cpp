@@ -71,7 +71,7 @@ struct MeasuredSet {
   RayKind kind;
   std::vector<Ray> rays;
   std::vector<FoundHit> found;
-  size_t count = 0;        ///< of rays that are there
+  size_t count = 0;        ///< number of valid rays
   std::vector<double> ms;  ///< one per round
   size_t wrong = 0;        ///< rays whose hit is not that of double precision
   size_t provedByAll =

@@ -22,7 +22,7 @@ struct VariantsOptions {
   std::vector<std::string> sceneNames;
   RawConfigurations raw;
   std::vector<BenchConfiguration> scenes;  ///< one per scene
-  std::vector<std::string> only;           ///< what is turned on; empty: everything
+  std::vector<std::string> only;           ///< traits that are turned on; empty: all
   FrameTiming timing;
   ResultFiles files;
 

@@ -4,15 +4,15 @@ takes at most 540."""
 from dataclasses import dataclass, field
 
 WHOLE_SECONDS = 540
-CORRECTNESS_SECONDS = 150  # of all reference pictures together
-PICTURE_SECONDS = 30  # of one picture
-COMPILE_SECONDS = 60  # of one program, beside others
+CORRECTNESS_SECONDS = 150  # limit for all reference pictures together
+PICTURE_SECONDS = 30  # limit for one picture
+COMPILE_SECONDS = 60  # limit for one program, while others compile
 
 FRAGMENT = ["--dispatch", "fragment"]
 COMPUTE = ["--dispatch", "compute", "--schedule", "megakernel"]
 LITERALS = ["--traversal", "literals"]
 TREE = ["--traversal", "front-to-back"]
-WAVEFRONT = ["--schedule", "wavefront"]  # by a tree
+WAVEFRONT = ["--schedule", "wavefront"]  # it needs a tree
 
 GPU_TEXT = ["--tune", "gpu"]
 
@@ -54,7 +54,7 @@ class Frame:
     options: list
     wants: set  # words of the variant that is to draw
     aim: str = ""
-    samples: int = 1  # of a picture whose time is told
+    samples: int = 1  # samples of a picture whose time is reported
     size: str = "500,500"
     seconds: float = 40
     needs: list = field(default_factory=list)  # files that the bundle may lack
@@ -124,7 +124,7 @@ FRAMES = (
 STRESS_SEEDS = (0, 1, 2)
 STRESS_CALLS = (("rays", []), ("shell", []), ("strips", ["--quick"]), ("boxes", []), ("skins", []), ("bad", []), ("glass,contact", []), ("scenes", []),
                 ("hits", []), ("tree", []), ("film", ["--quick"]), ("no numbers", []))  # strips: each wedge has a program of its own
-STRESS_SECONDS = 500  # of all seeds together, so the part is for a call of its own
+STRESS_SECONDS = 500  # limit for all seeds together, so this part needs a call of its own
 
 SCALE = ["--from", "10000000", "--to", "10000000", "--traversals", "front-to-back,bvh"]
 SCALE_SECONDS = 80
@@ -162,4 +162,4 @@ PICTURES = (
     ("helmet.png", [HELMET[0], *SIZE, "--spp", "64", "--hdri-file", HELMET[1]], HELMET),
 )
 PARTS = ("correctness", "report", *dict.fromkeys(frame.part for frame in FRAMES), "scale", "rays", "motion", "pace", "start", "pictures")
-ASKED_PARTS = ("stress",)  # by name alone
+ASKED_PARTS = ("stress",)  # parts that run only if they are named

@@ -188,7 +188,7 @@ Image readExr(Bytes bytes) {
   image.values.resize(size_t(image.width) * size_t(image.height) * stored.size());
   file.take(size_t(image.height) * sizeof(uint64_t));
   for (int y = 0; y < image.height; ++y) {
-    file.take(8);  // which line, and its length
+    file.take(8);  // the line's number and length
     for (const std::string& name : stored) {
       const auto c = std::ranges::find(image.channels, name) - image.channels.begin();
       for (int x = 0; x < image.width; ++x) image.pixel(x, y)[c] = file.take<float>();

@@ -27,7 +27,7 @@ MEAN_LEVEL, BLOCK_LEVEL = 0.005, 0.01  # relative; of the blocks' root mean squa
 # The scenes in which Cycles' adaptive sampling (on by default) reaches a relative MSE of 1e-3. Its threshold
 # of 0.01 stops it at 0.0024 in the box, at 0.0031 in the room with the ball and at 0.0020 under many lights.
 ADAPTIVE_REACHES = ("matt-ball",)
-ERROR_SEEDS, ERROR_RESOLUTION = 4, 64  # of the pictures that tell how many samples an error takes
+ERROR_SEEDS, ERROR_RESOLUTION = 4, 64  # the pictures that show how many samples an error takes
 
 
 def arguments():
@@ -81,7 +81,7 @@ def start(options, name, scene, resolution, plain):
     running = {"fragtrace": engines.Fragtrace(options.program, scene, resolution, plain, options.ours.split())}
     for peer in options.only:
         if peer == "cycles-roulette" and not plain:
-            continue  # that is what cycles is there
+            continue  # there, `cycles` does the same
         try:
             running[peer] = makers[peer]()
         except engines.Absent as error:

@@ -24,7 +24,7 @@ struct FileRay {
   float origin[3];
   float limit;  // 0: there is no ray
   float direction[3];
-  float t;  // what fragtrace found; -1: nothing
+  float t;  // the distance that fragtrace found; -1: nothing
 };
 
 struct Input {

@@ -47,7 +47,7 @@ Scene makeBallScene(size_t triangles) {
   const double wanted = double(std::max<size_t>(triangles, 64));
   const auto rows = uint32_t(std::max(4.0, std::round(std::sqrt(wanted / 3.0))));
   const auto columns = uint32_t(std::max(6.0, std::round(wanted / (2.0 * (rows - 1)))));
-  const uint32_t rings = rows - 1;  // of vertices between the poles
+  const uint32_t rings = rows - 1;  // rings of vertices between the poles
   const uint32_t south = rings * columns;
   const uint32_t north = south + 1;
 

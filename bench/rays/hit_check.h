@@ -40,7 +40,7 @@ size_t proveTree(const ExactTracer& tracer, size_t primitives, std::span<const R
 /// A picture of stage flat against the hits of rays through the middles of its pixels (rows from the bottom).
 struct FlatPictureCheck {
   size_t compared = 0;  ///< pixels that see one material only, as far as their 3 x 3 neighbours tell
-  size_t wrong = 0;     ///< of these, pixels whose colour is off by more than 1e-3
+  size_t wrong = 0;     ///< number of pixels whose colour is off by more than 1e-3
 };
 FlatPictureCheck checkFlatPicture(const Image& picture, const Scene& scene, std::span<const ExactHit> hits);
 

@@ -18,7 +18,7 @@ struct AttackRays {
 
 struct RayAttack {
   const char* name;
-  const char* sentence;  ///< what is aimed at what
+  const char* sentence;  ///< the kind of rays and their targets
   double limit;          ///< share of rays that may be wrong beyond rounding (ray_judge.h)
   bool closed;           ///< every ray has to hit something
   Scene (*scene)();

@@ -17,7 +17,7 @@ constexpr float kRayLimit = 1e30f;
 
 double uniform(std::mt19937& random) { return double(random()) * 0x1p-32; }
 
-/// Where a primary ray has hit, and the normal on its side.
+/// The place that a primary ray has hit, and the normal on the ray's side.
 struct Place {
   glm::dvec3 point;
   glm::dvec3 normal;
@@ -114,7 +114,8 @@ std::vector<Ray> diffuseRays(const ExactTracer& tracer, std::span<const Ray> pri
 
 std::vector<Ray> shadowRays(const ExactTracer& tracer, const Scene& scene, std::span<const Ray> primary,
                             std::span<const ExactHit> hits, uint32_t seed) {
-  constexpr double kShortOf = 1.0 - 1e-4;  // of the way, so that the target itself is not met
+  // The ray ends before the target, so that it does not meet the target itself.
+  constexpr double kShortOf = 1.0 - 1e-4;
   const Targets targets(scene);
   std::mt19937 random(seed);
   std::vector<Ray> rays(primary.size());

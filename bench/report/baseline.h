@@ -28,9 +28,9 @@ std::vector<BaselineEntry> parseBaseline(const std::string& text, const std::str
 /// The change of one setting, or of an entry that no setting matches.
 struct BaselineChange {
   std::string name;    ///< scene and options
-  double ratio = 0.0;  ///< of the medians, now over then; 0: one of the two is missing
+  double ratio = 0.0;  ///< the medians' ratio, now over then; 0: one of the two is missing
   bool slower = false;
-  std::string note;  ///< what is missing
+  std::string note;  ///< the side that is missing
 };
 
 /// Settings match by scene (name and number of triangles), options, size, samples per draw, clock and OpenGL

@@ -20,7 +20,7 @@ constexpr double kTextSize = 14;
 constexpr double kTitleSize = 18;
 constexpr double kCaptionSize = 12;
 constexpr double kLegendRow = 24;
-constexpr double kCharacterWidth = 0.6;  // of its size
+constexpr double kCharacterWidth = 0.6;  // mean width of a character in parts of its size
 constexpr double kLegendText = 44;       // from the legend's left edge: the sample of the line comes first
 
 constexpr size_t kMostMarkers = 50;

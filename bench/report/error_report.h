@@ -18,14 +18,14 @@ struct ErrorSample {
   double seconds = 0.0;  ///< drawing (and filtering, with its layers), without start-up and compilation
   double mse = 0.0;
   double relmse = 0.0;
-  double flip = 0.0;  ///< of the tone-mapped picture
+  double flip = 0.0;  ///< FLIP of the tone-mapped picture
 };
 
 /// One configuration: repetitions differ in their seed. Every repetition has the same steps.
 struct ErrorCurve {
   std::string name;
-  std::string filter;   ///< that took the noise out, and its version; empty: pictures as drawn
-  std::string options;  ///< as on the command line
+  std::string filter;   ///< the filter and its version; empty: pictures as drawn
+  std::string options;  ///< the options of the command line
   std::string variant;
   double compileMs = 0.0;
   bool nearReference = false;  ///< measured with so many samples that the reference's own noise counts
@@ -53,10 +53,10 @@ std::optional<Reached> timeToReach(const ErrorCurve& curve, double relmse);
 /// Everything of one run of the benchmark.
 struct ErrorReport {
   std::string scene;
-  std::string reference;  ///< where it came from
+  std::string reference;  ///< the source of the reference
   int width = 0;
   int height = 0;
-  std::string renderer;            ///< of OpenGL
+  std::string renderer;            ///< OpenGL's renderer
   double goal = 1e-3;              ///< relative MSE of the summary
   std::vector<ErrorCurve> curves;  ///< one that is filtered follows the one of the same pictures as drawn
 };

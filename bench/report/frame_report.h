@@ -14,7 +14,7 @@ namespace fragtrace {
 
 /// The result of comparing the picture of a setting.
 struct PictureVerdict {
-  std::string against;  ///< what it was compared with
+  std::string against;  ///< the picture that it was compared with
   double rmse = 0.0;    ///< the differences are defined in bench/report/picture_check.h
   double differing = 0.0;
   double meanErrors = 0.0;
@@ -28,7 +28,7 @@ struct FrameSetting {
   std::string scene;          ///< file name
   std::string configuration;  ///< its name
   std::string options;        ///< those of `render` that were given, in alphabetical order
-  std::string variant;        ///< of the shader
+  std::string variant;        ///< the shader's variant
   std::string clock;          ///< "gpu timer", "wall clock"
   int width = 0;
   int height = 0;
@@ -36,9 +36,9 @@ struct FrameSetting {
   int frames = 1;
   int samplesPerDraw = 0;  ///< at most; 0: as many as the renderer puts into a draw
   double compileMs = 0.0;
-  double firstFrameMs = 0.0;        ///< by the clock
+  double firstFrameMs = 0.0;        ///< time of the first frame by `clock`
   std::vector<double> frameMs;      ///< a round each, by the clock
-  std::vector<double> wallFrameMs;  ///< by the wall's clock, with all that is done between draws
+  std::vector<double> wallFrameMs;  ///< wall-clock times, with all work between draws
   double raysPerPath = 0.0;
   size_t nonfinitePixels = 0;
   size_t budgetHits = 0;

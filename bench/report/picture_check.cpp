@@ -12,7 +12,7 @@ namespace fragtrace {
 namespace {
 
 constexpr int kBlock = 8;
-constexpr double kRounding = 1e-4;  // of what is shown, in sums of floats
+constexpr double kRounding = 1e-4;  // rounding of shown values in sums of floats
 
 /// The variance of the difference of two means of luminance. It is pooled over both pictures, so that one
 /// rare bright sample widens it on whichever side it falls. Where a picture's own variance is larger, that is

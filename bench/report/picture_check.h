@@ -21,9 +21,9 @@ enum class CheckAgainst : uint8_t {
 struct PictureCheck {
   double rmse = 0.0;        ///< over pixels and colours
   double differing = 0.0;   ///< part of the pixels that are apart by more than rounding
-  double meanErrors = 0.0;  ///< how many standard errors the means of the whole pictures are apart
+  double meanErrors = 0.0;  ///< difference of the pictures' means in standard errors
   double farBlocks = 0.0;   ///< part of the blocks that are apart by more than kBlockErrors
-  double worstBlock = 0.0;  ///< how many standard errors the worst block is apart
+  double worstBlock = 0.0;  ///< largest difference of a block in standard errors
   std::string wrong;        ///< why they do not show the same; empty: they do
 };
 

@@ -16,7 +16,7 @@ struct StressOutcome {
   size_t cases = 0;
   size_t failures = 0;
   double seconds = 0.0;
-  std::string worst;  ///< where failures were seen, for people
+  std::string worst;  ///< the place of the worst failures, for people
 
   double rate() const { return cases > 0 ? double(failures) / double(cases) : 1.0; }
 };
@@ -34,7 +34,7 @@ struct StressResult {
 
 struct StressReport {
   std::string backend;
-  std::string renderer;  ///< of OpenGL
+  std::string renderer;  ///< OpenGL's renderer
   bool quick = false;
   uint32_t seed = 0;
   std::vector<StressResult> rows;

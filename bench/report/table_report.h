@@ -27,8 +27,8 @@ struct ReportRow {
   const char* options;
   double reportLow;   ///< milliseconds per picture; 0: the report has no such row
   double reportHigh;  ///< the same where it is one figure
-  int samples = 1;    ///< of a picture, in every pixel
-  double faces = 0;   ///< for the chart; 0: not in it
+  int samples = 1;    ///< samples per pixel of a picture
+  double faces = 0;   ///< faces in the chart; 0: the row is not in it
 
   bool iterative() const { return std::string_view(method) == "iterative"; }
 };

@@ -10,7 +10,7 @@
 namespace fragtrace {
 
 struct ForcedVariant {
-  std::string name;  ///< of the trait, or of what else is turned on
+  std::string name;  ///< name of the trait, or of the other feature that is turned on
   ShaderVariant variant;
   bool otherSamples = false;  ///< it chooses lights otherwise, so its noise is another
   std::string whyNot;         ///< why it cannot be drawn; empty: it can

@@ -10,8 +10,9 @@
 namespace fragtrace {
 
 enum class Form : uint8_t {
-  Scaled,     ///< by 1e-6 to 1e6, with all lengths; lights as bright from as many times farther away
-  Moved,      ///< by 1 to 1e6 times its size
+  /// Scaled by 1e-6 to 1e6, with all lengths; lights are as bright from as many times farther away.
+  Scaled,
+  Moved,      ///< moved by 1 to 1e6 times its size
   Turned,     ///< about any axis; under a sky about +y, and the sky, too
   Reordered,  ///< triangles in a mesh, meshes and nodes in the file
   Flattened,  ///< vertices in world space instead of nodes

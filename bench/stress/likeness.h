@@ -12,11 +12,11 @@ namespace fragtrace {
 struct Likeness {
   uint32_t seed = 0;
   Form form = Form::Scaled;
-  double meanApart = 0.0;   ///< of the whole pictures, as part of it
+  double meanApart = 0.0;   ///< relative difference of the whole pictures' means
   double meanErrors = 0.0;  ///< the same in standard errors
-  double worstBlock = 0.0;  ///< of the blocks of 8 x 8 pixels, in standard errors
+  double worstBlock = 0.0;  ///< largest difference of blocks of 8 x 8 pixels, in standard errors
   size_t pixels = 0;
-  size_t otherHits = 0;  ///< of these, pixels whose depths in one sample differ by over 0.1 %
+  size_t otherHits = 0;  ///< number of pixels whose depths in one sample differ by over 0.1 %
   std::string wrong;     ///< why they do not show the same; empty: they do
 };
 

@@ -31,7 +31,7 @@ struct SketchMaterial {
   double attenuationDistance = 0.0;  ///< metres; 0: none
   int colorTexture = -1;
   int normalTexture = -1;
-  glm::dvec2 textureScale{1.0};  ///< of KHR_texture_transform, for the colour
+  glm::dvec2 textureScale{1.0};  ///< scale of KHR_texture_transform for the colour
   double textureTurn = 0.0;      ///< the same, radians
 };
 
@@ -66,7 +66,7 @@ struct SceneSketch {
   std::vector<SketchLight> lights;
   glm::dmat4 camera{1.0};
   double fovY = 0.7;     ///< radians
-  glm::dmat4 root{1.0};  ///< of nodes, lights and the camera
+  glm::dmat4 root{1.0};  ///< transform of nodes, lights and the camera
   Image sky;             ///< the environment map; 0 x 0: none
   double skyTurn = 0.0;  ///< radians about +y
 };

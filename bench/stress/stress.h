@@ -21,14 +21,14 @@ struct StressSetting {
   std::filesystem::path shaderFolder;  ///< shaders from disk in place of the built-in ones
   bool quick = false;                  ///< about a hundredth of the cases
   bool watertight = true;              ///< else with the fast triangle test
-  Schedule schedule = Schedule::Auto;  ///< of what is path traced
-  uint32_t seed = 0;                   ///< of rays, random scenes and samples
+  Schedule schedule = Schedule::Auto;  ///< schedule of path-traced rows
+  uint32_t seed = 0;                   ///< seed of rays, random scenes and samples
   std::function<void()> goOn;          ///< to be called now and then, so that progress shows
 };
 
 struct StressRow {
   std::string name;
-  std::string sentence;  ///< what is tried, for the table
+  std::string sentence;  ///< the sentence in the table that describes the row
   double limit = 0.0;    ///< share of the cases that may fail
   bool fastToo = false;  ///< the fast triangle test is tried as well, for comparison
   std::function<StressOutcome(const StressSetting&)>

@@ -2,8 +2,8 @@
 // Takes one of several candidates as the light sample: resampled importance sampling (Talbot, Cline and Egbert,
 // Importance Resampling for Global Illumination, 2005).
 
-/// The loop iterations that a scattering takes more, at most, and steps of the megakernel's budget, each of which
-/// stands for three. Neighbours add the way from a leaf of the light tree to its root.
+/// The largest number of additional loop iterations of a scattering, and the same in steps of the megakernel's budget,
+/// which are three iterations each. Neighbours add the way from a leaf of the light tree to its root.
 const int kCandidateIterations = (kCandidates ? int(kLightCandidates) * (kLightTree ? 16 : 8) : 0) +
                                  (kNeighbours ? int(kReuseNeighbours) + (kLightTree ? 24 : 0) : 0);
 const int kCandidateSteps = kCandidateIterations / 3;

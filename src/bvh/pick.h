@@ -13,7 +13,7 @@ namespace fragtrace {
 struct Pick {
   std::string node;                 ///< its name, or its JSON pointer
   uint32_t nodeIndex = 0;           ///< its place in the file
-  std::string mesh;                 ///< the same; empty for a sphere
+  std::string mesh;                 ///< the mesh's name, or its JSON pointer; empty for a sphere
   uint32_t primitive = kMissIndex;  ///< index in the scene: triangles first, then spheres
   uint32_t triangle = kMissIndex;   ///< its number in the mesh primitive; kMissIndex for a sphere
   uint32_t material = 0;

@@ -114,7 +114,7 @@ bool standardOutputIsClosed() { return (::fcntl(STDOUT_FILENO, F_GETFL) & O_ACCM
 void checkPrinted() {
   std::cout.flush();
   if (std::cout && std::fflush(stdout) == 0 && !std::ferror(stdout)) return;
-  if (readerHasLeft()) std::_Exit(1);  // `| head` is no error to read about
+  if (readerHasLeft()) std::_Exit(1);  // a reader that leaves early, such as `| head`, needs no error message
   throw RenderError("cannot write to standard output");
 }
 

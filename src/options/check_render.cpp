@@ -181,7 +181,8 @@ void checkLightPaths(const RenderOptions& o) {
     throw UsageError("--caustics on: emission, diffuse and specular (--aov) would not add up to the picture");
 }
 
-/// Pixels take light samples of others in the same pass of the whole picture, so that their errors are alike.
+/// Refuses options beside spatial reuse. Pixels take light samples of others in the same pass of the whole
+/// picture, so their errors are alike.
 void checkReuse(const RenderOptions& o) {
   if (o.light.reuse != LightReuse::Spatial) return;
   const std::string refused = "--light-reuse spatial: not with ";

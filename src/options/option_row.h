@@ -46,7 +46,7 @@ struct OptionTraits {
   Effect effect = Effect::Picture;
   Renewal renewal = Renewal::None;
   const char* attribute = nullptr;  ///< its name in the attribute fragtrace:settings, where it stands there
-  bool copied = true;               ///< the command that the viewer copies says it
+  bool copied = true;               ///< the option is in the command that the viewer copies
   bool kept = false;                ///< the viewer keeps its own when a command is pasted
   const char* excludes = nullptr;   ///< an option of an earlier row
   OptionGroup group = OptionGroup::Tracing;

@@ -12,7 +12,7 @@ namespace {
 
 /// Relative error that the picture converges to before the program rests.
 constexpr double kNoise = 0.005;
-/// A side; what drivers draw, and less than what X servers take.
+/// The largest side. Drivers can draw it, and X servers take more.
 constexpr int kMostWindowPixels = 16384;
 
 }  // namespace

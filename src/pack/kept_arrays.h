@@ -41,7 +41,7 @@ struct KeptArrays {
     bool sun = false;         ///< appendSun()
     double sunPower = 0.0;    ///< the sun's part of the power
   };
-  std::optional<KeptEnvironment> environment;  ///< environment map; there is one a sequence
+  std::optional<KeptEnvironment> environment;  ///< the environment map; a sequence has only one
   bool geometry = false;  ///< tree, leaves, faces and vertices are as packed before, as are all pictures
 };
 

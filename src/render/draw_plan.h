@@ -34,7 +34,7 @@ inline double pixelSamples(const Work& work) {
   return work.busy * work.size.x * work.size.y * (work.to - work.from);
 }
 
-/// The same work in tiles.
+/// Returns the same work in tiles.
 inline std::vector<Work> tilesOf(const Work& work, glm::ivec2 tile) {
   std::vector<Work> tiles;
   for (int y = 0; y < work.size.y; y += tile.y) {

@@ -26,7 +26,7 @@ bool isSameButForCase(std::string_view a, std::string_view b);
 /// the same without regard to case; none if there is no such part.
 std::optional<size_t> findPart(const std::string& wanted, const std::vector<std::string>& names);
 
-/// The same. Throws UsageError, which begins with `option` and lists the names.
+/// Does the same, but throws UsageError, which begins with `option` and lists the names.
 size_t indexOfPart(const char* option, const std::string& wanted, const std::vector<std::string>& names);
 
 }  // namespace fragtrace

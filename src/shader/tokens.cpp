@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 22> kLongOperators{
 
 bool isWordPart(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.'; }
 
-/// The length of the blank or comment that the rest begins with.
+/// Returns the length of the blank or comment at the beginning of `rest`.
 size_t lengthOfGap(std::string_view rest) {
   const size_t blanks = std::min(rest.find_first_not_of(" \n\t\r"), rest.size());
   if (blanks > 0) return blanks;

@@ -90,7 +90,7 @@ struct TraitRow {
   StageSet stages{};     ///< the trait is off if one of these stages is off
   TraitSet needs{};      ///< the trait is off if one of these traits is off
   TraitSet brings{};     ///< traits that a scene must also have to show it
-  /// The textures that the shader reads where it is on; the rest null.
+  /// The textures that the shader reads if the trait is on; the rest are null.
   std::array<TextureRef Material::*, 2> textures{};
   bool texcoords = false;  ///< the trait reads texture coordinates without a texture
   /// Returns true if a material has the trait. Null: a material with one of the trait's textures has it, and

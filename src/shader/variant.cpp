@@ -245,7 +245,7 @@ ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& pre
   const bool normals = aov == Aov::Normal || guides;
   const bool follows = guides && has(present, Trait::SmoothSurfaces);
   for (const StageRow& row : stageRows()) {
-    // The same samples, and the same hits.
+    // These layers have the same samples, and the same hits.
     const bool kept = row.stage == Stage::Sobol || row.stage == Stage::Watertight ||
                       (normals && row.stage == Stage::NormalMaps) ||
                       (follows && (row.stage == Stage::Reflections || row.stage == Stage::Refraction ||

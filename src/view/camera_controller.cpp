@@ -151,7 +151,8 @@ CameraPose zoomAt(CameraPose pose, double amount, const glm::dvec2& place) {
   const double halfHeight = halfHeightOf(pose);
   const glm::dvec3 step = place.x * rightOf(pose) + place.y * pose.viewUp;
   pose = zoom(pose, amount);
-  // The place moves away by as much as the middle has come nearer.
+  // The zoom has changed the picture's half height. The shift moves the pose by that change, so the place
+  // stays where it is.
   const glm::dvec3 shift = (halfHeight - halfHeightOf(pose)) * step;
   pose.position += shift;
   pose.focalPoint += shift;

@@ -153,7 +153,7 @@ void playOrPause(ViewState& state) {
   if (state.playback.playing && time >= animationLength(state)) showAnimation(state, shown, 0.0);
 }
 
-/// Shows a debug view by its number, which counts on in a circle.
+/// Shows a debug view by its number. Numbers beyond the last one begin again at the first.
 bool showDebugView(ViewState& state, int number) {
   const int count = int(kDebugViewRows.size());
   state.options().output.debugView = DebugView((number + count) % count);

@@ -91,7 +91,7 @@ struct TracedPicture {
   Image image;                     ///< linear R, G, B and perhaps A, the first row at the top
   bool asItIs = false;             ///< colours of a debug view: neither exposure nor tone map
   std::filesystem::path file{};    ///< file of a picture that was read; empty: it was traced
-  std::vector<PictureLine> lines;  ///< over it: boxes of the tree
+  std::vector<PictureLine> lines;  ///< lines over the picture: boxes of the tree
   SideStatistics statistics;
 };
 
@@ -204,7 +204,7 @@ struct Orders {
   std::optional<std::filesystem::path> model;      ///< file to be written with the numbers that are set
   std::optional<std::filesystem::path> reference;  ///< file to be delivered as side B; empty: side B ends
   std::optional<PickRequest> pick;
-  std::vector<std::filesystem::path> thumbnails;  ///< environments, of which pictures are wanted
+  std::vector<std::filesystem::path> thumbnails;  ///< environments of which small pictures are wanted
   bool quit = false;
 };
 
@@ -235,9 +235,9 @@ class Exchange {
   /// Returns true if drawing is to stop: a newer request waits, or the end.
   bool interrupted() const;
   bool ending() const;
-  /// A slot of the side that the window neither shows nor waits for, with the GLsync that its last use ends
-  /// at (null: none), which becomes the caller's. The picture that the window has not yet taken gives way,
-  /// and where sides are shown together, so do those of the other sides.
+  /// Returns a slot of the side that the window neither shows nor waits for, and the GLsync at which its last
+  /// use ends (null: none). The caller owns both. A picture that the window has not yet taken is dropped, and
+  /// if sides are shown together, so are those of the other sides.
   std::pair<int, void*> freeSlot(size_t side, bool together);
   void deliver(TracedPicture picture);
   /// The window gets these at once.

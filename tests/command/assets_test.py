@@ -19,7 +19,8 @@ FOLDER = Path(os.environ.get("FRAGTRACE_ASSETS", "/work/shared/assets")) / "scen
 PICTURES = SCENES.parent / "tests/assets"
 SIDE = 48
 SPP, REFERENCE_SPP = 256, 4096
-SIGNIFICANCE = 1e-3  # of a picture's whole comparison, two-sided, shared between blocks of both sizes (Bonferroni)
+# Significance of a picture's whole comparison, two-sided, shared between blocks of both sizes (Bonferroni).
+SIGNIFICANCE = 1e-3
 ROUNDING = 1e-3  # half floats, and drivers that round otherwise
 MEAN_BIAS = 0.01
 

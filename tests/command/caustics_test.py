@@ -22,7 +22,7 @@ INTENSITY = 3.0
 CORNERS = ((-1, -1), (1, -1), (1, 1), (-1, 1))
 LAMP = ((-0.7, -0.1, 1.1), 0.2, 20.0)   # middle, half of its width, radiance
 SUN = (1.1, 2.0)                       # angle to the vertical, irradiance
-CONE = (0.5, 1.1)                      # of the spot
+CONE = (0.5, 1.1)                      # cone angles of the spot
 UP = ((1.5, 0.0, 0.3), 0.35, 20.0)     # a lamp beside the picture that faces away from the ground; as LAMP
 ABOVE = 1.0                            # height of the mirror over it, whose front faces the ground
 VIEW = 2.2 * math.tan(0.45)            # half of the width of what the camera sees
@@ -191,7 +191,8 @@ class Caustics(Case):
 
     def test_a_spot_and_the_sun(self):
         aim = {"translation": POINT, "rotation": [0, -math.sin(math.pi / 8), 0, math.cos(math.pi / 8)]}
-        axis = (math.sin(math.pi / 4), 0, -math.cos(math.pi / 4))  # of a spot that is turned towards the mirror
+        # The axis of a spot that is turned towards the mirror.
+        axis = (math.sin(math.pi / 4), 0, -math.cos(math.pi / 4))
         spot = {"type": "spot", "intensity": INTENSITY, "spot": {"innerConeAngle": CONE[0], "outerConeAngle": CONE[1]}}
 
         def cone(place, axis, x, y):
@@ -266,7 +267,8 @@ class Caustics(Case):
                  "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": {"thicknessFactor": 1}}}
         gltf["materials"].append(glass)
         gltf["extensions"]["KHR_implicit_shapes"] = {"shapes": [{"type": "sphere", "sphere": {"radius": radius}}]}
-        gltf["nodes"][0] = {"extras": {"shape": 0, "material": len(gltf["materials"]) - 1}}  # for the ground
+        # This sphere replaces the ground.
+        gltf["nodes"][0] = {"extras": {"shape": 0, "material": len(gltf["materials"]) - 1}}
         Path(f"{path}.gltf").write_text(json.dumps(gltf))
 
         def flux(seed, side):

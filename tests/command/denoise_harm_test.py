@@ -13,7 +13,7 @@ from support import SCENES, Case, Exr, main
 SIZE = "64,64"
 SAMPLES = (16, 64, 256, 1024)
 SEEDS = range(16)
-MOST = 1.02        # of filtered over noisy error
+MOST = 1.02        # limit of filtered over noisy error
 STUDENT = 1.753    # 95 % of Student's t with fifteen degrees of freedom, one-sided
 DARK = 0.01        # the part of the mean that is squared in the relative errors of docs/output.md
 SKY = ["--hdri-file", SCENES / "sky.pfm"]

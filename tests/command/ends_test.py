@@ -15,7 +15,8 @@ from pathlib import Path
 from support import FRAGTRACE, SCENES, SMALL, Case, main, read_pfm, run
 
 BOX = SCENES / "cornell-box.gltf"
-ENDLESS = ["--resolution", "64,64", "--spp", "500000000", "--quiet"]  # what is not refused at once runs into the time limit
+# A run that is not refused at once meets the time limit.
+ENDLESS = ["--resolution", "64,64", "--spp", "500000000", "--quiet"]
 WORKER = "fragtrace_worker"
 
 

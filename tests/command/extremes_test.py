@@ -11,7 +11,7 @@ from materials_test import data_uri, png
 from support import BACKENDS, SCENES, Case, main
 
 COLUMNS, ROWS = 16, 12
-LENGTHS = (0, 1e-38, 1e-20, 1, 1, 1, 1e18, 3e38)  # of normals
+LENGTHS = (0, 1e-38, 1e-20, 1, 1, 1, 1e18, 3e38)  # lengths of normals
 
 
 def extreme(draw):

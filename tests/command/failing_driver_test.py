@@ -58,7 +58,7 @@ class Failing(Case):
                     continue
                 self.assertIn(result.returncode, (1, 4), result.stderr)
                 self.assertTrue(result.stderr.startswith("fragtrace: "), result.stderr)
-                if kind != "build":  # which prints the driver's log
+                if kind != "build":  # the message of a failed build also prints the driver's log
                     self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
                 self.assertEqual(written, OLD)
                 self.assertEqual(set(self.folder.iterdir()), {self.path, self.folder / "calls"})

@@ -13,8 +13,8 @@ sys.path.insert(0, str(SCENES))
 from picture_files import read_png, write_pfm  # noqa: E402
 
 SCRIPT = SCENES.parent / "bench/fidelity"
-COLOR = (0.4, 0.1, 0.05)  # of a quad without light
-ABOVE, BELOW = (0.1, 0.2, 0.7), (0.2, 0.3, 0.1)  # of the environment
+COLOR = (0.4, 0.1, 0.05)  # colour of a quad without light
+ABOVE, BELOW = (0.1, 0.2, 0.7), (0.2, 0.3, 0.1)  # colours of the environment
 TO_ACES = ((0.59719, 0.35458, 0.04823), (0.07600, 0.90834, 0.01566), (0.02840, 0.13383, 0.83777))
 FROM_ACES = ((1.60475, -0.53108, -0.07367), (-0.10208, 1.10813, -0.00605), (-0.00327, -0.07276, 1.07602))
 

@@ -158,7 +158,7 @@ class GpuBundle(Case):
         self.assertIn("| reference pictures, wavefront | 3 of 3 right |", table)
 
         reference = bundle / "tests/reference/mapped-layers.gi.pfm"
-        shutil.copy(bundle / "tests/reference/rough-metals.gi.pfm", reference)  # of the same size
+        shutil.copy(bundle / "tests/reference/rough-metals.gi.pfm", reference)  # the picture has the same size
         status, table = self.run_bundle(bundle)
         self.assertEqual(status, 1, table)
         self.assertIn("| 3 of 4 right |", table)

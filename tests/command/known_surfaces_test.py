@@ -8,7 +8,7 @@ import struct
 from materials_test import data_uri, png, quad
 from support import Case, main
 
-ANGLE = 0.3  # of the light to the normal
+ANGLE = 0.3  # angle between light and normal
 LIGHT = (math.sin(ANGLE), 0, math.cos(ANGLE))
 HALF = (math.sin(ANGLE / 2), 0, math.cos(ANGLE / 2))
 IRRADIANCE = 2 * math.cos(ANGLE)
@@ -18,7 +18,7 @@ CORNERS = ((0.9, 0.2, 0.4), (0.5, 0.7, 0.1), (0.1, 0.9, 0.8), (0.6, 0.3, 0.2))  
 NORMAL = (-0.6, 0, 0.8)
 TANGENT = (0.6, 0.8, 0, -1)
 TEXEL = (180, 90, 230)
-KEPT = [struct.unpack("<e", struct.pack("<e", t / 255))[0] for t in TEXEL]  # as half floats
+KEPT = [struct.unpack("<e", struct.pack("<e", t / 255))[0] for t in TEXEL]  # the texels as half floats
 SIDE = 16  # pixels of a square
 
 
@@ -132,12 +132,12 @@ def expected_base(metallic, roughness, specular=1.0, ior=1.5, tint=(1, 1, 1)):
 def squares():
     """Materials and the colours that they show."""
     none = {"specularFactor": 0}
-    strength = KEPT[2]  # of the anisotropy, whose direction is in red and green
+    strength = KEPT[2]  # strength of the anisotropy, whose direction is in red and green
     stretched = (0.09 + 0.91 * (0.6 * strength)**2, 0.09, 0.5 + math.atan2(2 * KEPT[1] - 1, 2 * KEPT[0] - 1))
     texture = {"index": 0}
     share, lobe = coated(0.25, 0.4)
     lit = sum(a * b for a, b in zip(mapped(0.7), LIGHT))
-    under = 1 - max(COLOR) * max(velvet_albedo(0.5625, d) for d in (LIGHT, (0, 0, 1)))  # what sheen lets pass
+    under = 1 - max(COLOR) * max(velvet_albedo(0.5625, d) for d in (LIGHT, (0, 0, 1)))  # the share that sheen lets pass
     coat = 0.9 * 0.04  # seen straight on
     absorbed = [math.exp(math.log(c) * 0.5 / 0.7) for c in COLOR]  # half a metre, of 0.7 in which COLOR is left
     return [

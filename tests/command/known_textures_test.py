@@ -14,7 +14,7 @@ FILTERS = {"linear": 9729, "nearest": 9728}
 SIDE = 16      # pixels of a square
 PARTS = 8      # points per side of a pixel in the expected mean
 TEXELS = 4     # a side of the texture
-OFFSET, ROTATION, SCALE = (0.4, -0.3), 0.2, (1.2, 0.9)  # of KHR_texture_transform
+OFFSET, ROTATION, SCALE = (0.4, -0.3), 0.2, (1.2, 0.9)  # the numbers of KHR_texture_transform
 FIRST, LAST = -0.9, 1.3  # texture coordinates over a square, before the transform
 
 

@@ -10,7 +10,7 @@ from support import SCENES, Case, main
 
 ANGLE = 45
 SIDE = 64
-HALF = 0.2  # of the lamp, metres
+HALF = 0.2  # half of the lamp's side, metres
 DISTANCE = 4
 
 

@@ -112,7 +112,7 @@ class Sequences(Case):
         self.assertNotIn("ends after", self.draw("--frames", "0:3").stderr)
         self.assertIn("warning: --frames: the animation ends after 1 s, at picture 24;", self.draw("--frames", "1000:1001").stderr)
         before = {k: (self.folder / f"x.{k:02}.exr").stat().st_mtime_ns for k in range(4)}
-        (self.folder / "x.02.exr").write_bytes(b"")  # as a copy that crashed leaves it
+        (self.folder / "x.02.exr").write_bytes(b"")  # a copy that crashed leaves such a file
         result = self.draw("--frames", "0:3", "--continue")
         self.assertEqual(len(result.stdout.splitlines()), 1)
         self.assertIn("3 of 4 pictures were there already", result.stderr)

@@ -14,8 +14,8 @@ from support import SCENES, SMALL, Case, Exr, main, run
 BLACK = {"pbrMetallicRoughness": {"metallicFactor": 0, "baseColorFactor": [0, 0, 0, 1]},
          "extensions": {"KHR_materials_specular": {"specularFactor": 0}}}
 WHITE = {"pbrMetallicRoughness": {"metallicFactor": 0}, "extensions": BLACK["extensions"]}
-RADIUS, HEIGHT = 0.5, 0.8  # of the ball, and of its middle above the ground
-SIDE, HALF = 24, 1.8       # of the picture, from straight above: pixels, and half of what it shows
+RADIUS, HEIGHT = 0.5, 0.8  # radius of the ball, and height of its middle above the ground
+SIDE, HALF = 24, 1.8       # the picture from straight above: its pixels, and half of the side that it shows
 FROM_ABOVE = ["--resolution", f"{SIDE},{SIDE}", "--camera-position", "0,9,0", "--camera-focal-point", "0,0,0", "--camera-view-up", "0,0,-1", "--camera-parallel-scale", str(HALF)]
 SEEDS = 8
 

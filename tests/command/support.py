@@ -26,7 +26,7 @@ SCENES = Path(sys.argv[2]).resolve() / "scenes"
 # The software back ends that are installed: Mesa 25.1 and later have no OSMesa.
 BACKENDS = ("egl", "osmesa") if ctypes.util.find_library("OSMesa") else ("egl",)
 SMALL = ["--resolution", "16,16", "--spp", "2", "--quiet"]
-WEIGHTS = (0.2126, 0.7152, 0.0722)  # of luminance
+WEIGHTS = (0.2126, 0.7152, 0.0722)  # weights of luminance
 # A white world: what absorbs nothing is not seen in it.
 WHITE = ["--default-light", "white", "--background-color", "1,1,1", "--bounces", "unlimited"]
 TURNED = bytes(i ^ 128 for i in range(256))

@@ -11,7 +11,7 @@ from support import Case, main
 
 COLOURS = {"baseColorTexture", "emissiveTexture", "specularColorTexture", "sheenColorTexture"}  # sRGB
 SIDE = 8  # pixels of a square
-ANGLE = 1.0  # of the light to the normal
+ANGLE = 1.0  # angle between light and normal
 
 
 def linear(key, texel):

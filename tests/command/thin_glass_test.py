@@ -117,7 +117,7 @@ class ThinGlass(Case):
 
     def test_before_global_illumination(self):
         lit, through = (self.seen(self.scene(panes, [0.5]), "--stage", "refraction")[8][8] for panes in ([], [PANE]))
-        for with_pane, without, tint in zip(through, lit, TINT):  # of which 0.03 is ambient light
+        for with_pane, without, tint in zip(through, lit, TINT):  # 0.03 of both is ambient light
             self.assertAlmostEqual((with_pane - 0.03) / (without - 0.03), passed(math.cos(0.5)) * tint, delta=1e-5)
 
     def lamp_light(self, x, y, lamp, parts=24):

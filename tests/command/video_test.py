@@ -90,7 +90,8 @@ class Videos(Case):
             expected = [sample for *_, samples in self.pngs("--png-depth", 16, *options) for sample in samples]
             self.assertEqual(min(found[3::4]), 65535 if opaque else 0)
             self.assertEqual([s for i, s in enumerate(found) if i % 4 < 3 or not opaque], expected)
-        self.assertEqual(len(self.frames("rgb24", "--quiet", turn=TURN[:4]).stdout), 40 * 30 * 3)  # of a single picture
+        # This is a single picture.
+        self.assertEqual(len(self.frames("rgb24", "--quiet", turn=TURN[:4]).stdout), 40 * 30 * 3)
 
     def test_the_encoder_gets_the_frames_and_its_file_takes_the_place(self):
         self.video.write_text("an older one")
@@ -177,7 +178,7 @@ class Videos(Case):
     @unittest.skipUnless(shutil.which("ffmpeg"), "there is no ffmpeg")
     def test_players_show_the_colours_of_a_png(self):
         """The frames of real videos, decoded, differ from the pictures by noise of the codec, with no shift of a colour."""
-        scene = SCENES / "plastics.gltf"  # of strong colours
+        scene = SCENES / "plastics.gltf"  # this scene has strong colours
         turn = ["--resolution", "80,40", "--spp", 4, "--turntable", 2, "--quiet", "--studio", "--stage", "phong"]
         self.renders(scene, "-o", self.folder / "n.#.png", *turn)
         expected = read_png(self.folder / "n.1.png")[2]

@@ -118,7 +118,7 @@ void checkRefusal(const std::filesystem::path& path, const std::string& message)
 std::optional<fragtrace::Scene> load(const std::filesystem::path& path, fragtrace::Instancing instancing) {
   fragtrace::GltfOptions options;
   options.limits.memoryBytes = uint64_t(64) << 20;
-  options.selection.animationTime = 0.5;  // where there is no animation, that is a warning
+  options.selection.animationTime = 0.5;  // without an animation, that is a warning
   options.instancing = instancing;
   try {
     fragtrace::Scene scene = fragtrace::loadGltf(path, options);

@@ -32,7 +32,7 @@ class Viewed : public testing::Test {
     options_.render.camera.resolution = kSize;
     options_.render.output.quiet = true;
     options_.render.device.backend = Backend::Egl;
-    options_.movingMs = 1e-6;                           // what moves is as coarse as can be
+    options_.movingMs = 1e-6;                           // pictures in motion are as coarse as possible
     options_.render.stages = stagesUpTo(Stage::Phong);  // without a preview, which one side has alone
     tracer_.emplace(options_, std::nullopt, exchange_);
     thread_ = std::thread([this] { tracer_->run({}); });

@@ -29,7 +29,7 @@ std::vector<Bounds> geometricProgression() {
 }
 
 struct Walk {
-  std::vector<int> found;  // how often each primitive was
+  std::vector<int> found;  // how often each primitive was found
   uint32_t depth = 0;
 };
 

@@ -64,7 +64,8 @@ TEST(Checkpoints, CutAnywhereAreRefused) {
 
 TEST(Checkpoints, WithAnyByteOfTheirArraysChangedAreRefused) {
   const std::vector<uint8_t> bytes = encodeCheckpoint(someCheckpoint());
-  const auto end = std::find(bytes.rbegin(), bytes.rend(), uint8_t('}')).base();  // of the header, or later
+  // The end of the header, or later.
+  const auto end = std::find(bytes.rbegin(), bytes.rend(), uint8_t('}')).base();
   for (auto at = size_t(end - bytes.begin()); at < bytes.size(); ++at) {
     std::vector<uint8_t> changed = bytes;
     changed[at] ^= 1;

@@ -26,7 +26,7 @@ using glsl_double::phongAlbedo;
 using glsl_variant::With;
 
 constexpr double kPi = M_PI;
-constexpr double kMirrorExponent = 1998.0;  // of the smoothest surface
+constexpr double kMirrorExponent = 1998.0;  // exponent of the smoothest surface
 
 using Radiance = std::function<dvec3(const dvec3&)>;
 
@@ -237,7 +237,7 @@ TEST(EnvironmentLight, AlbedoOfHighlightsIsThatOfSums) {
           << exponent << ' ' << degrees;
     }
   }
-  EXPECT_NEAR(phongAlbedo(kMirrorExponent, 0.5), 0.25, 0.002);  // of mirrors, the squared cosine
+  EXPECT_NEAR(phongAlbedo(kMirrorExponent, 0.5), 0.25, 0.002);  // for mirrors it is the squared cosine
 }
 
 TEST(EnvironmentLight, ReflectsNearlyWhatSumsReflect) {

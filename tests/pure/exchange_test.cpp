@@ -88,7 +88,7 @@ TEST(Exchange, StatesStayUntilTheyChangeAndMessagesComeOnce) {
 TEST(Exchange, ASlotThatIsDrawnToBelongsToNobodyElse) {
   Exchange exchange;
   std::array<char, kSlots> fences{};
-  std::vector<int> held;  // by the window: the first is shown
+  std::vector<int> held;  // slots that the window holds; the first is shown
   std::mt19937 random(5);
   for (int turn = 0; turn < 10'000; ++turn) {
     const int choice = std::uniform_int_distribution(0, 2)(random);

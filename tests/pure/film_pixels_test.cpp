@@ -16,7 +16,7 @@ TEST(FilmPixel, MeanAndVarianceAreThoseOfItsSamples) {
   EXPECT_EQ(p.variance(), 0.0);
   addSample(p, glm::dvec3(1, 2, 3));
   EXPECT_EQ(p.mean(), glm::dvec3(1, 2, 3));
-  EXPECT_EQ(p.variance(), 0.0);  // of one sample nothing is known
+  EXPECT_EQ(p.variance(), 0.0);  // one sample shows no variance
   addSample(p, glm::dvec3(3, 4, 5));
   EXPECT_EQ(p.mean(), glm::dvec3(2, 3, 4));
   EXPECT_NEAR(p.luminance(), 2 * 0.2126 + 3 * 0.7152 + 4 * 0.0722, 1e-15);

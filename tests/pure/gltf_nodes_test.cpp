@@ -84,7 +84,7 @@ TEST(GltfNodes, TheUpAxisOfAFileIsTurnedToY) {
   builder.root["nodes"].push_back({{"camera", 0}, {"translation", {4, 5, 6}}});
   struct Case {
     glm::dvec3 up;
-    glm::dvec3 x, y, z;  ///< where the file's axes go
+    glm::dvec3 x, y, z;  ///< directions to which the file's axes turn
   };
   const Case cases[] = {
       {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, 0, 1}},   {{0, 1, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},

@@ -161,7 +161,7 @@ TEST(ChangedFile, OfAGlbKeepsItsOtherChunks) {
   GltfBuilder builder = coated();
   const auto from = folder.write("a.glb", builder.glb());
   const auto to = folder.path() / "b.glb";
-  for (const double roughness : {0.5, 0.25, 0.125, 0.0625}) {  // of all lengths that are padded
+  for (const double roughness : {0.5, 0.25, 0.125, 0.0625}) {  // their texts have all lengths that are padded
     writeChanged(from, to, {{{kRoughness, {roughness}}}});
     const Scene scene = loadGltf(to);
     EXPECT_EQ(scene.materials.at(0).roughnessFactor, float(roughness));

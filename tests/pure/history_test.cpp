@@ -47,7 +47,7 @@ TEST(History, TurnsAndASideThatNobodySeesAreNoSteps) {
   for (const double turn : {-360.0, 360.0}) {
     state.sides[0].light.sky.sun.azimuth += turn;
     state.sides[0].light.hdriRotationDegrees += turn;
-    state.sides[1].output.toneMap = ToneMap::Aces;  // as the panel sets both
+    state.sides[1].output.toneMap = ToneMap::Aces;  // the panel sets both
     record(history, state);
     EXPECT_TRUE(history.past.empty());
   }

@@ -25,7 +25,7 @@ using Bytes = std::vector<uint8_t>;
 struct Sample {
   const char* name;
   int width, height;
-  const char* channels;  ///< of the picture that it was made from
+  const char* channels;  ///< channels of the picture from which it was made
   double error;          ///< root of the mean square in steps of 255, as the encoder leaves it
 };
 

@@ -114,7 +114,7 @@ TEST(LightTree, TheShaderChoosesWithTheChancesItTells) {
     const auto to = glsl_double::receiverOf(point, normal);
     std::map<int, double> chances;
     std::map<int, double> chosen;
-    double lost = 0.0;  // where bounds promised light that is not there
+    double lost = 0.0;  // the loss where bounds promised light that is not there
     for (uint32_t i = 0; i < kSteps; ++i) {
       const auto emitter = glsl_double::emitterByTree(1.0, to, i << 17 | 1u << 16, uvec2(0u));
       if (emitter.chance <= 0.0) {
@@ -251,7 +251,7 @@ TEST(LightTree, DensityOfASampleIsThatOfTheRayThatFindsIt) {
                                      point);
       if (s.pdf <= 0.0) continue;
       const auto place = lit.placeOf(point + s.direction * s.distance);
-      if (!place) continue;  // of two triangles at one place
+      if (!place) continue;  // one of two triangles at the same place was hit
       ++found;
       const double cosine = std::abs(glm::dot(lit.normalOf(place->triangle), s.direction));
       EXPECT_NEAR(glsl_double::treePdf(int(slots[place->triangle]), point, normal, s.distance, cosine), s.pdf,

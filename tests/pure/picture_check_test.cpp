@@ -82,7 +82,7 @@ TEST(PictureCheck, OfTheSameSamplesFewPixelsMayDiffer) {
   const auto change = [&](size_t count, double factor) {
     for (size_t i = 0; i < count; ++i) picture.pixels[i * 100].sum *= factor;
   };
-  change(10, 1.01);  // of 3072
+  change(10, 1.01);  // 10 of 3072 pixels
   const PictureCheck check = checkPicture(picture, other, CheckAgainst::SameSamples);
   EXPECT_EQ(check.wrong, "");
   EXPECT_NEAR(check.differing, 10.0 / 3072.0, 1e-3);

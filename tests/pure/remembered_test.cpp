@@ -24,7 +24,7 @@ TEST_F(RememberedFiles, IsReadAsItWasWritten) {
   EXPECT_EQ(written.recent[1], "/scenes/19.glb");
   written.bookmarks["/scenes/1.glb"] = {{"a \"name\"", "--camera-index 1"}, {"\xff", ""}};
   writeRemembered(file, written);
-  written.bookmarks["/scenes/1.glb"][1].name = "\xEF\xBF\xBD";  // what is no text is replaced
+  written.bookmarks["/scenes/1.glb"][1].name = "\xEF\xBF\xBD";  // bytes that are no text are replaced
   EXPECT_EQ(readRemembered(file), written);
 }
 

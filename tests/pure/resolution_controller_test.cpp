@@ -19,7 +19,7 @@ struct Machine {
   double overheadMs = 0.0;
   double msPerPixel = 1e-4;
   double noise = 0.0;         ///< standard deviation of the logarithm
-  double hiccupChance = 0.0;  ///< of a frame five times as long
+  double hiccupChance = 0.0;  ///< probability of a frame that takes five times as long
 };
 
 struct Frames {

@@ -253,7 +253,7 @@ TEST(ShaderLayers, ClearcoatIsTheSpecificationsLayer) {
 
 TEST(ShaderLayers, SheenIsTheSpecificationsLobeOverAScaledBase) {
   const AllExtensions on;
-  const double roughness = 0.6;  // where no direction gives out more than it gets
+  const double roughness = 0.6;  // at this roughness no direction gives out more than it gets
   const double alpha = roughness * roughness;
   const Bsdf base = plastic(0.7);
   const dvec3 color(0.8, 0.4, 0.1);

@@ -44,7 +44,7 @@ bool lampFinds(const std::string& vertices) {
     prefix = lightPrefix(prefix, v.delta, v.straight);
   }
   return prefix != glsl_float::kPrefixNone &&
-         isRough(vertices[0]);  // as lightPathAt() decides where a path may be seen
+         isRough(vertices[0]);  // lightPathAt() decides in the same way where a path may be seen
 }
 
 /// The same by the definition: E D, then anything, beside the lamp a run of casters and thin walls that

@@ -19,7 +19,7 @@ using glsl_double::panoramaDirection;
 using glsl_double::panoramaPlace;
 using glsl_double::panoramaSpread;
 
-constexpr double kTolerance = 1e-7;  // of unitCircle()
+constexpr double kTolerance = 1e-7;  // tolerance of unitCircle()
 
 TEST(ShaderRoundCamera, PanoramaIsEvenInAngles) {
   for (int i = -8; i <= 8; ++i) {

@@ -40,7 +40,7 @@ vec2 unpackHalf2x16(uint32_t word) { return glm::unpackHalf2x16(word); }
 namespace {
 
 constexpr int kWalks = 1 << 16;
-constexpr double kSide = 0.1;  // of a voxel, local space
+constexpr double kSide = 0.1;  // side of a voxel, local space
 
 /// Bricks of which some are empty, with values between 0 and 1, some of them 0.
 VolumeGrid sampleGrid() {

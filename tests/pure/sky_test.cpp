@@ -25,7 +25,7 @@ class BruteForce {
   /// Light from a direction, seen from the ground.
   Spectrum radiance(const dvec3& direction, const dvec3& sun) const {
     constexpr int kSteps = 3000;
-    constexpr int kNodes = 24;  // of the light that is scattered often, which changes slowly
+    constexpr int kNodes = 24;  // nodes for light that is scattered often, which changes slowly
     const dvec3 eye(0.0, kGroundRadius, 0.0);
     const double whole = distanceToTop(kGroundRadius, direction.y);
     std::vector<Spectrum> often;
@@ -197,8 +197,8 @@ struct OfMitsuba {
   double sun;         // elevation, degrees
   double aside;       // luminance at an elevation of 2 degrees, 90 degrees beside the sun, by the zenith's
   double behind;      // the same opposite to the sun
-  double irradiance;  // of level ground by the sky, by the zenith's luminance
-  double sunlight;    // of a surface that faces the sun
+  double irradiance;  // irradiance of level ground by the sky, over the zenith's luminance
+  double sunlight;    // irradiance of a surface that faces the sun
 };
 constexpr OfMitsuba kOfMitsuba[] = {
     {3.0, 60.0, 3.149, 3.450, 4.579, 22.85}, {3.0, 40.0, 4.265, 5.688, 6.332, 32.24},

@@ -73,7 +73,7 @@ class Compensation:
         return mixed(dr.gather(mi.Float, self.loss, below), dr.gather(mi.Float, self.loss, below + 1), place - mi.Float(below))
 
     def value(self, f0, outgoing_z, incoming_z):
-        mean_fresnel = f0 + (1 - f0) / 21  # of Schlick's reflectance over the hemisphere
+        mean_fresnel = f0 + (1 - f0) / 21  # mean of Schlick's reflectance over the hemisphere
         color = dr.square(mean_fresnel) * self.average / (1 - mean_fresnel * (1 - self.average))
         return color * self.loss_at(outgoing_z) * self.loss_at(incoming_z) / (dr.pi * (1 - self.average))
 

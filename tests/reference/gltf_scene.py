@@ -70,7 +70,7 @@ class Mesh:
     material: Material
     positions: np.ndarray  # triangles, 3, 3
     normals: np.ndarray
-    uvs: list  # for each coordinate set: triangles, 3, 2
+    uvs: list  # an array (triangles, 3, 2) for each coordinate set
     tangents: np.ndarray  # triangles, 3, 4
     colors: np.ndarray  # triangles, 3, 4
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-BANDS = (np.pi, 2 * np.pi / 3, np.pi / 4)  # by which a clamped cosine multiplies harmonics
+BANDS = (np.pi, 2 * np.pi / 3, np.pi / 4)  # factors by which a clamped cosine multiplies harmonics
 
 
 def read_pfm(path):

@@ -35,7 +35,7 @@ class FirstPicture(Case):
         self.assertGreater(position[1], 0)  # and from above
         shown = pixels_of(viewer.press_for_file("F12", ".png"))
         words = copied_command(self, viewer)
-        self.assertNotIn("--default-light", words)  # as `render` lights it, too
+        self.assertNotIn("--default-light", words)  # `render` lights the scene in the same way
         words[words.index("--output") + 1] = str(self.folder / "command.png")
         subprocess.run([FRAGTRACE, *words[1:], "--quiet"], check=True, cwd=self.folder, timeout=300)
         self.same(shown, pixels_of(self.folder / "command.png"))
@@ -274,7 +274,7 @@ class Compare(Case):
         """A part of the picture that nothing is written over."""
         time.sleep(0.3)
         width, _, pixels = viewer.picture()
-        return [pixels[width * y + x] for y in range(230, 250) for x in range(90, 110)]  # of a ball
+        return [pixels[width * y + x] for y in range(230, 250) for x in range(90, 110)]  # pixels of a ball
 
 
 class Pixels(Case):

@@ -52,7 +52,7 @@ class Display(Case):
         for curve in ("linear", "reinhard", "aces", "agx", "neutral"):
             with self.subTest(curve=curve):
                 viewer.until(lambda s: s["tone_map"] == curve, curve)
-                time.sleep(0.3)  # for the messages of screenshots to be gone, and the frame to be shown
+                time.sleep(0.3)  # messages of screenshots must be gone, and the frame must be shown
                 rendered = pixels_of(self.render("plastics", *SIZE, "--spp", 4, "--exposure", "0.5", "--tone-map", curve))
                 width, height, shown = viewer.picture()
                 self.assertEqual((width, height), (160, 120))
@@ -68,7 +68,7 @@ class Camera(Case):
         viewer.at(130, 50)  # beside the lines about the first
         viewer.xdotool("keydown", "shift", "click", 1, "keyup", "shift")
         said = viewer.until(lambda s: s["measured"], "the distance", 10)["measured"]
-        self.assertEqual(viewer.status()["pick"], picked)  # which stays
+        self.assertEqual(viewer.status()["pick"], picked)  # the picked surface stays
         time.sleep(0.5)  # else it is a double click
         viewer.xdotool("click", 1)
         there = viewer.until(lambda s: s["pick"] and s["pick"] != picked, "the other point")
@@ -108,7 +108,7 @@ class Camera(Case):
         self.same(pixels_of(shown), pixels_of(rendered))
         self.assertTrue(pixels_of(shown) != pixels_of(self.render("plastics", *SIZE, "--spp", 4)))
 
-        viewer.click("close news")  # which covers half of so small a picture
+        viewer.click("close news")  # the news cover half of so small a picture
         viewer.until(lambda s: "news" not in s["places"], "closed")
         viewer.at(80, 80)
         viewer.xdotool("click", 1)

@@ -24,7 +24,7 @@ KEYS = [*"fcrui123456789jklmnptvxz", "space", "Tab", "h", "F1", "question", "F2"
         "ctrl+shift+z", "g", "b", "bracketleft", "bracketright", "shift+l", "shift+v", "shift+n", "shift+p", "Up", "equal", "minus", "w", "a", "s",
         "d", "q", "e", "F11", "F12", "shift+F12", "ctrl+o"]
 DROPS = ["sphere-plane.gltf", "cornell-box.gltf", "water-cube.gltf", "furnace.gltf", "sky.pfm", "README.md"]
-MOST_GROWTH = 1.1  # of memory, from the tenth minute on
+MOST_GROWTH = 1.1  # limit of memory's growth from the tenth minute on
 
 
 def resident_megabytes(pid):
@@ -143,7 +143,8 @@ class RandomEvents(Case):
     def lost(self, viewer):
         self.lose.touch()
         viewer.key("m")
-        time.sleep(1)  # for a picture: the third loss without one between them ends the program, as it should
+        # This leaves time for a picture: the third loss without one between ends the program, as it should.
+        time.sleep(1)
 
     def type(self, viewer):
         viewer.xdotool("type", "--delay", 5, "--", "".join(self.random.choices("abc 123.-é/", k=6)))

@@ -273,6 +273,6 @@ class Case(unittest.TestCase):
         path.parent.mkdir(exist_ok=True)
         scene = scene if isinstance(scene, Path) else SCENES / (scene + ".gltf")
         if "--default-light" not in options:
-            options += ("--default-light", "white")  # as Viewer
+            options += ("--default-light", "white")  # as in Viewer
         subprocess.run([FRAGTRACE, "render", scene, "-o", path, "--quiet", *map(str, options)], check=True, timeout=300)
         return path

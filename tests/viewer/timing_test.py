@@ -9,7 +9,7 @@ import time
 from support import Case, main
 
 MOST_CORE_AT_REST = 0.02
-MOST_ANSWER_MS = 100.0  # of the event loop
+MOST_ANSWER_MS = 100.0  # limit of the event loop's answer
 
 
 def grid(path, side):

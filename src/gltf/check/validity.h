@@ -17,7 +17,7 @@ void checkValidity(const nlohmann::json& root, Diagnostics& diagnostics);
 /// Refuses versions but 2.x, before their schema is looked at. Says nothing of an asset without a version.
 void checkVersion(const nlohmann::json& root, const Diagnostics& diagnostics);
 
-/// The same for buffer views, accessors, images and mesh primitives.
+/// Checks the same for buffer views, accessors, images and mesh primitives.
 void checkDataValidity(const nlohmann::json& root, Diagnostics& diagnostics);
 
 }  // namespace fragtrace

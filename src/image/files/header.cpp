@@ -78,7 +78,7 @@ ImageHeader webpHeader(Bytes bytes) {
 }
 
 ImageHeader hdrHeader(Bytes bytes) {
-  // Ward, "Real Pixels": lines of text up to an empty one, the resolution, the scan lines.
+  // By Ward, "Real Pixels", a file has lines of text up to an empty one, the resolution, and the scan lines.
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const size_t empty = text.find("\n\n");
   const size_t end = empty == text.npos ? text.npos : text.find('\n', empty + 2);

@@ -27,8 +27,8 @@ const std::string& whyNoKtx2();
 std::vector<uint8_t> encodeBytesByProcess(int width, int height, int channelCount, int bits,
                                           std::span<const uint8_t> values, ImageFormat format);
 
-/// Every channel as .exr, or three as .hdr; `half`: of an .exr, where isStoredAsHalf(), as 16-bit floats,
-/// which must be able to hold the values.
+/// Encodes all channels as .exr, or three as .hdr. `half` is for an .exr: channels with isStoredAsHalf()
+/// become 16-bit floats, which must be able to hold the values.
 std::vector<uint8_t> encodeFloatsByProcess(const Image& image, ImageFormat format, bool half = false);
 
 /// Starts the process ahead of its first use, which takes a millisecond here and 0.1 s there. A failure is

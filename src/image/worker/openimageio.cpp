@@ -67,7 +67,7 @@ struct OpenPicture {
   void read(const OIIO::TypeDesc& type, void* values, OIIO::stride_t pixelStride, OIIO::stride_t rowStride) {
     if (!input->read_image(0, 0, 0, spec.nchannels, type, values, pixelStride, rowStride))
       throw std::runtime_error(oneLine(input->geterror()));
-    // libjpeg's warnings end up here. Of those, only bytes too many leave the picture whole.
+    // libjpeg's warnings are errors here, except for extraneous bytes, which leave the picture whole.
     if (!input->has_error()) return;
     const std::string warning = input->geterror();
     if (warning.find("extraneous bytes") == std::string::npos) throw std::runtime_error(oneLine(warning));

@@ -38,7 +38,8 @@ inline constexpr const char* kInterruptedAttribute = "fragtrace:interrupted";
 /// The ranges, or, if they are empty, those that follow from the other members.
 std::vector<SampleRange> rangesOf(const Provenance& provenance);
 
-/// The same samples in as few ranges as possible. Throws std::invalid_argument if two of them overlap.
+/// Returns the same samples in as few ranges as possible. Throws std::invalid_argument if two of them
+/// overlap.
 std::vector<SampleRange> joinedRanges(std::vector<SampleRange> ranges);
 
 /// The settings of a render as JSON, in one line.

@@ -23,7 +23,7 @@ std::string lowered(std::string text) {
   return text;
 }
 
-/// The number at the front of the text, without leading zeros, which it loses.
+/// Removes the number at the front of the text and returns it without leading zeros.
 std::string_view takeNumber(std::string_view& text) {
   const size_t end = std::min(text.find_first_not_of("0123456789"), text.size());
   const size_t zeros = std::min(text.find_first_not_of('0'), end);

@@ -60,7 +60,7 @@ void takeContent(FolderList& list, FolderContent content);
 /// Must be called after a change of the text or the filter.
 void findEntries(FolderList& list);
 
-/// An entry of those shown was chosen; of a name to save under, it takes the place.
+/// Chooses a shown entry. When saving, its name replaces the typed one.
 void choose(FolderList& list, size_t entry);
 
 /// Takes what is chosen or typed: a folder is entered; a file that would be replaced is asked about first.

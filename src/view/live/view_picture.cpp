@@ -25,7 +25,7 @@ void fit(ShownTexture& shown, glm::ivec2 size) {
   shown.size = size;
 }
 
-/// The same pixels with the rows in the other order.
+/// Returns the same pixels with the rows in the other order.
 Image turnedOver(const Image& image) {
   Image turned = image;
   const size_t row = size_t(image.width) * image.channelCount();

@@ -57,11 +57,11 @@ class ViewPrograms {
   /// that somebody holds draw it from now on, all others are made again when they are asked for again. Throws
   /// as replaceScene().
   void showPose(const RenderOptions& options);
-  /// The same where surfaces and lights alone have other numbers, which the selection has: nothing else is
-  /// packed. A program whose text holds the whole scene is made again when it is asked for again.
+  /// Does the same if only numbers of surfaces and lights have changed, which the selection has: nothing else
+  /// is packed. A program whose text holds the whole scene is made again when it is asked for again.
   void showSurfaces(const SceneSelection& selection);
 
-  /// The same for other surroundings of the same kind. Throws as replaceSurroundings().
+  /// Does the same for other surroundings of the same kind. Throws as replaceSurroundings().
   void showSurroundings();
 
  private:

@@ -320,7 +320,7 @@ void drawSheet(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
     const std::vector<SheetLine> lines = foundLines(state.search.data());
     facts.sheetLines = lines.size();
     if (lines.empty()) ImGui::TextDisabled("nothing of that name");
-    // The field stays where it is while these are scrolled.
+    // The text field stays in place while the lines are scrolled.
     if (ImGui::BeginChild("lines")) drawSheetLines(lines, width >= kTwoColumns * layout.scale ? 2 : 1);
     ImGui::EndChild();
   }

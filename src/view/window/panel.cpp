@@ -97,7 +97,7 @@ void drawAnimation(ViewState& state, Places& places) {
   dimAtEnd(keyOf(Action::PlayAnimation));
 }
 
-/// Chooses the side whose settings are shown; or shows the file that side B is.
+/// Draws the choice of the side whose settings are shown. If side B is a file, draws its name instead.
 void drawSides(ViewState& state, Places& places, Task& task) {
   if (!state.reference.empty()) {
     if (ImGui::SmallButton("x")) task = {.errand = Errand::DropReference};

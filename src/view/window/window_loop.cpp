@@ -294,7 +294,7 @@ void Window::ask() {
   if (moving) frames_ = std::max(frames_, 1);
 }
 
-/// Those that somebody looks at; frames are drawn until they are there.
+/// Only values that somebody looks at are read; frames are drawn until they are there.
 void Window::readValues() {
   const double now = glfwGetTime();
   again_ = display_.waits() ? now : std::numeric_limits<double>::infinity();

@@ -230,7 +230,7 @@ void FileDialog::drawList(Places& places) {
   const float note = list_->note.empty() ? 0.0f : 2 * ImGui::GetTextLineHeightWithSpacing();
   const float foot = ImGui::GetFrameHeightWithSpacing() + note;
   drawEntries(places, -foot);
-  // A double click has ended it.
+  // A double click has ended the list, so there is no foot.
   if (list_) drawFoot(places);
 }
 

@@ -92,8 +92,8 @@ const BusLibrary* busLibrary() {
   return loaded.get();
 }
 
-/// A connection to the session's bus, and the functions for it; closed when it goes, on which the portal
-/// closes the dialog, too.
+/// A connection to the session's bus, and the functions for it. The destructor closes the connection; then
+/// the portal closes the dialog, too.
 struct Connection {
   const BusLibrary& library;
   Bus bus = nullptr;
