@@ -103,6 +103,18 @@ class Sun(Case):
         self.assertEqual([m for m in said if "horizon" in m], ["the sun is below the horizon: the sky gives little light, or none"])
         self.ends_well(viewer, viewer.close())
 
+    def test_light_paths_begin_at_a_sun_that_rises(self):
+        has_caustics = lambda status: "caustics" in status["sides"][0]["variant"].split("+")
+        viewer = self.view("caustic-ball", *SIZE, "--spp", "1", "--hide", "lamp", "--hide", "lamp-back", "--sky", "--sun-elevation", "-10")
+        self.assertFalse(has_caustics(viewer.rest()))
+        viewer.xdotool("keydown", "shift")
+        viewer.drag((60, 100), (60, 40), button=3)
+        viewer.xdotool("keyup", "shift")
+        self.assertTrue(has_caustics(viewer.rest(lambda s: s["sun"][0] > 5, "morning")))
+        viewer.key("ctrl+z")
+        self.assertFalse(has_caustics(viewer.rest(lambda s: s["sun"][0] == -10, "night again")))
+        self.ends_well(viewer, viewer.close())
+
 
 class Level(Case):
     def click(self, viewer, x, y, *modifiers):

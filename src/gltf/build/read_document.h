@@ -14,7 +14,7 @@ struct KeptDocument {
   Document document;  ///< the file as it stands, not posed
   nlohmann::json root;
   std::vector<Animation> animations;
-  std::vector<float> keyTimes;  ///< key times of the latest pose, in any order
+  std::vector<float> keyTimes = {};  ///< key times of the latest pose, in any order
 };
 
 /// Reads and checks the document; pictures beside it are not read yet. Throws InputError.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/vectors.h"
 #include "gl/driver_choice.h"
 #include "session/environment.h"
 #include "session/outputs.h"
@@ -303,10 +304,19 @@ bool ViewTracer::relight(const TraceRequest& request) {
   if (!shown.on || !wanted.on || airOf(shown) == airOf(wanted)) return false;
   if (whyDark(shown).empty() && !whyDark(wanted).empty()) exchange_.tell(withoutOptions(whyDark(wanted)));
   shown = wanted;
+  const auto shines = [&] {
+    const std::optional<SunDisc>& sun = loaded_->environment.sun;
+    return sun && luminance(sun->irradiance) > 0.0;
+  };
+  const bool shone = shines();
   std::vector<std::string> repeated;
   const SaidHere silence(repeated);  // said above, and not at each step of a drag
   loaded_->environment = skyOf(loadedOptions_, repeated);
-  programs_->showSurroundings();
+  // When the sun rises or sets, programs change: light paths begin at it (Trait::Caustics).
+  if (shines() == shone)
+    programs_->showSurroundings();
+  else
+    programs_->showPose(loadedOptions_);
   return true;
 }
 
