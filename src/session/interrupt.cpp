@@ -6,6 +6,8 @@
 #include <csignal>
 #include <cstdlib>
 #include <ctime>
+#include <exception>
+#include <new>
 #include <string_view>
 
 #include "base/report.h"
@@ -25,7 +27,11 @@ constexpr std::string_view kCrashedAsJson =
     "{\"type\":\"error\",\"text\":\"a library or the driver crashed, perhaps because memory ran out; nothing "
     "is "
     "written\"}\n{\"type\":\"done\",\"status\":1}\n";
+constexpr std::string_view kNoMemory = "fragtrace: out of memory\n";
+constexpr std::string_view kNoMemoryAsJson =
+    "{\"type\":\"error\",\"text\":\"out of memory\"}\n{\"type\":\"done\",\"status\":3}\n";
 constexpr int kCrashedStatus = 1;
+constexpr int kNoMemoryStatus = 3;
 constexpr int kSameInterruptMs = 100;
 volatile std::sig_atomic_t interruptCount = 0;
 volatile std::sig_atomic_t lastSignal = 0;
@@ -40,6 +46,21 @@ void sayCrash(int) {
   const std::string_view said = reportsAsJson() ? kCrashedAsJson : kCrashed;
   (void)!::write(STDERR_FILENO, said.data(), said.size());
   _exit(kCrashedStatus);
+}
+
+/// Called where no exception may pass: in a library's noexcept function, in a destructor, before main().
+[[noreturn]] void endWithoutCatch() {
+  try {
+    if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    const std::string_view said = reportsAsJson() ? kNoMemoryAsJson : kNoMemory;
+    (void)!::write(STDERR_FILENO, said.data(), said.size());
+    _exit(kNoMemoryStatus);
+  } catch (...) {
+    sayCrash(0);
+  }
+  sayCrash(0);
+  std::abort();
 }
 
 void handle(void (*handler)(int)) {
@@ -66,6 +87,8 @@ void exitOnInterrupt() {
 }
 
 void endAsMeant() { isMeant = 1; }
+
+void sayWhenThrowing() { std::set_terminate(endWithoutCatch); }
 
 void sayWhenCrashing() {
 #ifndef __SANITIZE_ADDRESS__  // which says more
