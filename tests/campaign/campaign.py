@@ -60,7 +60,7 @@ class Campaign:
     def __init__(self, name, ground, state):
         self.name, self.module, self.ground, self.state = name, module_of(name), ground, state
         self.lock = threading.Lock()
-        self.found, self.failure = [], None
+        self.found, self.failure, self.began = [], None, time.monotonic()
 
     def prepare(self):
         self.ground.folder.mkdir(parents=True, exist_ok=True)
@@ -83,7 +83,7 @@ class Campaign:
         common.kept(folder, place)
         (place / "says").write_text(says + "\n")
         (place / "repeat").write_text(f"scripts/campaign --case {self.name} {number}\n")
-        print(f"campaign: {self.name} {number}: {says}\n          kept in {place}", file=sys.stderr)
+        print(f"campaign: {self.name} {number}, after {time.monotonic() - self.began:.0f} s: {says}\n          kept in {place}", file=sys.stderr)
 
     def work(self):
         while (number := self.next_number()) is not None:
@@ -122,7 +122,7 @@ class Campaign:
         common.over.clear()
         common.stop.clear()
         self.row = self.state.changed(self.name)
-        began = time.monotonic()
+        began = self.began = time.monotonic()
         self.prepare()
         threads = [threading.Thread(target=self.work, daemon=True) for _ in range(getattr(self.module, "JOBS", os.cpu_count() or 1))]
         for thread in threads:
@@ -132,7 +132,7 @@ class Campaign:
             while any(thread.is_alive() for thread in threads):
                 time.sleep(0.05)
                 now = time.monotonic()
-                if now - began > seconds:
+                if now - began > seconds or (not self.ground.brief and is_done(self.name, self.state)):
                     common.over.set()
                 if now - began > seconds + LEFT:
                     common.stop.set()
@@ -160,7 +160,7 @@ def ground_of(name, options, state, brief):
 
 
 def is_done(name, state):
-    """Returns true if a campaign has reached what was asked for, or has no case left."""
+    """Returns true if a campaign has reached what was asked for."""
     row, module = state.row(name), module_of(name)
     return all(row["counts"].get(unit, 0) >= count for unit, count in module.ASKED.items())
 
