@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "base/report.h"
+#include "base/written.h"
 
 namespace fragtrace {
 
@@ -18,9 +19,12 @@ namespace {
 
 // The line feed at the start ends the line of a progress bar.
 constexpr std::string_view kSaidOnTerminal = "\nfragtrace: interrupted, nothing is written\n";
-constexpr std::string_view kSaid = kSaidOnTerminal.substr(1);
+constexpr std::string_view kSaidLateOnTerminal = "\nfragtrace: interrupted; files that were finished stay\n";
 constexpr std::string_view kSaidAsJson =
     "{\"type\":\"error\",\"text\":\"interrupted, nothing is written\"}\n{\"type\":\"done\",\"status\":130}\n";
+constexpr std::string_view kSaidLateAsJson =
+    "{\"type\":\"error\",\"text\":\"interrupted; files that were finished "
+    "stay\"}\n{\"type\":\"done\",\"status\":130}\n";
 constexpr std::string_view kCrashed =
     "fragtrace: a library or the driver crashed, perhaps because memory ran out; nothing is written\n";
 constexpr std::string_view kCrashedAsJson =
@@ -80,8 +84,12 @@ void handle(void (*handler)(int)) {
 void exitOnInterrupt() {
   onTerminal = isatty(STDERR_FILENO);
   handle([](int) {
-    const std::string_view said = reportsAsJson() ? kSaidAsJson : onTerminal != 0 ? kSaidOnTerminal : kSaid;
-    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, said.data(), said.size());
+    const bool written = filesMayBeWritten != 0;
+    const std::string_view text = written ? kSaidLateOnTerminal : kSaidOnTerminal;
+    const std::string_view said = reportsAsJson()   ? (written ? kSaidLateAsJson : kSaidAsJson)
+                                  : onTerminal != 0 ? text
+                                                    : text.substr(1);
+    [[maybe_unused]] const ssize_t count = write(STDERR_FILENO, said.data(), said.size());
     _exit(kInterruptedStatus);
   });
 }

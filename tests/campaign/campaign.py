@@ -123,7 +123,12 @@ class Campaign:
         common.stop.clear()
         self.row = self.state.changed(self.name)
         began = self.began = time.monotonic()
-        self.prepare()
+        try:
+            self.prepare()
+        except common.Finding as finding:
+            self.found.append("prepare")
+            print(f"campaign: {self.name}, before the first case: {finding}", file=sys.stderr)
+            return
         threads = [threading.Thread(target=self.work, daemon=True) for _ in range(getattr(self.module, "JOBS", os.cpu_count() or 1))]
         for thread in threads:
             thread.start()

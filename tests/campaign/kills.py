@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Signals at random moments. Every output is then whole, the old one or the new one, and at most one part file is left, which the next run
-removes. Every second case delays the program's own calls of the system, so that more moments lie within the writing of a file."""
+removes. Every second case delays the program's own calls of the system, and in half of these the moment is counted from the first change of a
+file, so that more moments lie within the writing of one."""
+import os
 import random
 import signal
 import time
@@ -15,6 +17,7 @@ OLD = b"what was there before\n" * 100
 WHOLE = "--resolution 64,48 --spp 2 --quiet".split()
 DELAY = 20000  # microseconds
 BRIEF_ONES = ("render pfm", "merge", "bench")
+WRITING = 0.2  # seconds that a delayed program writes for
 HELD = 0.2  # seconds of a process that is stopped
 
 
@@ -63,6 +66,23 @@ def catches(pid, number):
         if line.startswith("SigCgt:"):
             return bool(int(line.split()[1], 16) >> (number - 1) & 1)
     return False
+
+
+def looks(folder):
+    """Names, sizes and times of the files in a folder that changes."""
+    found = {}
+    for entry in os.scandir(folder):
+        try:
+            found[entry.name] = (entry.stat().st_size, entry.stat().st_mtime_ns)
+        except FileNotFoundError:
+            pass
+    return found
+
+
+def await_change(process, folder, before):
+    """Waits until the program has touched a file."""
+    while process.process.poll() is None and looks(folder) == before:
+        time.sleep(0.002)
 
 
 def broken(process, which, moment):
@@ -129,8 +149,12 @@ def case(ground, made, number, folder):
     delayed = number % 2 == 1
     for output in outputs:
         (folder / output).write_bytes(OLD)
+    before = looks(folder)
     environment = preloaded(ground, delay=f"{number},{DELAY}") if delayed else None
     with Run(words, folder, environment, ground.fragtrace) as process:
+        if delayed and number % 4 == 1:
+            await_change(process, folder, before)
+            seconds = WRITING / 3
         statuses = broken(process, which, dice.random() * seconds * (3 if delayed else 1.05))
         result = must(process.wait(120), *statuses)
         process.leaves_nobody()

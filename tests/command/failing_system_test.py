@@ -2,6 +2,9 @@
 # SPDX-License-Identifier: MIT
 """A system that fails (tests/faults/failing_system.cpp), where campaigns have found something: the whole is tests/campaign/faults.py."""
 import os
+import signal
+import subprocess
+import time
 
 from support import FRAGTRACE, SCENES, SMALL, Case, main, run
 
@@ -38,6 +41,29 @@ class FailingSystem(Case):
                 else:
                     self.out_of_memory(result)
         path.unlink()
+
+    def test_an_interruption_after_a_file_is_written_does_not_say_that_nothing_is(self):
+        """Its last line waits for a reader of standard output."""
+        path, parts = self.folder / "x.exr", [self.folder / "part-0.exr", self.folder / "part-2.exr"]
+        for offset, part in zip((0, 2), parts):
+            self.renders(BOX, "-o", part, *SMALL, "--sample-offset", offset)
+        read, write = os.pipe()
+        os.set_blocking(write, False)
+        try:
+            while True:
+                os.write(write, bytes(1 << 12))
+        except BlockingIOError:
+            os.set_blocking(write, True)
+        with subprocess.Popen([FRAGTRACE, "merge", *parts, "-o", path], stdout=write, stderr=subprocess.PIPE, text=True) as process:
+            deadline = time.monotonic() + 60
+            while not path.exists() and time.monotonic() < deadline:
+                time.sleep(0.01)
+            time.sleep(0.1)
+            process.send_signal(signal.SIGTERM)
+            said = process.communicate(timeout=60)[1]
+        os.close(read)
+        os.close(write)
+        self.assertEqual((process.returncode, said), (130, "fragtrace: interrupted; files that were finished stay\n"))
 
 
 if __name__ == "__main__":

@@ -238,7 +238,10 @@ int rename(const char* from, const char* to) noexcept { PASS(Rename, false, -1, 
 
 ssize_t write(int file, const void* data, size_t size) {
   // A short write is none that failed.
-  if (plan.delay > 0 && size > 64 && isOwn(CALLER)) size = size / 2;
+  if (plan.delay > 0 && size > 64 && isOwn(CALLER)) {
+    size = size / 2;
+    mayWait(1);
+  }
   PASS(Write, true, -1, ::write, file, data, size);
 }
 
