@@ -8,6 +8,7 @@ import struct
 from common import must, run
 
 NUMBERS = (0, -1, 2 ** 31, 2 ** 32, 2 ** 62, 1e308, float("nan"), 0.5, "", [], {}, None, True)
+SIZES = ("count", "byteOffset", "byteLength", "byteStride", "bufferView", "componentType", "type", "POSITION", "indices")
 WORDS = (0, 1, 0x7fffffff, 0x80000000, 0xffffffff)  # of four bytes in a binary file
 SCENES = ("cornell-box", "lights", "skin", "lobes", "foggy", "cloud", "arrows", "instanced")
 LARGEST = 200_000  # bytes
@@ -89,14 +90,15 @@ def with_numbers(root, dice):
         every = places(root)
         if not every:
             break
-        *path, last = dice.choice(every)
+        sizes = [one for one in every if one[-1] in SIZES]
+        *path, last = dice.choice(sizes if sizes and dice.random() < 0.5 else every)
         place = root
         for step in path:
             place = place[step]
         if dice.random() < 0.1:
             del place[last]
-        elif dice.random() < 0.1 and isinstance(place[last], (int, float)):
-            place[last] = place[last] + dice.choice((-1, 1, 1000))
+        elif dice.random() < 0.4 and isinstance(place[last], (int, float)):
+            place[last] = dice.choice((place[last] - 1, place[last] + 1, 2 * place[last], place[last] + 1000, 100_000, 1_000_000))
         else:
             place[last] = dice.choice(NUMBERS)
     return root
