@@ -9,4 +9,6 @@ add_custom_command(
   COMMENT "Generating the OpenGL loader"
   VERBATIM)
 add_library(glad STATIC ${glad_dir}/src/gl.c ${glad_dir}/include/glad/gl.h)
+# As C++, so that a lack of memory can be thrown.
+set_source_files_properties(${glad_dir}/src/gl.c PROPERTIES LANGUAGE CXX COMPILE_OPTIONS "-include;${CMAKE_CURRENT_LIST_DIR}/glad_memory.h")
 target_include_directories(glad SYSTEM PUBLIC ${glad_dir}/include)

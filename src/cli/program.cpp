@@ -25,6 +25,9 @@ namespace {
 
 enum ExitStatus { kDone = 0, kFailed = 1, kUsage = 2, kInput = 3, kNoContext = 4 };
 
+/// Before the tables are made that functions read: they need memory, too.
+[[gnu::constructor(101)]] void sayFromTheStart() { sayWhenThrowing(); }
+
 int fail(ExitStatus status, const char* message) {
   reportError(message);
   return status;

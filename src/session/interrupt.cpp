@@ -6,9 +6,12 @@
 #include <csignal>
 #include <cstdlib>
 #include <ctime>
+#include <exception>
+#include <new>
 #include <string_view>
 
 #include "base/report.h"
+#include "base/written.h"
 
 namespace fragtrace {
 
@@ -16,16 +19,23 @@ namespace {
 
 // The line feed at the start ends the line of a progress bar.
 constexpr std::string_view kSaidOnTerminal = "\nfragtrace: interrupted, nothing is written\n";
-constexpr std::string_view kSaid = kSaidOnTerminal.substr(1);
+constexpr std::string_view kSaidLateOnTerminal = "\nfragtrace: interrupted; files that were finished stay\n";
 constexpr std::string_view kSaidAsJson =
     "{\"type\":\"error\",\"text\":\"interrupted, nothing is written\"}\n{\"type\":\"done\",\"status\":130}\n";
+constexpr std::string_view kSaidLateAsJson =
+    "{\"type\":\"error\",\"text\":\"interrupted; files that were finished "
+    "stay\"}\n{\"type\":\"done\",\"status\":130}\n";
 constexpr std::string_view kCrashed =
     "fragtrace: a library or the driver crashed, perhaps because memory ran out; nothing is written\n";
 constexpr std::string_view kCrashedAsJson =
     "{\"type\":\"error\",\"text\":\"a library or the driver crashed, perhaps because memory ran out; nothing "
     "is "
     "written\"}\n{\"type\":\"done\",\"status\":1}\n";
+constexpr std::string_view kNoMemory = "fragtrace: out of memory\n";
+constexpr std::string_view kNoMemoryAsJson =
+    "{\"type\":\"error\",\"text\":\"out of memory\"}\n{\"type\":\"done\",\"status\":3}\n";
 constexpr int kCrashedStatus = 1;
+constexpr int kNoMemoryStatus = 3;
 constexpr int kSameInterruptMs = 100;
 volatile std::sig_atomic_t interruptCount = 0;
 volatile std::sig_atomic_t lastSignal = 0;
@@ -40,6 +50,21 @@ void sayCrash(int) {
   const std::string_view said = reportsAsJson() ? kCrashedAsJson : kCrashed;
   (void)!::write(STDERR_FILENO, said.data(), said.size());
   _exit(kCrashedStatus);
+}
+
+/// Called where no exception may pass: in a library's noexcept function, in a destructor, before main().
+[[noreturn]] void endWithoutCatch() {
+  try {
+    if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    const std::string_view said = reportsAsJson() ? kNoMemoryAsJson : kNoMemory;
+    (void)!::write(STDERR_FILENO, said.data(), said.size());
+    _exit(kNoMemoryStatus);
+  } catch (...) {
+    sayCrash(0);
+  }
+  sayCrash(0);
+  std::abort();
 }
 
 void handle(void (*handler)(int)) {
@@ -59,13 +84,19 @@ void handle(void (*handler)(int)) {
 void exitOnInterrupt() {
   onTerminal = isatty(STDERR_FILENO);
   handle([](int) {
-    const std::string_view said = reportsAsJson() ? kSaidAsJson : onTerminal != 0 ? kSaidOnTerminal : kSaid;
-    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, said.data(), said.size());
+    const bool written = filesMayBeWritten != 0;
+    const std::string_view text = written ? kSaidLateOnTerminal : kSaidOnTerminal;
+    const std::string_view said = reportsAsJson()   ? (written ? kSaidLateAsJson : kSaidAsJson)
+                                  : onTerminal != 0 ? text
+                                                    : text.substr(1);
+    [[maybe_unused]] const ssize_t count = write(STDERR_FILENO, said.data(), said.size());
     _exit(kInterruptedStatus);
   });
 }
 
 void endAsMeant() { isMeant = 1; }
+
+void sayWhenThrowing() { std::set_terminate(endWithoutCatch); }
 
 void sayWhenCrashing() {
 #ifndef __SANITIZE_ADDRESS__  // which says more

@@ -36,6 +36,9 @@ void exitOnInterrupt();
 /// From now on a crash, such as Mesa's when an allocation fails, ends with a message and status 1; so does a
 /// library that ends the process by exit(), as Mesa's parser does without memory.
 void sayWhenCrashing();
+/// From now on an exception that nothing catches ends as runProgram() ends where memory runs out, and as a
+/// crash does otherwise.
+void sayWhenThrowing();
 /// Must be called before main() returns: from now on, exit() is not an error.
 void endAsMeant();
 

@@ -2,12 +2,11 @@
 #include "session/tracer.h"
 
 #include <future>
-#include <iomanip>
-#include <sstream>
 
 #include "base/errors.h"
 #include "base/hash.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "gl/driver_choice.h"
 #include "gl/schedule.h"
 #include "pack/literals.h"
@@ -90,13 +89,12 @@ void describeLightSelection(const ShaderVariant& variant, const LoadedScene& loa
   stats.lightSelectionReason = "--light-selection";
   if (wanted != LightSelection::Auto) return;
   const double gain = gainByPlace(loaded.scene);
-  std::ostringstream times;
-  times << std::setprecision(3) << gain << " times less";
-  stats.lightSelectionReason = tree           ? "chosen by place, light samples vary " + times.str()
+  const std::string times = formatted("%.3g times less", gain);
+  stats.lightSelectionReason = tree           ? "chosen by place, light samples vary " + times
                                : gain < 1.005 ? "chosen by place, light samples would vary as much"
                                : loaded.environment.kind == Surroundings::DefaultLight
                                    ? "the scene is lit by default, not by its lamps"
-                                   : "chosen by place, light samples would vary only " + times.str();
+                                   : "chosen by place, light samples would vary only " + times;
 }
 
 /// Why light paths are traced for the picture, or are not.

@@ -4,9 +4,10 @@
 #include <array>
 #include <fstream>
 #include <set>
-#include <sstream>
+#include <string_view>
 
 #include "base/errors.h"
+#include "base/split.h"
 #include "shader/layout.h"
 #include "shader/stack_text.h"
 
@@ -92,12 +93,12 @@ struct Assembly {
   const ShaderSource& source;
   const ShaderVariant& variant;
   std::set<std::string> done;
-  std::ostringstream text;
+  std::string text;
 
   void lineDirective(int line, const std::string& name) {
-    text << "#line " << line;
-    if (source.namedLines) text << " \"" << name << '"';
-    text << '\n';
+    text += "#line " + std::to_string(line);
+    if (source.namedLines) text += " \"" + name + '"';
+    text += '\n';
   }
 
   /// The text of a file, a text that is written from lists, or the scene as text.
@@ -121,24 +122,25 @@ struct Assembly {
 
   void append(const std::string& name, const std::string& includedFrom) {
     if (!done.insert(name).second) return;
-    std::istringstream lines(textOf(name, includedFrom));
+    const std::string whole = textOf(name, includedFrom);
     lineDirective(1, name);
-    std::string line;
-    for (int number = 1; std::getline(lines, line); ++number) {
+    int number = 1;
+    for (const std::string_view line : splitText(whole, '\n')) {
       const size_t open = line.find('"');
-      if (line.starts_with("#include") && open != std::string::npos) {
-        append(line.substr(open + 1, line.rfind('"') - open - 1), name);
+      if (line.starts_with("#include") && open != line.npos) {
+        append(std::string(line.substr(open + 1, line.rfind('"') - open - 1)), name);
         lineDirective(number + 1, name);
       } else {
-        text << line << '\n';
+        text.append(line) += '\n';
       }
+      ++number;
     }
   }
 };
 
-void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
+void appendConstants(std::string& text, const ShaderVariant& variant) {
   auto constant = [&](const char* name, bool value) {
-    text << "const bool " << name << " = " << (value ? "true" : "false") << ";\n";
+    text.append("const bool ").append(name).append(value ? " = true;\n" : " = false;\n");
   };
   for (const StageRow& row : stageRows()) {
     if (row.constant) constant(row.constant, has(variant.stages, row.stage));
@@ -162,9 +164,12 @@ void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
   constant("kFisheye", variant.camera == CameraType::Fisheye);
   constant("kLightPaths", variant.lightPaths);
   constant("kGpu", variant.gpu);
-  text << "const int kPixelFilter = " << int(variant.pixelFilter) << ";\n";
-  text << "const int kAov = " << int(variant.aov) << ";\n";
-  text << "const int kStackSize = " << variant.stackSize << ";\n";
+  const auto number = [&](const char* name, int value) {
+    text.append("const int ").append(name).append(" = " + std::to_string(value) + ";\n");
+  };
+  number("kPixelFilter", int(variant.pixelFilter));
+  number("kAov", int(variant.aov));
+  number("kStackSize", variant.stackSize);
 }
 
 }  // namespace
@@ -172,11 +177,11 @@ void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
 std::string assembleShader(const ShaderSource& source, const std::string& entry,
                            const ShaderVariant& variant) {
   Assembly assembly{source, variant, {}, {}};
-  assembly.text << "#version 450 core\n";
-  if (source.namedLines) assembly.text << "#extension GL_ARB_shading_language_include : enable\n";
+  assembly.text += "#version 450 core\n";
+  if (source.namedLines) assembly.text += "#extension GL_ARB_shading_language_include : enable\n";
   appendConstants(assembly.text, variant);
   assembly.append(entry, "");
-  return liveText(assembly.text.str());
+  return liveText(assembly.text);
 }
 
 }  // namespace fragtrace

@@ -47,22 +47,26 @@ class Failing(Case):
         numbers = [i for i, name in enumerate(calls, 1) if names is None or name in names][::step]
         self.assertGreater(len(numbers), 2)
         for number in numbers:
-            name = calls[number - 1]
-            with self.subTest(kind=kind, call=number, name=name):
-                result = self.drawn(fail_kind=kind, fail_call=number)
-                written = self.path.read_bytes()
-                if result.returncode == 0:
-                    # A failure may go unseen if nothing is asked of the object afterwards.
-                    self.assertTrue(name.startswith("glDelete") or number == len(calls), f"{name} failed unseen")
-                    self.assertEqual(written, self.right)
-                    continue
-                self.assertIn(result.returncode, (1, 4), result.stderr)
-                self.assertTrue(result.stderr.startswith("fragtrace: "), result.stderr)
-                if kind != "build":  # the message of a failed build also prints the driver's log
-                    self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
-                self.assertEqual(written, OLD)
-                self.assertEqual(set(self.folder.iterdir()), {self.path, self.folder / "calls"})
+            with self.subTest(kind=kind, call=number, name=calls[number - 1]):
+                self.fail_one(kind, number, calls)
         self.path.unlink()
+
+    def fail_one(self, kind, number, calls):
+        """Lets the call of that number fail, among those that can fail in this way, and checks what is left."""
+        name = calls[number - 1]
+        result = self.drawn(fail_kind=kind, fail_call=number)
+        written = self.path.read_bytes()
+        if result.returncode == 0:
+            # A failure may go unseen if nothing is asked of the object afterwards.
+            self.assertTrue(name.startswith("glDelete") or number == len(calls), f"{name} failed unseen")
+            self.assertEqual(written, self.right)
+            return
+        self.assertIn(result.returncode, (1, 4), result.stderr)
+        self.assertTrue(result.stderr.startswith("fragtrace: "), result.stderr)
+        if kind != "build":  # the message of a failed build also prints the driver's log
+            self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
+        self.assertEqual(written, OLD)
+        self.assertEqual(set(self.folder.iterdir()) - {self.folder / "calls"}, {self.path})
 
 
 class FailingDriver(Failing):

@@ -5,8 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "base/split.h"
 #include "gltf/check/extensions.h"
 #include "gltf/check/schema_checker.h"
 
@@ -255,10 +257,9 @@ const std::vector<Rule>& rules() {
       if (extension.members.empty()) continue;
       const std::string place = "/materials/*/extensions/" + std::string(extension.name);
       add(place, {"", Kind::Object});
-      std::istringstream members{std::string(extension.members)};
-      for (std::string member; members >> member;) {
+      for (const std::string_view member : splitWords(extension.members)) {
         const size_t bracket = member.find('[');
-        const std::string at = place + "/" + member.substr(0, bracket);
+        const std::string at = place + "/" + std::string(member.substr(0, bracket));
         if (bracket != std::string::npos)
           add(at, {"", Kind::Numbers, nullptr, size_t(member[bracket + 1] - '0')});
         else if (member.ends_with("Texture"))

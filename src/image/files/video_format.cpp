@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
-#include <sstream>
 
+#include "base/split.h"
 #include "image/format.h"
 
 namespace fragtrace {
@@ -51,8 +50,8 @@ constexpr std::array<VideoFormat, 4> kFormats{{
 }};
 
 std::vector<std::string> wordsOf(const std::string& text) {
-  std::istringstream words(text);
-  return {std::istream_iterator<std::string>(words), {}};
+  const auto words = splitWords(text);
+  return {words.begin(), words.end()};
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "base/errors.h"
+#include "base/written.h"
 
 namespace fragtrace {
 namespace {
@@ -76,6 +77,7 @@ std::filesystem::path partOf(const std::filesystem::path& path) {
 
 void takePart(const std::filesystem::path& path) {
   const std::filesystem::path part = partOf(path);
+  filesMayBeWritten = 1;
   if (::rename(part.c_str(), behindLinks(path).c_str()) == 0) return;
   const int code = errno;
   ::unlink(part.c_str());
@@ -171,6 +173,7 @@ void checkRoom(const std::filesystem::path& path, uint64_t bytes) {
 }
 
 void writeToStandardOutput(std::span<const uint8_t> bytes) {
+  filesMayBeWritten = 1;
   const int code = writeAll(STDOUT_FILENO, bytes);
   if (code != 0) throw RenderError("cannot write to standard output: " + systemReason(code));
 }
@@ -181,6 +184,7 @@ void replaceFile(const std::filesystem::path& path, std::span<const uint8_t> byt
   };
   if (!path.has_filename()) throw fail(EISDIR);
   if (takesWrites(path)) {
+    filesMayBeWritten = 1;
     const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
     const int code = file < 0 ? errno : writeAndClose(file, bytes);
     if (code != 0) throw fail(code);

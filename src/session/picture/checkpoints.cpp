@@ -218,6 +218,8 @@ void CheckpointKeeper::write(const Checkpoint& checkpoint) {
 void CheckpointKeeper::remove() const {
   if (!kept_) return;
   std::error_code error;
+  // A render that was killed while it wrote one has left a part, which this one need not have replaced.
+  std::filesystem::remove(partOf(path_), error);
   std::filesystem::remove(path_, error);
   if (error) throw RenderError("cannot remove " + path_.string() + ": " + error.message());
 }

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cinttypes>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 
 #include "base/errors.h"
+#include "base/split.h"
 #include "base/text.h"
 #include "options/option_row.h"
 #include "session/shutter.h"
@@ -114,9 +115,9 @@ namespace {
 /// The features in a variant's name that another variant lacks.
 std::string featuresOfOneAlone(const std::string& variant, const std::string& other) {
   const std::string all = "+" + other + "+";
-  std::istringstream features(variant);
   std::string text;
-  for (std::string feature; std::getline(features, feature, '+');) {
+  for (const std::string_view part : splitText(variant, '+')) {
+    const std::string feature(part);
     if (all.find("+" + feature + "+") == std::string::npos) text += (text.empty() ? "" : "+") + feature;
   }
   return text.empty() ? "none" : text;

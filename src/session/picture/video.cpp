@@ -10,11 +10,12 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <sstream>
+#include <string_view>
 #include <vector>
 
 #include "base/errors.h"
 #include "base/spawn.h"
+#include "base/split.h"
 #include "base/text.h"
 #include "image/files/whole_file.h"
 #include "options/option_text.h"
@@ -40,9 +41,8 @@ std::string lastWords(int said) {
   const ssize_t read = ::pread(said, text.data(), text.size(), std::max(off_t(0), end - kMostBytes));
   text.resize(size_t(std::max(read, ssize_t(0))));
   std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) {
-    if (line.find_first_not_of(" \r\t") != std::string::npos) lines.push_back(line);
+  for (const std::string_view line : splitText(text, '\n')) {
+    if (line.find_first_not_of(" \r\t") != line.npos) lines.emplace_back(line);
   }
   return joined(std::span(lines).last(std::min(lines.size(), kMostLines)), "; ");
 }

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: MIT
+"""Long runs whose memory, handles and objects of OpenGL are watched: sequences of a thousand pictures, a thousand loads in one process
+(tests/probe/load_rounds.cpp), and the viewer under random events (tests/viewer/random_events_test.py) for ten minutes each."""
+import os
+import re
+import statistics
+import subprocess
+import time
+from pathlib import Path
+
+from common import Finding, Run, Stopped, must, stop
+
+ASKED = {"frames": 100_000, "loads": 10_000, "seconds of the viewer": 28_800}
+BRIEF = False
+JOBS = 1
+FRAMES, LOADS, SECONDS = 1000, 1000, 700
+MOST_GROWTH = 5.0  # MiB, from the first quarter of the frames on
+SCENES = ("cornell-box", "sphere-textured", "room-ball", "foggy")
+
+
+def prepare(ground):
+    subprocess.run([ground.source / "scripts/build", "release", "load_rounds"], check=True)
+
+
+def held(pid):
+    """MiB and open files of a process that runs."""
+    try:
+        resident = re.search(r"VmRSS:\s*(\d+)", Path(f"/proc/{pid}/status").read_text())
+        return int(resident[1]) / 1024, len(os.listdir(f"/proc/{pid}/fd"))
+    except (OSError, TypeError):
+        return None
+
+
+def sequence(ground, number, folder):
+    scene = ground.scenes / f"{SCENES[number // 3 % len(SCENES)]}.gltf"
+    words = ["render", scene, "-o", "x.####.pfm", "--turntable", FRAMES, "--resolution", "8,8", "--spp", "1", "--quiet"]
+    seen = []
+    with Run(words, folder, program=ground.fragtrace) as process:
+        while process.process.poll() is None:
+            if stop.is_set():
+                raise Stopped
+            time.sleep(0.1)
+            if (now := held(process.pid)) is not None:
+                seen.append((len(os.listdir(folder)), *now))
+        must(process.result(), 0)
+    if len(os.listdir(folder)) != FRAMES:
+        raise Finding(f"{len(os.listdir(folder))} pictures of {FRAMES}")
+    second, fourth = ([one for one in seen if first <= one[0] < first + FRAMES / 4] for first in (FRAMES / 4, 3 * FRAMES / 4))
+    if not second or not fourth:
+        return {"frames": FRAMES}
+    growth = statistics.median(one[1] for one in fourth) - statistics.median(one[1] for one in second)
+    files = max(one[2] for one in fourth) - max(one[2] for one in second)
+    if growth > MOST_GROWTH or files > 0:
+        raise Finding(f"{scene.name}: {growth:.1f} MiB more and {files} files more in the fourth quarter of {FRAMES} frames than in the second")
+    return {"frames": FRAMES}
+
+
+def loads(ground, folder):
+    scenes = [ground.scenes / f"{name}.gltf" for name in ("cornell-box", "sphere-textured", "many-lights")]
+    with Run([ground.build / "load_rounds", *scenes], folder, {**os.environ, "FRAGTRACE_LIBRARY_PATH": str(ground.build)}) as process:
+        result = process.wait(3600)
+    if result.status != 0:
+        raise Finding(f"load_rounds: status {result.status}: {result.output}{result.error}")
+    return {"loads": LOADS}
+
+
+def viewer(ground, number, folder):
+    environment = {**os.environ, "FRAGTRACE_RANDOM_SECONDS": str(SECONDS), "FRAGTRACE_RANDOM_SEED": str(number),
+                   "FRAGTRACE_RANDOM_LOG": str(folder / "memory.log")}
+    words = ["/usr/bin/python3", ground.source / "tests/viewer/random_events_test.py", ground.fragtrace, ground.source, "RandomEvents"]
+    with Run(words, folder, environment) as process:
+        result = process.wait(SECONDS + 600)
+    if result.status == 77:
+        return {}
+    if result.status != 0:
+        raise Finding(f"random events of seed {number}: status {result.status}: {result.error[-3000:]}")
+    return {"seconds of the viewer": SECONDS}
+
+
+def case(ground, _, number, folder):
+    if number % 3 == 0:
+        return sequence(ground, number, folder)
+    return loads(ground, folder) if number % 3 == 1 else viewer(ground, number, folder)

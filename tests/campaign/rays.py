@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: MIT
+"""The rows of `bench stress` with ever other seeds. Case n is row n % rows with seed n / rows; all count the cases that they tried."""
+import json
+
+from common import Finding, run
+
+ASKED = {"rays": 10 ** 9}
+SEEDS = 1001  # that `bench stress --seed` takes
+
+
+def prepare(ground):
+    """The names of the rows: those that a name that is in none of them is compared with."""
+    if ground.brief:
+        return ["boxes", "shell white"]
+    said = run(ground, ["bench", "stress", "--rows", "*", "--quick"], ground.folder).error
+    return said.strip().partition("is in none of ")[2].split(", ")
+
+
+def case(ground, rows, number, folder):
+    name, seed = rows[number % len(rows)], number // len(rows)
+    if seed >= SEEDS:
+        return {}
+    words = ["bench", "stress", "--rows", name, "--seed", seed, "--json", "rows.json", "--quiet"]
+    result = run(ground, words + (["--quick"] if ground.brief else []), folder, seconds=7200)
+    if result.status != 0:
+        raise Finding(f"status {result.status}: {result.output}{result.error}; repeat: build/fragtrace {' '.join(map(str, words))}")
+    # A row's name may be in that of others.
+    lines = [json.loads(line) for line in (folder / "rows.json").read_text().splitlines()]
+    return {"rays": sum(line["cases"] for line in lines if line["row"] == name)}

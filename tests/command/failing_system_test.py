@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""A system that fails (tests/faults/failing_system.cpp), where campaigns have found something: the whole is tests/campaign/faults.py."""
+import os
+import signal
+import subprocess
+import time
+
+from support import FRAGTRACE, SCENES, SMALL, Case, main, run
+
+BOX = SCENES / "cornell-box.gltf"
+
+
+def with_fault(kind, number, *words):
+    return run(*words, timeout=60, env={**os.environ, "LD_PRELOAD": str(FRAGTRACE.parent / "libfailing_system.so"), "FRAGTRACE_SYSTEM_PROGRAM": "fragtrace",
+                                        "FRAGTRACE_SYSTEM_FAIL": f"{kind},{number}"})
+
+
+class FailingSystem(Case):
+    def out_of_memory(self, result):
+        self.assertEqual((result.returncode, len(result.stderr.splitlines())), (3, 1), result.stderr)
+        self.assertIn("memory", result.stderr)
+
+    def test_an_allocation_that_fails_before_main_or_where_nothing_may_throw_is_said(self):
+        """CLI11 looks for options in functions that may not throw."""
+        for number in (1, 31, 53, 5787, 9023, 10116):
+            with self.subTest(number):
+                self.out_of_memory(with_fault("memory", number, "info", BOX))
+
+    def test_a_shader_is_not_cut_short_where_memory_runs_out(self):
+        """Streams take a lack of memory for their end; a loader of functions did not look at what it got."""
+        path = self.folder / "x.pfm"
+        self.renders(BOX, "-o", path, *SMALL)
+        right = path.read_bytes()
+        for number in range(27600, 30600, 250):
+            with self.subTest(number):
+                path.write_bytes(b"old")
+                result = with_fault("memory", number, "render", BOX, "-o", path, *SMALL)
+                if result.returncode == 0:
+                    self.assertEqual(path.read_bytes(), right)
+                else:
+                    self.out_of_memory(result)
+        path.unlink()
+
+    def test_an_interruption_after_a_file_is_written_does_not_say_that_nothing_is(self):
+        """Its last line waits for a reader of standard output."""
+        path, parts = self.folder / "x.exr", [self.folder / "part-0.exr", self.folder / "part-2.exr"]
+        for offset, part in zip((0, 2), parts):
+            self.renders(BOX, "-o", part, *SMALL, "--sample-offset", offset)
+        read, write = os.pipe()
+        os.set_blocking(write, False)
+        try:
+            while True:
+                os.write(write, bytes(1 << 12))
+        except BlockingIOError:
+            os.set_blocking(write, True)
+        with subprocess.Popen([FRAGTRACE, "merge", *parts, "-o", path], stdout=write, stderr=subprocess.PIPE, text=True) as process:
+            deadline = time.monotonic() + 60
+            while not path.exists() and time.monotonic() < deadline:
+                time.sleep(0.01)
+            time.sleep(0.1)
+            process.send_signal(signal.SIGTERM)
+            said = process.communicate(timeout=60)[1]
+        os.close(read)
+        os.close(write)
+        self.assertEqual((process.returncode, said), (130, "fragtrace: interrupted; files that were finished stay\n"))
+
+
+if __name__ == "__main__":
+    main()
