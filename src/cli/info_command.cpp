@@ -80,7 +80,8 @@ void printAllParts(const Scene& scene) {
   printParts("variants", scene.materialVariants);
   const VolumeSource& volume = scene.volume.source;
   if (!volume.file.empty())
-    std::printf("  volume      %s%s\n", volume.file.c_str(), volume.grid ? (":" + *volume.grid).c_str() : "");
+    std::printf("  volume      %s\n",
+                withoutControls(volume.file.string() + (volume.grid ? ":" + *volume.grid : "")).c_str());
 }
 
 /// The same as JSON.
@@ -143,7 +144,8 @@ void printText(const std::filesystem::path& path, const SceneDescription& s, con
               s.images, double(s.imageBytes) / 1e6);
   std::printf("  lights      %zu point, %zu spot, %zu directional\n", s.pointLights, s.spotLights,
               s.directionalLights);
-  std::printf("  extensions  %s\n", s.extensionsUsed.empty() ? "none" : joined(s.extensionsUsed).c_str());
+  std::printf("  extensions  %s\n",
+              s.extensionsUsed.empty() ? "none" : withoutControls(joined(s.extensionsUsed)).c_str());
   if (s.bounds.empty()) {
     std::printf("  bounds      empty\n");
   } else {

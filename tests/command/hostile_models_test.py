@@ -194,6 +194,7 @@ class HostileModels(Case):
             named.setdefault(kind, [{}])[0]["name"] = ESCAPE
         named["asset"]["generator"] = ESCAPE
         self.ends(named, statuses=(0, 3))
+        self.ends(named, statuses=(0, 3), words=("info", "--nodes", self.scene / "model.gltf"))
         self.ends(with_buffer(ESCAPE), statuses=(3,))
         self.ends(named | {"extensionsRequired": [ESCAPE]}, statuses=(3,))
         self.ends(named | {"extensionsUsed": [ESCAPE]}, statuses=(0, 3))

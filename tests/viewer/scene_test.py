@@ -108,7 +108,7 @@ class Sun(Case):
         viewer = self.view("caustic-ball", *SIZE, "--spp", "1", "--hide", "lamp", "--hide", "lamp-back", "--sky", "--sun-elevation", "-10")
         self.assertFalse(has_caustics(viewer.rest()))
         viewer.xdotool("keydown", "shift")
-        viewer.drag((60, 100), (60, 40), button=3)
+        viewer.drag((60, 50), (60, 10), button=3)
         viewer.xdotool("keyup", "shift")
         self.assertTrue(has_caustics(viewer.rest(lambda s: s["sun"][0] > 5, "morning")))
         viewer.key("ctrl+z")
