@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the campaigns share: processes that are started, watched and ended, folders that are compared, and pictures that are checked."""
+"""Functions that the campaigns share: they start, watch and end processes, compare folders, and check pictures."""
 import json
 import os
 import re
@@ -32,7 +32,7 @@ class Absent(Exception):
 
 @dataclass
 class Ground:
-    """What a campaign stands on."""
+    """Holds the programs and folders that a campaign uses."""
     fragtrace: Path  # the program
     source: Path  # the repository
     folder: Path  # for inputs that all cases of the campaign read
@@ -61,7 +61,7 @@ def preloaded(ground, **settings):
 
 
 def fields_of(pid):
-    """Of /proc/PID/stat behind the program's name: state, parent, group, session, ...; none of a process that is gone."""
+    """Returns the words of /proc/PID/stat behind the program's name: state, parent, group, session, ...; none if the process is gone."""
     try:
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
     except OSError:
@@ -187,7 +187,7 @@ def check_png(data):
 
 
 def check_exr(data):
-    """That all its blocks lie in the file, to the last byte (support.Exr reads their values)."""
+    """Checks that all blocks lie in the file, to the last byte (support.Exr reads their values)."""
     from support import Exr
     path = Path(f"/dev/shm/fragtrace-{os.getpid()}-{threading.get_ident()}.exr")
     try:

@@ -3,9 +3,11 @@
 that are out of any range, the same in binary headers."""
 import base64
 import json
+import signal
 import struct
+import time
 
-from common import must, run
+from common import Run, must, run
 
 NUMBERS = (0, -1, 2 ** 31, 2 ** 32, 2 ** 62, 1e308, float("nan"), 0.5, "", [], {}, None, True)
 SIZES = ("count", "byteOffset", "byteLength", "byteStride", "bufferView", "componentType", "type", "POSITION", "indices")
@@ -52,7 +54,7 @@ def seeds(ground):
 
 
 def drawn(ground):
-    """What the program itself writes."""
+    """Returns good files that the program itself writes."""
     box = ground.scenes / "cornell-box.gltf"
     made = {}
     for kind in ("png", "jpg", "hdr", "exr", "pfm"):
@@ -61,9 +63,6 @@ def drawn(ground):
     must(run(ground, ["render", box, "-o", "p.exr", *TINY, "--sample-offset", "1", "--aov", "albedo"], ground.folder), 0)
     made["part.exr"] = [(ground.folder / "p.exr").read_bytes()]
     # A render of an hour that is given three seconds writes a checkpoint on its way.
-    from common import Run
-    import signal
-    import time
     path = ground.folder / "c.exr.checkpoint"
     path.unlink(missing_ok=True)
     with Run(["render", box, "-o", "c.exr", "--checkpoint", "0.1", "--resolution", "8,8", "--spp", "1000000", "--quiet"], ground.folder, program=ground.fragtrace) as process:

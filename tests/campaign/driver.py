@@ -42,7 +42,7 @@ def prepare(ground):
 
 
 def case(ground, made, number, folder):
-    """Of a setting with c calls, each is drawn once, since c and the step have no common divisor, or nearly all."""
+    """Draws each of the c calls of a setting once, since c and the step have no common divisor, or nearly all."""
     kind = ("lost", "memory")[number % 2]
     setting, calls, right = made[number // 2 % len(made)]
     call = number // 2 // len(made) * STEP % len(calls) + 1

@@ -37,7 +37,7 @@ def commands(ground):
 
 
 def counted(ground, words, folder, program):
-    """How many calls of each kind a program makes, and the files of an unbroken run."""
+    """Counts the calls of each kind that a program makes, and keeps the files of an unbroken run."""
     counts = folder.parent / f"counts-{program}"
     counts.unlink(missing_ok=True)
     result = must(run(ground, words, folder, environment=preloaded(ground, program=program, counts=counts)), 0)

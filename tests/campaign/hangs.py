@@ -46,7 +46,7 @@ def done(loops):
 
 
 def backtraces(pids, folder):
-    """Of all threads of all processes, into files that are kept with the finding."""
+    """Writes the stacks of all threads of all processes into files that are kept with the finding."""
     for pid in pids:
         if shutil.which("gdb"):
             with open(folder / f"backtrace-{pid}", "wb") as file:

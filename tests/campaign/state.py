@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the campaigns have reached: a file that is replaced as a whole, and the table of it."""
+"""Keeps what the campaigns have reached in a file that is replaced as a whole, and makes a table of it."""
 import datetime
 import fcntl
 import json
