@@ -61,7 +61,7 @@ std::string settleVariant(ShaderVariant& variant, const LoadedScene& loaded, con
 }
 
 /// Keeps the arrays that hold light, where light groups are asked for.
-void keepLight(Tracer& tracer, const GpuScene& packed, const RenderOptions& options) {
+void keepForLightGroups(Tracer& tracer, const GpuScene& packed, const RenderOptions& options) {
   if (options.output.lightGroups.empty()) return;
   tracer.materials = packed.buffers[layout::kMaterialsBinding];
   tracer.lights = packed.buffers[layout::kLightsBinding];
@@ -258,7 +258,7 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   tracer.reads = choice.reads;
   stats.readFallback = choice.fallback;
   settleVariants(tracer, loaded, packed, options, context, stats);
-  keepLight(tracer, packed, options);
+  keepForLightGroups(tracer, packed, options);
   const Phase building = ahead ? *ahead : buildProgram(programs, tracer.variant);
   stats.phases.push_back(building);
   tracer.programMs = building.end - building.begin;
@@ -286,7 +286,7 @@ void replaceScene(Tracer& tracer, const Context& context, const LoadedScene& loa
       packed.unchanged[i] = packed.unchanged[i] || before[i] == tracer.arrayHashes[i];
   }
   settleVariants(tracer, loaded, packed, options, context, stats);
-  keepLight(tracer, packed, options);
+  keepForLightGroups(tracer, packed, options);
   PhaseTimer uploading("upload");
   tracer.renderer->replaceScene(std::move(packed));
   stats.phases.push_back(uploading.end());
