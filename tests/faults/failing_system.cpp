@@ -34,13 +34,16 @@
 #include <string_view>
 #include <system_error>
 
+// The names are glibc's. NOLINTBEGIN(bugprone-reserved-identifier)
 extern "C" {
 void* __libc_malloc(size_t size);
 void* __libc_calloc(size_t count, size_t size);
 void* __libc_realloc(void* memory, size_t size);
 }
+// NOLINTEND(bugprone-reserved-identifier)
 
 /// The function of that name behind this library; looked up once.
+// NOLINTNEXTLINE(bugprone-macro-parentheses): the name is also made a text
 #define REAL(function)                                                                                 \
   ([] {                                                                                                \
     static const auto next = reinterpret_cast<decltype(&function)>(::dlsym(RTLD_NEXT, #function + 2)); \
@@ -74,15 +77,15 @@ struct Code {
   std::array<Range, 32> ranges{};
   std::atomic<size_t> count = 0;
 
-  bool holds(const void* address) const {
-    const auto at = reinterpret_cast<uintptr_t>(address);
+  bool holds(uintptr_t at) const {
     const size_t n = count;
     for (size_t i = 0; i < n; ++i)
       if (at >= ranges[i].first && at < ranges[i].last) return true;
     return false;
   }
+  bool holds(const void* address) const { return holds(reinterpret_cast<uintptr_t>(address)); }
   void add(Range range) {
-    if (holds(reinterpret_cast<void*>(range.first)) || count == ranges.size()) return;
+    if (holds(range.first) || count == ranges.size()) return;
     ranges[count] = range;
     ++count;
   }

@@ -123,7 +123,7 @@ std::string hintAtWhole(const json& root, const std::string& pointer) {
 
 /// A hint at what may be meant by a pointer to no number.
 std::string hintFor(const json& root, const std::string& pointer) {
-  if (const std::string whole = hintAtWhole(root, pointer); !whole.empty()) return whole;
+  if (std::string whole = hintAtWhole(root, pointer); !whole.empty()) return whole;
   std::string meant = pointer;
   constexpr int kMostSteps = 8;  // the number of wrong parts that are still searched
   for (int i = 0; i < kMostSteps && !meant.empty(); ++i) {
