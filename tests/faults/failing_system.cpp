@@ -43,12 +43,13 @@ void* __libc_realloc(void* memory, size_t size);
 // NOLINTEND(bugprone-reserved-identifier)
 
 /// The function of that name behind this library; looked up once.
-// NOLINTNEXTLINE(bugprone-macro-parentheses): the name is also made a text
+// The name is also made a text. NOLINTBEGIN(bugprone-macro-parentheses)
 #define REAL(function)                                                                                 \
   ([] {                                                                                                \
     static const auto next = reinterpret_cast<decltype(&function)>(::dlsym(RTLD_NEXT, #function + 2)); \
     return next;                                                                                       \
   }())
+// NOLINTEND(bugprone-macro-parentheses)
 
 namespace {
 
