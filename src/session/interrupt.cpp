@@ -84,6 +84,7 @@ void handle(void (*handler)(int)) {
 void exitOnInterrupt() {
   onTerminal = isatty(STDERR_FILENO);
   handle([](int) {
+    if (partBeingWritten[0] != '\0') ::unlink(partBeingWritten.data());
     const bool written = filesMayBeWritten != 0;
     const std::string_view text = written ? kSaidLateOnTerminal : kSaidOnTerminal;
     const std::string_view said = reportsAsJson()   ? (written ? kSaidLateAsJson : kSaidAsJson)

@@ -42,6 +42,29 @@ class FailingSystem(Case):
                     self.out_of_memory(result)
         path.unlink()
 
+    def test_an_interruption_while_a_file_is_written_leaves_no_part(self):
+        """Each call of the system is delayed, so that the part is there for a while."""
+        path, parts = self.folder / "x.exr", [self.folder / "part-0.exr", self.folder / "part-2.exr"]
+        for offset, part in zip((0, 2), parts):
+            self.renders(BOX, "-o", part, *SMALL, "--sample-offset", offset)
+        path.write_bytes(b"old")
+        slow = {"LD_PRELOAD": str(FRAGTRACE.parent / "libfailing_system.so"), "FRAGTRACE_SYSTEM_PROGRAM": "fragtrace", "FRAGTRACE_SYSTEM_DELAY": "1,200000"}
+        part = self.folder / ".x.exr.part"
+        seen = 0
+        for signal_number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            with subprocess.Popen([FRAGTRACE, "merge", *parts, "-o", path], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, env={**os.environ, **slow}) as process:
+                while not part.exists() and process.poll() is None:
+                    time.sleep(0.001)
+                process.send_signal(signal_number)
+                process.communicate(timeout=60)
+            self.assertFalse(part.exists())
+            if path.read_bytes() == b"old":
+                self.assertEqual(process.returncode, 130)
+                seen += 1
+            path.write_bytes(b"old")
+        path.unlink()
+        self.assertGreater(seen, 0)
+
     def test_an_interruption_after_a_file_is_written_does_not_say_that_nothing_is(self):
         """Its last line waits for a reader of standard output."""
         path, parts = self.folder / "x.exr", [self.folder / "part-0.exr", self.folder / "part-2.exr"]

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <limits>
 #include <stdexcept>
@@ -58,6 +59,23 @@ std::filesystem::path behindLinks(std::filesystem::path path) {
   }
   return path;
 }
+
+/// While an object of this class exists, a handler of signals knows the part.
+class NamedPart {
+ public:
+  explicit NamedPart(const std::filesystem::path& part) {
+    const std::string name = std::filesystem::absolute(part).string();
+    if (name.size() >= partBeingWritten.size()) return;
+    // The first character comes last, since a handler may look at any time.
+    std::copy(name.begin() + 1, name.end(), partBeingWritten.begin() + 1);
+    partBeingWritten[name.size()] = '\0';
+    std::atomic_signal_fence(std::memory_order_seq_cst);
+    partBeingWritten[0] = name[0];
+  }
+  ~NamedPart() { partBeingWritten[0] = '\0'; }
+  NamedPart(const NamedPart&) = delete;
+  NamedPart& operator=(const NamedPart&) = delete;
+};
 
 std::filesystem::path folderOf(const std::filesystem::path& target) {
   return target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");
@@ -191,6 +209,7 @@ void replaceFile(const std::filesystem::path& path, std::span<const uint8_t> byt
     return;
   }
   const std::filesystem::path part = partOf(path);
+  const NamedPart named(part);
   const int file = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (file < 0) throw fail(errno);
 
