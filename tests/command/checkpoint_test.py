@@ -90,8 +90,13 @@ class Checkpoints(Broken):
     def test_an_interrupted_render_writes_what_it_has_and_goes_on(self):
         options = [*SIZE, "--spp", 80, "--aov", "denoising"]
         whole, seconds = self.unbroken(*options)
-        # The machine may be less busy than it was: a render that ends before is broken sooner.
-        self.assertIn(130, (self.broken(part * seconds, *options, by=signal.SIGINT) for part in (0.6, 0.4, 0.3)))
+
+        def breaks_late(part):
+            """The render is interrupted, and its film was read at a quarter of the samples before."""
+            self.checkpoint.unlink(missing_ok=True)
+            return self.broken(part * seconds, *options, by=signal.SIGINT) == 130 and min(Exr(self.output).values("samples.Y")) > 24
+        # The machine may be more or less busy than it was.
+        self.assertTrue(any(breaks_late(part) for part in (0.6, 0.8, 0.4, 0.95, 0.5, 0.7)))
         partly = Exr(self.output)
         self.assertEqual(partly.texts["fragtrace:interrupted"], "1")
         self.assertTrue(self.checkpoint.exists())
