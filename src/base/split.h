@@ -18,9 +18,9 @@ inline std::vector<std::string_view> splitText(std::string_view text, char separ
   return parts;
 }
 
-/// The same without the empty parts.
-inline std::vector<std::string_view> splitWords(std::string_view text, char separator = ' ') {
-  std::vector<std::string_view> words = splitText(text, separator);
+/// The words of a text, between spaces. splitWords() of options/option_text.h knows quotes, too.
+inline std::vector<std::string_view> wordsIn(std::string_view text) {
+  std::vector<std::string_view> words = splitText(text, ' ');
   std::erase_if(words, [](std::string_view word) { return word.empty(); });
   return words;
 }

@@ -16,8 +16,8 @@ TEST(SplitText, ReadsAsGetlineDoes) {
 }
 
 TEST(SplitText, WordsHaveNoEmptyOnesAmongThem) {
-  EXPECT_EQ(splitWords("  one two   three "), (Parts{"one", "two", "three"}));
-  EXPECT_EQ(splitWords(""), Parts{});
+  EXPECT_EQ(wordsIn("  one two   three "), (Parts{"one", "two", "three"}));
+  EXPECT_EQ(wordsIn(""), Parts{});
 }
 
 }  // namespace

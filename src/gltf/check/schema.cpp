@@ -257,7 +257,7 @@ const std::vector<Rule>& rules() {
       if (extension.members.empty()) continue;
       const std::string place = "/materials/*/extensions/" + std::string(extension.name);
       add(place, {"", Kind::Object});
-      for (const std::string_view member : splitWords(extension.members)) {
+      for (const std::string_view member : wordsIn(extension.members)) {
         const size_t bracket = member.find('[');
         const std::string at = place + "/" + std::string(member.substr(0, bracket));
         if (bracket != std::string::npos)

@@ -50,7 +50,7 @@ constexpr std::array<VideoFormat, 4> kFormats{{
 }};
 
 std::vector<std::string> wordsOf(const std::string& text) {
-  const auto words = splitWords(text);
+  const auto words = wordsIn(text);
   return {words.begin(), words.end()};
 }
 
