@@ -60,8 +60,7 @@ void sayCrash(int) {
     const std::string_view said = reportsAsJson() ? kNoMemoryAsJson : kNoMemory;
     (void)!::write(STDERR_FILENO, said.data(), said.size());
     _exit(kNoMemoryStatus);
-  } catch (...) {
-    sayCrash(0);
+  } catch (...) {  // said below, as where nothing was thrown
   }
   sayCrash(0);
   std::abort();
