@@ -101,7 +101,7 @@ class GlassAssets(Case):
         path = self.folder / "scene.gltf"
         for count in (2, 5, 10, 20):
             path.write_text(json.dumps(nested_glass(count, 1.5)))
-            picture = self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", "16,16", "--spp", 8192)
+            picture = self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", "16,16", "--spp", 8192, "--default-light", "white")
             self.assertAlmostEqual(statistics.fmean(p[0] for row in picture for p in row), 1, delta=0.005, msg=count)
 
 

@@ -14,9 +14,10 @@ import time
 import unittest
 from pathlib import Path
 
-from farm_test import BALL, Farm
+from farm_test import Farm
 from support import FRAGTRACE, SCENES, main
 
+BALL = SCENES / "room-ball.gltf"
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "scontrol")
 PRIVATE = ("unshare", "--pid", "--mount-proc", "--fork", "--kill-child")
 NODES = ("farm-a", "farm-b")
