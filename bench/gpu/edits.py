@@ -16,8 +16,8 @@ def lanes(groups):
         "work_group.glsl": [
             ("gl_WorkGroupID.x", "groupOfLane()"),
             ("gl_LocalInvocationID.xy", "gl_LocalInvocationID.xy & 7u"),
-            (WHICH_GROUP, WHICH_GROUP + "  if (groupOfLane() >= gl_NumWorkGroups.x) return lanes;\n"),
-            ("/// The lane of a tile", f"uint groupOfLane() {{ return gl_WorkGroupID.x * {groups}u + gl_LocalInvocationID.y / 8u; }}\n\n/// The lane of a tile"),
+            (WHICH_GROUP, f"uint groupOfLane() {{ return gl_WorkGroupID.x * {groups}u + gl_LocalInvocationID.y / 8u; }}\n\n" + WHICH_GROUP +
+             "  if (groupOfLane() >= gl_NumWorkGroups.x) return lanes;\n"),
         ],
     }
 
@@ -28,8 +28,8 @@ KEPT_FILM = {"trace.glsl": [("if (kGpu) film = loadFilm(pixel);", ""), ("if (kGp
 EDITS = {
     "copied-frame": {"tune/frame_uniform.glsl": "tune/frame_variable.glsl"},
     "kept-film": KEPT_FILM,
-    "two-traversals": {"trace.glsl": [("!kGpu && kShadows", "kShadows"), ("kGpu && kShadows &&", "false &&"), ("kGpu && kWholeRays && dark", "false"),
-                                      ("kGpu && dark", "false")]},
+    "two-traversals": {"trace.glsl": [("!kGpu && kShadows", "kShadows"), ("kGpu && kShadows &&", "false &&"), ("kGpu && kWholeRays && isShadow", "false"),
+                                      ("kGpu && isShadow", "false")]},
     "array-stack": {"tune/stack_shared.glsl": [("shared int stackEntries[kStackSize * kGroupLanes];", "int stackEntries[kStackSize];"),
                                                ("return entry * kGroupLanes + int(gl_LocalInvocationIndex);", "return entry;")]},
     "128-lanes": lanes(2),

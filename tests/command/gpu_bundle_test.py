@@ -117,6 +117,10 @@ class GpuTable(Case):
         with self.assertRaises(ProcessLookupError):
             os.kill(int((self.bundle / "process").read_text()), 0)
 
+    def test_edits_find_their_texts(self):
+        write_edited(SCENES.parent / "shaders", self.folder / "edited")
+        self.assertEqual({path.name for path in (self.folder / "edited").iterdir()}, set(EDITS))
+
     def test_what_cannot_be_done_is_refused(self):
         for options, says in ((["--only", "boxes"], "'boxes' is none of correctness, report"), (["--seconds", "0"], "above 0"),
                               (["--rounds", "0"], "above 0")):

@@ -7,6 +7,14 @@ import shutil
 from support import BACKENDS, SCENES, Case, main, run
 
 SHADERS = SCENES.parent / "shaders"
+# Protections that are taken out of the shaders: file, text, what replaces it, and the rows that see it.
+MUTATIONS = {
+    "an edge belongs to neither neighbour": ("intersect.glsl", ">= 0.0f && v >= 0.0f && w >= 0.0f", "> 0.0f && v > 0.0f && w > 0.0f", "rims-from-inside"),
+    "rays start on the surface itself": ("intersect.glsl", "? -error : error", "? -0.0f * error : 0.0f * error", "shell white"),
+    "insets of shared meshes know nothing of their instance": ("surface.glsl", "times = offsetOutOfMesh(back, error) * back.stretchBack / error", "times = 1.0", "shell shared"),
+    "slivers lie at the depths of their vertices": ("traverse.glsl", "(word & kPrimitiveSliver) != 0u", "false", "strips"),
+    "surfaces at the distance of one that is passed through are passed, too": ("traverse.glsl", "liesBehind(t, s.tMin, slot > s.tMinSlot)", "t > s.tMin", "skins"),
+}
 
 
 class Stress(Case):
@@ -19,16 +27,15 @@ class Stress(Case):
         self.assertEqual(status, int(any(line["over"] for line in lines)))
         return {line["row"]: line for line in lines}
 
-    def mutated(self, file, before, after, *rows):
-        """With a shader in which a protection is taken out, every one of these rows is over its limit."""
-        folder = self.folder / "shaders"
+    def mutated(self, name):
+        """A folder of shaders in which a protection is taken out, and the rows that see it."""
+        file, before, after, *rows = MUTATIONS[name]
+        folder = self.folder / name
         shutil.copytree(SHADERS, folder)
         text = (folder / file).read_text()
-        self.assertIn(before, text)
+        self.assertIn(before, text, name)
         (folder / file).write_text(text.replace(before, after))
-        found = self.rows("--rows", ",".join(rows), "--shader-folder", folder, status=1)
-        for row in found.values():
-            self.assertTrue(row["over"], row)
+        return folder, rows
 
 
 class StressRows(Stress):
@@ -64,23 +71,18 @@ class StressSchedules(StressAll):
 
 
 class StressMutations(Stress):
-    def test_an_edge_that_belongs_to_neither_neighbour(self):
-        self.mutated("intersect.glsl", ">= 0.0f && v >= 0.0f && w >= 0.0f", "> 0.0f && v > 0.0f && w > 0.0f", "rims-from-inside")
-
-    def test_rays_that_start_on_the_surface_itself(self):
-        self.mutated("intersect.glsl", "? -error : error", "? -0.0f * error : 0.0f * error", "shell white")
-
-    def test_insets_of_shared_meshes_that_know_nothing_of_their_instance(self):
-        self.mutated("surface.glsl", "times = offsetOutOfMesh(back, error) * back.stretchBack / error", "times = 1.0", "shell shared")
-
-    def test_slivers_at_the_depths_of_their_vertices(self):
-        self.mutated("traverse.glsl", "(word & kPrimitiveSliver) != 0u", "false", "strips")
-
-    def test_surfaces_at_the_distance_of_one_that_is_passed_through(self):
-        self.mutated("traverse.glsl", "liesBehind(t, s.past, slot > s.pastSlot)", "t > s.past", "skins")
+    def test_each_makes_its_rows_fail(self):
+        for name in MUTATIONS:
+            folder, rows = self.mutated(name)
+            for row in self.rows("--rows", ",".join(rows), "--shader-folder", folder, status=1).values():
+                self.assertTrue(row["over"], f"{name}: {row}")
 
 
 class StressRefusals(Stress):
+    def test_mutations_find_their_texts(self):
+        for name in MUTATIONS:
+            self.mutated(name)
+
     def test_a_row_that_is_none(self):
         self.fails(2, "bench", "stress", "--rows", "nonsense", says=["--rows", "nonsense"])
 
