@@ -95,13 +95,14 @@ class Pictures(Package):
 
     def test_files(self):
         picture = fragtrace.render(SCENES / "cornell-box.gltf", **SMALL)
-        command = self.folder / "command.png"
-        subprocess.run([FRAGTRACE, "render", SCENES / "cornell-box.gltf", "--resolution", "24x16", "--spp", "2", "--exposure", "1", "--quiet",
-                        "-o", command], check=True)
+        command, rounded = self.folder / "command.png", self.folder / "rounded.png"
+        for path, *options in ((command,), (rounded, "--no-dither")):
+            subprocess.run([FRAGTRACE, "render", SCENES / "cornell-box.gltf", "--resolution", "24x16", "--spp", "2", "--exposure", "1", "--quiet",
+                            "-o", path, *options], check=True)
         for name in ("a.png", "a.exr", "a.pfm", "a.hdr", "a.jpg"):
             picture.save(self.folder / name, **({"exposure": 1} if name in ("a.png", "a.jpg") else {}))
         np.testing.assert_array_equal(fragtrace.read(self.folder / "a.png"), fragtrace.read(command))
-        np.testing.assert_array_equal(fragtrace.tonemap(picture, 1)[:, :, :3], np.rint(255 * fragtrace.read(command)[:, :, :3]))
+        np.testing.assert_array_equal(fragtrace.tonemap(picture, 1)[:, :, :3], np.rint(255 * fragtrace.read(rounded)[:, :, :3]))
         np.testing.assert_array_equal(fragtrace.read(self.folder / "a.exr"), picture)
         self.assertEqual(fragtrace.diff(picture, self.folder / "a.pfm"), 0)
         self.assertLess(fragtrace.diff(self.folder / "a.hdr", picture, "relmse"), 1e-4)
