@@ -25,6 +25,12 @@ void storeFilm(ivec2 pixel, FilmPixel f) {
 /// texels.
 ivec2 recordOf(ivec2 pixel, uint path) { return ivec2(pixel.x, pixel.y * frame.samplesWanted + int(path)); }
 
+/// Stores where a light path lands (src/pack/guiding.h).
+void storePhoton(ivec2 record, vec3 point, vec3 wi, float flux, uint chain) {
+  imageStore(filmSum, record, vec4(point, isNonfinite(flux) ? 0.0 : flux));
+  imageStore(filmCompensation, record, vec4(wi, float(chain >> 8)));
+}
+
 /// Stores the light that a light path sends to the camera, and the place in the picture where it is seen.
 void storeRecord(ivec2 record, bool later, vec3 light, vec2 place) {
   ivec2 texel = record + ivec2(0, later ? imageSize(filmSum).y / 2 : 0);

@@ -221,6 +221,15 @@ const uint kLightIndex = 0x1fffffffu;
 const uint kNoLightNode = 0xffffffffu;
 const uint kNoNormal = 0xffffffu;  // replaces a normal as three 8-bit numbers (packNormal)
 
+// Behind the lights, where there are casters of caustics: guiding lobes (caustics/guiding.glsl), kGuidingLobes rows for
+// each of kGuidingCells. Rows: focus; spread as a float with 11 bits of its fraction, kGuidingAway in place of its
+// sign, and the share up to the lobe in place of its last bits.
+const uint kGuidingCells = 16384u;
+const int kGuidingLobes = 8;
+const uint kGuidingAway = 0x80000000u;
+const uint kGuidingSpreadMask = 0x7ffff000u;
+const uint kGuidingShareMask = 0xfffu;
+
 // Light rows: intensity + type, position + range, direction + spot scale, spot offset.
 const uint kLightRows = 4u;
 const uint kLightCandidates = 4u;  // number of candidates for a light sample (reuse/candidates.glsl)

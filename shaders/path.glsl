@@ -21,7 +21,8 @@ const uint kLobeDimension = 0u;
 const uint kDirectionDimension = 1u;
 const uint kRouletteDimension = 3u;
 const uint kLightDimension = 4u;  // the light's dimensions are 4 to 7
-const uint kReuseDimension = 8u;  // these are 8 to 10
+const uint kReuseDimension = 8u;  // these are 8 to 10, at the first hit alone
+const uint kGuidingDimension = 8u;  // behind the first hit
 const uint kGlassDimension = 12u;
 const uint kFlightDimension = 13u;
 const uint kFlightDimensions = 0x80000000u;  // hashed; 4,096 per bounce
@@ -302,7 +303,9 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
   // At smooth glass roulette begins by kLatestRoulette in any stage: nothing else ends a ray trapped inside.
   bool roulette = (kGi || deltaGlass) && kDrawsLight &&
                   p.bounce >= (deltaGlass ? min(frame.rouletteDepth, kLatestRoulette) : frame.rouletteDepth);
-  float survival = min(maxComponent(p.throughput) * p.etaScale, deltaGlass ? kGlassSurvival : 0.95);
+  // What guiding has drawn carries little, but more of it than other directions bring.
+  float carried = kGuided && p.prefix == kPrefixGuided ? 1.0 : maxComponent(p.throughput) * p.etaScale;
+  float survival = min(carried, deltaGlass ? kGlassSurvival : 0.95);
   uint rouletteDimension = kBounceDimensions * uint(p.bounce) + kRouletteDimension;
   if (roulette && drawFloat(p.sampler, rouletteDimension) >= survival) return p;
   if (roulette) p.throughput /= survival;

@@ -32,14 +32,14 @@ const bool kPassingRows = kPassing || kResumable || kMedia;
 const int kSuspendedRows = kRowAov + (kLightPart ? 1 : 0) + (kLightPaths ? 2 : 0);
 
 /// The count of scatterings and, above it, the prefix.
-uint scatteringsOf(Path p) { return uint(p.bounce) | (kCaustics ? uint(p.prefix) << 30 : 0u); }
+uint scatteringsOf(Path p) { return uint(p.bounce) | (kCaustics ? uint(p.prefix) << 29 : 0u); }
 
 /// Both counts in a word: roulette ends a path long before either is 65,535.
 uint bounceCounts(Path p) { return uint(p.freeBounces) | (kThroughGlass ? uint(p.straightBounces) << 16 : 0u); }
 
 Path withCounts(Path p, uint scatterings, uint freeBounces) {
-  p.bounce = int(kCaustics ? scatterings & 0x3fffffffu : scatterings);
-  p.prefix = int(kCaustics ? scatterings >> 30 : 0u);
+  p.bounce = int(kCaustics ? scatterings & 0x1fffffffu : scatterings);
+  p.prefix = int(kCaustics ? scatterings >> 29 : 0u);
   p.freeBounces = int(kThroughGlass ? freeBounces & 0xffffu : freeBounces);
   p.straightBounces = int(kThroughGlass ? freeBounces >> 16 : 0u);
   return p;
@@ -162,6 +162,7 @@ void suspendPath(Path p, int row) {
     LightPath l = p.fromLight;
     pathStates[row + kRowLight] = floatBitsToUint(vec4(l.flux, l.waiting));
     pathStates[row + kRowLight + 1] = floatBitsToUint(vec4(l.splatPixel, l.range, l.travelled));
+    pathStates[row + kRowRadiance].x = l.chain;  // it has no radiance
   }
 }
 
@@ -174,7 +175,8 @@ Path resumePath(int row, uint key) {
   if (kLightPaths) {
     vec4 l = uintBitsToFloat(readPathStates(row + kRowLight));
     vec4 m = uintBitsToFloat(readPathStates(row + kRowLight + 1));
-    p.fromLight = LightPath(l.xyz, m.z, m.w, (a.z & 32u) != 0u, m.xy, l.w);
+    p.fromLight = LightPath(l.xyz, m.z, m.w, (a.z & 32u) != 0u, m.xy, l.w, floatBitsToUint(p.radiance.x));
+    p.radiance = vec3(0.0);
   }
   if (kLightPart) p.aovWeight = uintBitsToFloat(readPathStates(row + kRowAov).xyz);
   if (kMoving) p.traversal.part = momentAt(p.time, frame.segments.x).part;

@@ -102,6 +102,34 @@ Path sampleLd(Path p, Surface s, SurfaceMaterial m, Scattering at) {
   return spawnShadowRay(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
 }
 
+/// The chance that guiding draws the direction of a path. It has none where it draws delta lobes alone.
+float guidingChance(Path p, Bsdf b, float cosine) {
+  vec4 chances = lobeChances(b, cosine);
+  bool guidable = casterCount > 0 && p.bounce > 0 && isGuidable(p.prefix);
+  return guidable ? 0.5 * (b.mirrorLike ? min(1.0, chances.z + chances.w) : 1.0) : 0.0;
+}
+
+/// A guiding direction by that chance, or else the BSDF's own. Lobes that are no delta lobes are weighted by the
+/// pdf of both; next.pdf stays that of the BSDF, by which light samples are weighted.
+BsdfSample guided(inout Path p, Surface s, Scattering at, BsdfSample next, uint cell, float chance, vec2 uv) {
+  float choice = pathRandom(p, kGuidingDimension);
+  bool taken = choice < chance;
+  bool delta = !taken && next.pdf == 0.0;
+  vec3 direction = toWorld(at.around, next.wi);
+  if (taken) {
+    direction = guidingDirection(s.position, cell, choice / chance, uv);
+    next.wi = toFrame(at.around, direction);
+    BsdfValue value = evaluateBsdf(at.b, at.wo, next.wi);
+    next.transmitted = next.wi.z < 0.0;
+    next.pdf = max(value.pdf, float(1e-30));
+    next.weight = value.pdf > 0.0 ? value.value / value.pdf : vec3(0.0);
+  }
+  float pdf = (1.0 - chance) * next.pdf + chance * guidingPdf(s.position, cell, direction);
+  next.weight *= delta ? 1.0 / (1.0 - chance) : next.pdf / pdf;
+  if (!delta) p.prefix = taken ? kPrefixGuided : kPrefixNone;
+  return next;
+}
+
 /// The path-traced material: one light sample, and one direction drawn from the BSDF.
 Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   if (kDispersion) {
@@ -118,6 +146,15 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   vec2 uv = drawPair(p.sampler, dimension + kDirectionDimension);
   if (lightSampleCount() > 0) p = sampleLd(p, s, m, at);
   BsdfSample next = sampleBsdf(b, wo, choice, uv.x, uv.y);
+  if (kGuided) {
+    // llvmpipe executes a branch that no lane takes, but not an iteration.
+    float chance = guidingChance(p, b, wo.z);
+    if (chance > 0.0 && next.pdf > 0.0) p.prefix = kPrefixNone;
+    uint cell = 0u;
+    for (int i = chance > 0.0 ? 0 : 1; i < 1; ++i) cell = guidingCell(s.position);
+    if (!hasGuiding(cell)) chance = 0.0;
+    for (int i = chance > 0.0 ? 0 : 1; i < 1; ++i) next = guided(p, s, at, next, cell, chance, uv);
+  }
   if (kLightPart && p.bounce == 0) {
     bool delta = next.pdf == 0.0;
     p.aovWeight = delta ? vec3(kAov == kAovSpecular ? 1.0 : 0.0) : aovShare(b, wo, next.wi);

@@ -91,6 +91,7 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "reuse/reservoir.glsl"
 #include "reuse/neighbours.glsl"
 #include "caustics/emit.glsl"
+#include "caustics/guiding.glsl"
 #include "shade.glsl"
 #include "catcher.glsl"
 

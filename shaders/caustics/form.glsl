@@ -16,12 +16,16 @@ const int kPrefixNone = 0;     // camera path: another form; light path: no cast
 const int kPrefixDiffuse = 1;  // the last surface was rough (from the lamp: one of them after the run of casters)
 const int kPrefixCaustic = 2;  // casters since (from the lamp: since the start)
 const int kPrefixSmooth = 3;   // delta lobes since, not all of casters (from the camera)
+const int kPrefixGuided = 4;   // as kPrefixNone (from the camera); guiding drew the last direction of a rough surface
+
+/// Returns true if no light path brings what a camera path meets from now on.
+bool isGuidable(int prefix) { return prefix == kPrefixNone || prefix == kPrefixGuided; }
 
 /// The prefix of a camera path after a scattering. straight: it went straight through a thin wall. caster: the lobe
 /// makes caustics: it is a delta lobe or that of a glossy caster.
 int cameraPrefix(int prefix, bool first, bool delta, bool straight, bool caster) {
   if (first) return delta ? kPrefixNone : kPrefixDiffuse;
-  if (straight || prefix == kPrefixNone) return prefix;
+  if (straight || isGuidable(prefix)) return prefix;
   if (caster && prefix != kPrefixSmooth) return kPrefixCaustic;
   return delta ? kPrefixSmooth : kPrefixDiffuse;
 }

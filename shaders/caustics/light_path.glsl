@@ -170,6 +170,14 @@ Path passOn(Path p, Surface s, float times) {
 /// A single-sided surface sends this share of the light paths that it could scatter on behind itself.
 const float kPassedOn = 0.125;
 
+/// The chain of a path once a surface has scattered it. Parts of a surface that face differently count as several: they
+/// have virtual images of their own.
+uint chainAfter(Path p, Surface s, bool transmitted) {
+  uvec3 facing = uvec3(ivec3(round(1.5 * s.shadingNormal)) + 2);
+  uint side = facing.x + 8u * facing.y + 64u * facing.z + (transmitted ? 512u : 0u);
+  return mixBits(mixBits(p.fromLight.chain + side) + s.material);
+}
+
 /// One step of a light path. Camera paths go the other way: they see single-sided surfaces from the front and pass
 /// through the back. So a light path that meets the back ends. One that meets the front is scattered there, and light
 /// also passes through; chance takes one of the two.
@@ -206,6 +214,10 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
 
   // Step: let the camera see it. The first surface that is all rough has a ray and a record of its own.
   bool first = p.prefix == kPrefixCaustic && !mirror && !thin && p.fromLight.waiting == 0.0;
+  if (storesPhotons && rough && p.prefix == kPrefixCaustic) {
+    storePhoton(p.pixel, s.position, -p.direction, maxComponent(p.fromLight.flux * p.throughput), p.fromLight.chain);
+    return p;
+  }
   if (rough && scattered) p = spawnSplatRay(p, s, m, first);
   if (!caster && !thin && !scattered) return p;
 
@@ -227,6 +239,7 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   if (!delta && pathRandom(p, kSurvivalDimension) >= survival) return p;
   weight /= survival;
   if (p.bounce == 0) p.fromLight.glassFirst = glass && delta;
+  if (!straight) p.fromLight.chain = chainAfter(p, s, next.transmitted);
   p = spawnRay(p, s, direction, weight, next.pdf, next.transmitted, m);
   if (!withinBounces(p)) p.after = kPhaseEnd;
   return p.phase == kPhaseShadow ? p : proceed(p);

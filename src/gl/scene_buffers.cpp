@@ -82,7 +82,9 @@ void SceneBuffers::replace(GpuScene& scene) {
     const size_t bytes = words.empty() ? sizeof kNothing : words.size() * sizeof(uint32_t);
     const void* data = words.empty() ? kNothing.data() : words.data();
     entry.buffer = makeBuffer();
-    glNamedBufferStorage(entry.buffer.name(), GLsizeiptr(bytes), data, 0);
+    glNamedBufferStorage(entry.buffer.name(), GLsizeiptr(bytes), data,
+                         binding == layout::kLightsBinding ? GL_DYNAMIC_STORAGE_BIT : 0);
+    entry.bytes = GLintptr(bytes);
     words = Words();
     if (reads_ != BufferReads::Ssbo) {
       entry.view = makeTexture(GL_TEXTURE_BUFFER);
@@ -90,6 +92,14 @@ void SceneBuffers::replace(GpuScene& scene) {
     }
   }
   checkGl("uploading the scene");
+}
+
+void SceneBuffers::writeLastLights(const Words& rows) {
+  const Entry& lights = entries_[layout::kLightsBinding];
+  const auto bytes = GLsizeiptr(rows.size() * sizeof(uint32_t));
+  movedBytes() += size_t(bytes);
+  glNamedBufferSubData(lights.buffer.name(), lights.bytes - bytes, bytes, rows.data());
+  checkGl("uploading the guiding of caustics");
 }
 
 void SceneBuffers::bind() const {

@@ -20,11 +20,15 @@ class SceneBuffers {
   void replace(GpuScene& scene);
   void bind() const;
 
+  /// Overwrites the last rows of an array that was made with kLightsBinding.
+  void writeLastLights(const Words& rows);
+
  private:
   struct Entry {
     GlBuffer buffer;
     GlTexture view;  ///< image and texel reads
     GLenum format = GL_RGBA32UI;
+    GLintptr bytes = 0;
   };
   std::array<Entry, layout::kSceneBufferCount> entries_;
   BufferReads reads_;

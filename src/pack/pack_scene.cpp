@@ -7,6 +7,7 @@
 #include "pack/energy_tables.h"
 #include "pack/environment_light.h"
 #include "pack/gpu_scene.h"
+#include "pack/guiding.h"
 #include "pack/kept_arrays.h"
 #include "pack/pack_environment.h"
 #include "pack/pack_faces.h"
@@ -367,6 +368,8 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
     packed.buffers[kLightsBinding] = packLights(scene);
     packed.punctualLights = uint32_t(scene.lights.size());
   }
+  if (has(traits, Trait::Caustics))
+    packed.buffers[kLightsBinding].resize(packed.buffers[kLightsBinding].size() + kGuidingRows * 4);
   if (has(traits, Trait::Environment)) {
     placeMap(environment, variant, radius, kept, packed);
     packed.lightShare.emitters = emitters.power;

@@ -70,12 +70,15 @@ bool Renderer::addLightTile(const RenderPass& pass, glm::ivec2 whole, int index,
   // The film of records holds the part of the paths that begins at the tile.
   seen.placement = Placement{{tile.corner.x, whole.y - tile.corner.y - 2 * kRecordSide}, whole};
   lightPathFilm_->clearCounts();
-  const int rows = software_ ? 2 * partsOf(tile.size.y, 2 * kSoftwarePathsPerLane) : tile.size.y;
-  const Work records{{0, 0}, {tile.size.x, rows}, 0, partsOf(tile.size.y, rows)};
-  if (!drawPass({pass.variant, *lightPathFilm_, seen, {records}}, goOn)) return false;
+  if (!drawPass({pass.variant, *lightPathFilm_, seen, {rowsOfPaths(tile.size)}}, goOn)) return false;
   splat(pass, tile.size);
   pass.film.countLightPaths(uint64_t(tile.size.x) * uint64_t(tile.size.y));
   return true;
+}
+
+Work Renderer::rowsOfPaths(glm::ivec2 paths) const {
+  const int rows = software_ ? 2 * partsOf(paths.y, 2 * kSoftwarePathsPerLane) : paths.y;
+  return {{0, 0}, {paths.x, rows}, 0, partsOf(paths.y, rows)};
 }
 
 void Renderer::splat(const RenderPass& pass, glm::ivec2 tile) {

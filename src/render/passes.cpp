@@ -37,7 +37,9 @@ bool Renderer::addParts(Film& film, const View& view, std::span<const Work> part
     for (Work pass = part; pass.from < part.to; pass.from = pass.to) {
       // Step: plan a pass. Where pixels take light samples of others in the same sample, these are stored
       // for one sample at a time.
-      const int left = variant.neighbours ? 1 : part.to - pass.from;
+      int left = variant.neighbours ? 1 : part.to - pass.from;
+      if (!trainGuiding(film, view, pass.from, times, stays)) return false;
+      if (usesGuiding(variant) && !guides_) left = 1;
       const int mostPixels = software_ || variant.resumable ? kMaxTilePixels : kMaxGpuTilePixels;
       const DrawPlan plan = variant.wavefront
                                 ? planWaves(part.size, software_ ? kWaveTile : kGpuWaveTile, pass.from, left)

@@ -114,6 +114,7 @@ void Renderer::replaceSurroundings(GpuScene scene) {
 }
 
 void Renderer::describeSurroundings(const GpuScene& scene) {
+  guidingPhotons_ = 0;
   frame_.environmentSize = scene.environmentSize;
   frame_.backdropSize = scene.backdropSize;
   frame_.catcherIrradiance = scene.upwardIrradiance;
@@ -178,7 +179,7 @@ DrawTarget Renderer::begin(const RenderPass& pass) {
   glNamedFramebufferParameteri(target.framebuffer.name(), GL_FRAMEBUFFER_DEFAULT_WIDTH, size.x);
   glNamedFramebufferParameteri(target.framebuffer.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, size.y);
   target.bind();
-  useProgram(pass.variant);
+  useProgram(pass);
   if (pass.variant.neighbours) reservoirs_->bindTextures(layout::kReservoirTextures);
   glBindBufferBase(GL_UNIFORM_BUFFER, layout::kFrameBinding, frameBuffer_.name());
   if (has(pass.variant.traits, Trait::Fog)) {
@@ -214,12 +215,17 @@ void Renderer::uploadFrame(size_t from, size_t to) {
                        reinterpret_cast<const char*>(&frame_) + from);
 }
 
-void Renderer::useProgram(const ShaderVariant& variant) {
+void Renderer::useProgram(const RenderPass& pass) {
+  const ShaderVariant& variant = pass.variant;
   if (variant.resumable || variant.wavefront) bindPathStates(variant);
   const GLuint program = programs_.tracerProgram(variant).name();
-  if (variant.lightPaths) {
+  if (variant.lightPaths || usesGuiding(variant)) {
     glProgramUniform4fv(program, 0, GLsizei(casters_.size()), casters_.empty() ? nullptr : &casters_[0].x);
-    glProgramUniform1i(program, GLint(layout::kMostCasters), int(casters_.size()));
+    glProgramUniform1i(program, GLint(layout::kMostCasters),
+                       variant.lightPaths || guides_ ? int(casters_.size()) : 0);
+  }
+  if (variant.lightPaths) {
+    glProgramUniform1i(program, GLint(layout::kMostCasters) + 2, pass.photons ? 1 : 0);
     if (samplesSun(variant.traits)) glProgramUniform1f(program, GLint(layout::kMostCasters) + 1, sunChance_);
   }
   glUseProgram(program);
@@ -331,7 +337,7 @@ bool Renderer::finishTile(const RenderPass& pass, Flight flight, const std::func
       variant.resumable = true;
       variant.wavefront = false;
       variant.waveUnit = -1;
-      useProgram(variant);
+      useProgram(pass);
       // The states of suspended paths have less room than a GPU's tile.
       return std::ranges::all_of(tilesOf(flight.tile, glm::ivec2(kMaxTileSide)), [&](const Work& part) {
         return finishTile(pass, submit(variant, part, true), goOn);

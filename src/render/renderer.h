@@ -15,6 +15,7 @@
 #include "gl/program.h"
 #include "gl/scene_buffers.h"
 #include "image/region.h"
+#include "pack/guiding.h"
 #include "render/draw_plan.h"
 #include "render/film.h"
 #include "scene/fog.h"
@@ -73,8 +74,9 @@ struct View {
 
 /// The times of the draws so far; a frame is one sample in every pixel.
 struct RenderTimes {
-  double renderMs = 0.0;  ///< wall clock, with all that happens between draws
-  double drawMs = 0.0;    ///< time of the draws alone, by Renderer::clock()
+  double renderMs = 0.0;   ///< wall clock, with all that happens between draws
+  double drawMs = 0.0;     ///< time of the draws alone, by Renderer::clock()
+  double guidingMs = 0.0;  ///< the part of renderMs that trains guiding
   double firstFrameMs = 0.0;
   std::vector<double> frameMs;
 };
@@ -86,6 +88,7 @@ struct RenderPass {
   Film& film;
   const View& view;
   std::vector<Work> work;
+  bool photons = false;  ///< light paths end where they land, and are stored for guiding
 };
 
 inline double millisecondsBetween(std::chrono::steady_clock::time_point from,
@@ -107,7 +110,10 @@ class Renderer {
   void replaceScene(GpuScene scene);
 
   /// Replaces arrays by others of the same numbers of rows, except those that are unchanged.
-  void replaceArrays(GpuScene scene) { buffers_.replace(scene); }
+  void replaceArrays(GpuScene scene) {
+    buffers_.replace(scene);
+    guidingPhotons_ = 0;
+  }
 
   /// Replaces the surroundings alone (packSurroundings).
   void replaceSurroundings(GpuScene scene);
@@ -163,7 +169,7 @@ class Renderer {
   DrawTarget begin(const RenderPass& pass);
   /// Uploads these bytes of the uniform block for later draws.
   void uploadFrame(size_t from, size_t to);
-  void useProgram(const ShaderVariant& variant);
+  void useProgram(const RenderPass& pass);
   void bindPathStates(const ShaderVariant& variant);
   /// Loop iterations that a lane may take in one draw.
   int stepBudget(const ShaderVariant& variant) const;
@@ -197,6 +203,15 @@ class Renderer {
   /// stopped.
   bool addLightPaths(Film& film, const View& view, int passes, const GoOn& goOn);
   void compileLightPaths(Film& film, const View& view);
+  /// Fits the guiding lobes before the second sample; the first picture does not wait for it. Returns false
+  /// if it was stopped.
+  bool trainGuiding(const Film& film, const View& view, int sample, RenderTimes& times, const GoOn& goOn);
+  /// Traces this part of the light paths of guiding, which has so many rows of them, and adds those that
+  /// land; false if it was stopped.
+  bool tracePhotons(const View& view, const Work& paths, int height, std::vector<Photon>& photons,
+                    const GoOn& goOn);
+  /// The rows of lanes that draw so many light paths.
+  Work rowsOfPaths(glm::ivec2 paths) const;
   /// Draws a tile of light paths of the pass with this index. `pass` has the film to which they are added.
   bool addLightTile(const RenderPass& pass, glm::ivec2 whole, int index, const GoOn& goOn);
   /// Stores the light samples of all pixels in their sample `index`, if the picture's pixels take those of
@@ -226,6 +241,8 @@ class Renderer {
   LightShare lightShare_;
   PackedGrid grid_;
   std::vector<glm::vec4> casters_;     ///< the casters of GpuScene
+  bool guides_ = false;                ///< the pass is guided
+  size_t guidingPhotons_ = 0;          ///< photons that the lobes were to be fitted to; 0: there are none yet
   float sunChance_ = 0.0f;             ///< probability that a light path of the frame begins at the sun
   std::optional<Film> lightPathFilm_;  ///< two texels per light path (storeRecord of film.glsl)
   std::optional<Film>

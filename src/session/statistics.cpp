@@ -71,6 +71,7 @@ void addLighting(nlohmann::ordered_json& json, const Statistics& s) {
     json["caustics"] = {{"light_paths", s.film.lightPaths},
                         {"casters", s.casters},
                         {"variance_share", s.film.m2 > 0.0 ? s.film.lightPathM2 / s.film.m2 : 0.0},
+                        {"guiding_ms", s.times.guidingMs},
                         {"reason", s.lightPathReason}};
   }
 }

@@ -163,6 +163,7 @@ void appendConstants(std::string& text, const ShaderVariant& variant) {
   constant("kPanorama", variant.camera == CameraType::Panorama);
   constant("kFisheye", variant.camera == CameraType::Fisheye);
   constant("kLightPaths", variant.lightPaths);
+  constant("kGuided", usesGuiding(variant));
   constant("kGpu", variant.gpu);
   const auto number = [&](const char* name, int value) {
     text.append("const int ").append(name).append(" = " + std::to_string(value) + ";\n");

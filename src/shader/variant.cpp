@@ -309,6 +309,10 @@ std::optional<ShaderVariant> lightPathVariant(const ShaderVariant& variant) {
   return light;
 }
 
+bool usesGuiding(const ShaderVariant& variant) {
+  return has(variant.traits, Trait::Caustics) && !variant.lightPaths;
+}
+
 std::optional<ShaderVariant> reservoirVariant(const ShaderVariant& variant) {
   if (!variant.neighbours) return std::nullopt;
   ShaderVariant records = variant;

@@ -74,6 +74,9 @@ ShaderVariant choosePictureVariant(const RenderOptions& options, const TraitSet&
 /// The variant that traces the light paths of such a picture, if it has any.
 std::optional<ShaderVariant> lightPathVariant(const ShaderVariant& variant);
 
+/// Returns true if camera paths are guided (shaders/caustics/guiding.glsl).
+bool usesGuiding(const ShaderVariant& variant);
+
 /// The variant that keeps the light samples that such a picture's pixels take of others, if they do.
 std::optional<ShaderVariant> reservoirVariant(const ShaderVariant& variant);
 

@@ -381,7 +381,7 @@ class Caustics(Case):
         drawn = told("caustics")
         self.assertEqual(drawn["light_paths"], 3 * 16 * 4)
         self.assertGreater(drawn["casters"], 1)
-        self.assertEqual(told("caustics", "--caustics", "off"), {"light_paths": 0, "casters": 0, "variance_share": 0, "reason": "--caustics"})
+        self.assertEqual(told("caustics", "--caustics", "off"), {"light_paths": 0, "casters": 0, "variance_share": 0, "guiding_ms": 0, "reason": "--caustics"})
         self.assertIn("no lamp", told("cornell-box")["reason"])
         for other in (("--clamp-indirect", "1"), ("--shadow-catcher", "0"), ("--aov", "diffuse")):
             refused = run("render", SCENES / "caustics.gltf", "-o", self.folder / "x.exr", "--caustics", "on", *other)

@@ -91,7 +91,7 @@ class SunCaustics(Case):
         night = told(scene, "--sky", "--sun-elevation", "-5")
         self.assertEqual(night["light_paths"], 0)
         self.assertIn("no lamp or sun", night["reason"])
-        self.assertEqual(told(scene, *SKY, "--caustics", "off"), {"light_paths": 0, "casters": 0, "variance_share": 0, "reason": "--caustics"})
+        self.assertEqual(told(scene, *SKY, "--caustics", "off"), {"light_paths": 0, "casters": 0, "variance_share": 0, "guiding_ms": 0, "reason": "--caustics"})
 
 
 if __name__ == "__main__":

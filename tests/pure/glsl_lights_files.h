@@ -41,4 +41,5 @@ inline MovingTriangle movingTriangle(int /*slot*/, float /*time*/) { return {}; 
 #include "caustics/aim.glsl"
 #include "caustics/flux.glsl"
 #include "caustics/form.glsl"
+#include "caustics/guiding.glsl"
 // clang-format on
