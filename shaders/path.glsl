@@ -303,7 +303,7 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
   // At smooth glass roulette begins by kLatestRoulette in any stage: nothing else ends a ray trapped inside.
   bool roulette = (kGi || deltaGlass) && kDrawsLight &&
                   p.bounce >= (deltaGlass ? min(frame.rouletteDepth, kLatestRoulette) : frame.rouletteDepth);
-  // What guiding has drawn carries little, but more of it than other directions bring.
+  // A path that guiding has aimed carries little, but goes where light comes from.
   float carried = kGuided && p.prefix == kPrefixGuided ? 1.0 : maxComponent(p.throughput) * p.etaScale;
   float survival = min(carried, deltaGlass ? kGlassSurvival : 0.95);
   uint rouletteDimension = kBounceDimensions * uint(p.bounce) + kRouletteDimension;

@@ -30,7 +30,7 @@ struct Cells {
 #include "mix_bits.glsl"
 };
 
-/// Of more photons than these, evenly chosen ones tell where a lobe is aimed.
+/// At most about this many photons, evenly chosen, tell where a lobe is aimed.
 constexpr size_t kMostFitted = 32;
 /// The spread of a lobe is this many times the mean over its photons; a uniform cone has twice the mean.
 constexpr double kSpreadOfMean = 3.0;
@@ -129,29 +129,30 @@ FittedLobe fitLobe(std::span<const Placed> photons, double unit) {
 }
 
 /// Writes the strongest lobes of a cell. Their shares go with the root of their flux: what they miss weighs
-/// by its square.
-size_t placeLobes(std::vector<FittedLobe>& lobes, uint32_t* rows) {
+/// by its square. Lobes whose share is rounded to nothing are left out, since the shader ends at such a
+/// share.
+void placeLobes(std::vector<FittedLobe>& lobes, uint32_t* row) {
   std::ranges::stable_sort(lobes, std::greater(), &FittedLobe::flux);
   lobes.resize(std::min(lobes.size(), size_t(layout::kGuidingLobes)));
   const auto share = [](double sum, const FittedLobe& l) { return sum + std::sqrt(l.flux); };
   const double all = std::accumulate(lobes.begin(), lobes.end(), 0.0, share);
   double sum = 0.0;
-  for (size_t i = 0; i < lobes.size(); ++i) {
-    const FittedLobe& lobe = lobes[i];
+  uint32_t before = 0;
+  for (const FittedLobe& lobe : lobes) {
     sum = share(sum, lobe);
     const auto upTo = uint32_t(std::lround(sum / all * kShares) * (layout::kGuidingShareMask / kShares));
+    if (upTo == before) continue;
+    before = upTo;
     const uint32_t spread = std::bit_cast<uint32_t>(float(lobe.spread)) & layout::kGuidingSpreadMask;
-    for (int c = 0; c < 3; ++c) rows[4 * i + size_t(c)] = std::bit_cast<uint32_t>(lobe.focus[c]);
-    rows[4 * i + 3] = spread | upTo | (lobe.away ? layout::kGuidingAway : 0u);
+    for (int c = 0; c < 3; ++c) *row++ = std::bit_cast<uint32_t>(lobe.focus[c]);
+    *row++ = spread | upTo | (lobe.away ? layout::kGuidingAway : 0u);
   }
-  return lobes.size();
 }
 
 }  // namespace
 
-Guiding fitGuiding(std::span<Photon> photons, std::span<const glm::vec4> casters) {
-  Guiding guiding;
-  guiding.rows.resize(kGuidingRows * 4);
+std::vector<uint32_t> fitGuiding(std::span<const Photon> photons, std::span<const glm::vec4> casters) {
+  std::vector<uint32_t> rows(kGuidingRows * 4);
   Cells cells{casters, int(casters.size())};
   std::vector<Placed> placed;
   for (const Photon& p : photons) {
@@ -174,10 +175,10 @@ Guiding fitGuiding(std::span<Photon> photons, std::span<const glm::vec4> casters
       lobes.push_back(fitLobe({from, end}, unit));
       from = end;
     }
-    guiding.lobes += placeLobes(lobes, &guiding.rows[size_t(first->cell) * layout::kGuidingLobes * 4]);
+    placeLobes(lobes, &rows[size_t(first->cell) * layout::kGuidingLobes * 4]);
     first = last;
   }
-  return guiding;
+  return rows;
 }
 
 }  // namespace fragtrace

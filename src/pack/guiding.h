@@ -18,16 +18,10 @@ struct Photon {
   uint32_t chain = 0;     ///< those that met the same surfaces on the same sides have the same number
 };
 
-/// Guiding lobes as rows of uvec4: kGuidingLobes for each of kGuidingCells.
-struct Guiding {
-  std::vector<uint32_t> rows;
-  size_t lobes = 0;
-};
-
 constexpr size_t kGuidingRows = size_t(layout::kGuidingCells) * layout::kGuidingLobes;
 
-/// Fits a lobe to the photons of each cell that met the same surfaces. A cell keeps the strongest lobes. The
-/// photons are sorted.
-Guiding fitGuiding(std::span<Photon> photons, std::span<const glm::vec4> casters);
+/// Fits a lobe to the photons of each cell that met the same surfaces. A cell keeps the strongest lobes.
+/// Returns kGuidingRows rows of uvec4: kGuidingLobes for each of kGuidingCells.
+std::vector<uint32_t> fitGuiding(std::span<const Photon> photons, std::span<const glm::vec4> casters);
 
 }  // namespace fragtrace

@@ -18,7 +18,7 @@ constexpr uint32_t kSeed = 0x6775696du;
 size_t photonsFor(glm::ivec2 picture) {
   return std::clamp(size_t(picture.x) * size_t(picture.y) * 4, size_t(1) << 12, size_t(1) << 17);
 }
-/// Where few light paths land, this many are traced for each of the photons.
+/// At most this many light paths are traced for each of the photons, where few land.
 constexpr size_t kMostPathsPerPhoton = 8;
 
 }  // namespace
@@ -35,7 +35,7 @@ bool Renderer::trainGuiding(const Film& film, const View& view, int sample, Rend
   for (int row = 0; row < height && photons.size() < wanted; row += rows) {
     if (!tracePhotons(view, {{0, row}, {kSide, rows}, 0, 1}, height, photons, goOn)) return false;
   }
-  buffers_.writeLastLights(fitGuiding(photons, casters_).rows);
+  buffers_.writeLastLights(fitGuiding(photons, casters_));
   guidingPhotons_ = wanted;
   times.guidingMs += millisecondsBetween(start, std::chrono::steady_clock::now());
   return true;
