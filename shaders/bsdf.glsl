@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The glTF 2.0 material (appendix B, KHR_materials_specular, _transmission, _volume) as one BSDF: metal, dielectric
-// over a diffuse base, and glass, mixed by metallic and transmission; and what extensions change of these: the shape of
-// the facets, a film on them, diffuse light through the surface. Sheen and clearcoat lie above (layers.glsl). Frame: z
-// is the shading normal, wo.z > 0.
+// over a diffuse base, and glass, mixed by metallic and transmission; and what extensions change of these: facets, a
+// film on them, diffuse light through the surface. layers.glsl adds more. z is the shading normal, wo.z > 0.
 
 struct Bsdf {
   vec3 baseColor;
@@ -27,8 +26,8 @@ struct Bsdf {
   float sheenAlpha;
   float coat, coatAlpha;  // weight, GGX width and normal of the clearcoat (kClearcoat)
   vec3 coatNormal;
-  // colour of light scattered more than once between the facets, over pi (1 - average albedo); see compensate
-  vec3 between;
+  vec3 between;  // colour of light scattered again between the facets, over pi (1 - average albedo); see compensate
+  bool sharesGlass;  // glass draws both its delta lobes often (kCaustics)
 };
 
 /// A direction drawn from a Bsdf. weight = f |cos| / pdf; pdf 0 for a delta lobe; weight 0 ends the path.
@@ -319,11 +318,12 @@ BsdfValue evaluateBase(Bsdf b, vec3 wo, vec3 wi) {
   return r;
 }
 
-/// Draws a delta lobe of smooth glass: reflected with the chance of its reflectance, else transmitted.
+/// Draws a delta lobe of smooth glass: reflected with the chance of its reflectance or a larger one, else transmitted.
 BsdfSample sampleSmoothGlass(Bsdf b, vec3 wo, float choice) {
   BsdfSample s;
   float fresnel = glassFresnel(b, wo.z);
-  s.transmitted = choice >= fresnel;
+  float chance = kCaustics && b.sharesGlass ? sharedChance(fresnel) : fresnel;
+  s.transmitted = choice >= chance;
   s.pdf = 0.0f;
   s.weight = glassTint(b, wo.z);
   s.wi = vec3(-wo.x, -wo.y, wo.z);
@@ -331,12 +331,12 @@ BsdfSample sampleSmoothGlass(Bsdf b, vec3 wo, float choice) {
     s.weight = b.solid ? b.baseColor / (b.eta * b.eta) : b.baseColor;
     s.wi = b.solid ? refractThrough(wo, vec3(0.0f, 0.0f, 1.0f), b.eta) : -wo;
   }
+  if (kCaustics && b.sharesGlass) s.weight *= sharedWeight(fresnel, chance, s.transmitted);
   return s;
 }
 
 /// The pdf of a sample whose direction is drawn, but not weighed yet.
 const float kUnweighed = float(-1.0);
-
 const float kLowBits = float(4096.0);  // times this, a uniform number leaves a fraction that is one of its own
 
 /// Draws from scatteredGlass().

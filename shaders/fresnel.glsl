@@ -51,6 +51,22 @@ vec3 mirrorDirection(vec3 wo, vec3 normal) { return 2.0f * dot(wo, normal) * nor
 /// Reflectance of two parallel interfaces, all reflections between them counted.
 float thinReflectance(float single) { return 2.0f * single / (1.0f + single); }
 
+/// The least chance of a delta lobe of glass that shares its paths.
+const float kLeastLobe = float(0.2);
+
+/// The chance that glass which shares its paths reflects one. By two reflections of 4 %, one of 600 paths would meet a
+/// lamp, as a bright dot.
+float sharedChance(float reflectance) {
+  bool both = reflectance > 0.0f && reflectance < 1.0f;
+  return both ? clamp(reflectance, kLeastLobe, 1.0f - kLeastLobe) : reflectance;
+}
+
+/// The weight of such a path.
+float sharedWeight(float reflectance, float chance, bool transmitted) {
+  if (chance == reflectance) return 1.0f;
+  return transmitted ? (1.0f - reflectance) / (1.0f - chance) : reflectance / chance;
+}
+
 /// Mean of Schlick's reflectance over cosine-weighted directions.
 vec3 averageFresnel(vec3 f0, float f90) { return f0 + (vec3(f90) - f0) / float(21.0); }
 

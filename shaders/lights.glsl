@@ -66,15 +66,23 @@ uvec4 emitterRow(int emitter, int row) {
   return kLiterals ? literalEmitter(emitter, row) : readEmitters(emitter * int(kEmitterRows) + row);
 }
 
-/// The radiance that a point of an emissive triangle, by leaf slot and barycentric weights, emits at `cosine`.
+/// The radiance that a point of an emissive triangle, by leaf slot and barycentric weights, emits at `cosine`, on
+/// average over the rays that its alpha lets through.
 vec3 emittedFrom(uint material, int slot, vec2 weights, float cosine) {
+  uvec4 place = kTexcoords || kVertexColors ? faceRow(slot, 1) : uvec4(0u);
   vec4 texcoords = vec4(0.0f);
-  if ((kEmissionTexture || kClearcoatTexture) && kTexcoords) {
-    uvec4 place = faceRow(slot, 1);
+  if ((kEmissionTexture || kClearcoatTexture || (kAlpha && kBaseColorTexture)) && kTexcoords) {
     texcoords = interpolate(readTexcoordsAt(int(place.y)), readTexcoordsAt(int(place.z)), readTexcoordsAt(int(place.w)),
                             weights);
   }
   vec3 radiance = emissionAt(material, texcoords);
+  if (kAlpha && (materialFlags(material) & (kMaterialMask | kMaterialBlend)) != 0u) {
+    vec4 color = vec4(1.0f);
+    if (kVertexColors) {
+      color = interpolate(readColorAt(int(place.y)), readColorAt(int(place.z)), readColorAt(int(place.w)), weights);
+    }
+    radiance *= alphaAt(material, materialFlags(material), baseColorAt(material, texcoords, color).a);
+  }
   if (kClearcoat) radiance = radiance * emissionUnderCoat(material, texcoords, cosine);
   return radiance;
 }

@@ -22,6 +22,12 @@ vec4 baseColorAt(uint material, vec4 texcoords, vec4 vertexColor) {
   return color;
 }
 
+/// Alpha of a point after the cutoff of MASK.
+float alphaAt(uint material, uint flags, float alpha) {
+  if ((flags & kMaterialMask) != 0u) return alpha >= materialFloats(material, kMaterialEmission).w ? 1.0 : 0.0;
+  return clamp(alpha, 0.0, 1.0);
+}
+
 /// Radiance that a surface emits from its emitting side.
 vec3 emissionAt(uint material, vec4 texcoords) {
   if (!kEmission) return vec3(0.0);

@@ -260,12 +260,6 @@ bool passesThrough(uint flags, float alpha, Sampler sampler, int crossing) {
   return false;
 }
 
-/// Alpha of a point after the cutoff of MASK.
-float alphaAt(uint material, uint flags, float alpha) {
-  if ((flags & kMaterialMask) != 0u) return alpha >= materialFloats(material, kMaterialEmission).w ? 1.0 : 0.0;
-  return clamp(alpha, 0.0, 1.0);
-}
-
 /// Returns true if light may come through the surface.
 bool takesLightFromBehind(Surface s, SurfaceMaterial m) {
   if (m.transmission > 0.0) return true;

@@ -68,6 +68,13 @@ vec3 sampleCosineHemisphere(float u, float v) {
   return vec3(d.x, d.y, sqrt(max(0.0f, 1.0f - d.x * d.x - d.y * d.y)));
 }
 
+/// A direction uniform in a cone about z. spread: 1 minus the cosine of half the cone's angle.
+vec3 sampleCone(float spread, vec2 uv) {
+  float down = uv.x * spread;
+  vec2 around = unitCircle(uv.y) * sqrt(max(0.0f, down * (2.0f - down)));
+  return vec3(around, 1.0f - down);
+}
+
 /// Barycentric weights (of the second and the third vertex) of a point uniform in a triangle.
 vec2 sampleTriangle(float u, float v) {
   float root = sqrt(u);

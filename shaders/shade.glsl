@@ -15,6 +15,7 @@ Bsdf baseBsdf(SurfaceMaterial m, bool front) {
   b.mirrorLike = b.alpha < kMirrorAlpha;
   b.solid = m.solid;
   b.glassLost = 0.0;
+  b.sharesGlass = false;
   b.eta = front ? m.ior : 1.0 / m.ior;
   return b;
 }
@@ -85,7 +86,10 @@ vec3 irradianceLeft(Path p, Surface s, LightSample light) {
   bool glossy = isCaster(materialFlags(s.material), false);
   if (cameraPrefix(p.prefix, p.bounce == 0, false, false, glossy) != kPrefixCaustic) return light.irradiance;
   bool lamp = light.distance < kFarAway || light.pdf <= 0.0;
-  if (kSunPaths && !lamp) return vec3(mapAlong(light.direction)) / light.pdf;
+  if (kSunPaths && !lamp) {
+    vec3 all = vec3(environmentAlong(light.direction));
+    return light.irradiance * vec3(mapAlong(light.direction)) / max(all, vec3(1e-30));
+  }
   return lamp ? vec3(0.0) : light.irradiance;
 }
 
@@ -130,6 +134,16 @@ BsdfSample guided(inout Path p, Surface s, Scattering at, BsdfSample next, uint 
   return next;
 }
 
+/// Glass draws both its lobes often in so many scatterings of a camera path. Each makes what lies behind it noisier.
+const int kSharedScatterings = 4;
+
+/// Returns true if glass is to draw both its lobes often: the path has met glass alone, so no light path brings the
+/// lamp that it may see.
+bool sharesGlass(Path p) {
+  bool glassAlone = p.prefix == kPrefixNone && p.freeBounces == p.bounce;
+  return casterCount > 0 && glassAlone && p.bounce < kSharedScatterings;
+}
+
 /// The path-traced material: one light sample, and one direction drawn from the BSDF.
 Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   if (kDispersion) {
@@ -137,6 +151,7 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
     if (m.solid) m.ior = dispersedIor(p, s.material);
   }
   Scattering at = scatteringAt(s, m, normal, -p.direction);
+  if (kCaustics && !kLightPaths) at.b.sharesGlass = sharesGlass(p);
   Frame3 around = at.around;
   Bsdf b = at.b;
   vec3 wo = at.wo;

@@ -45,11 +45,9 @@ Aim aimFrom(vec3 point, vec3 normal, float choice, vec2 uv) {
     spread = here ? own : spread;
     left -= own;
   }
-  float down = uv.x * spread;
-  vec2 around = unitCircle(uv.y) * sqrt(max(0.0f, down * (2.0f - down)));
   vec3 towards = vec3(casters[chosen]) - point;
   vec3 axis = dot(towards, towards) > 0.0f ? normalize(towards) : vec3(0.0f, 0.0f, 1.0f);
-  a.direction = normalize(toWorld(frameAround(axis), vec3(around, 1.0f - down)));
+  a.direction = normalize(toWorld(frameAround(axis), sampleCone(spread, uv)));
   // Every cone that holds the direction could have drawn it.
   float cones = 0.0f;
   for (int i = 0; i < casterCount; ++i) {

@@ -71,7 +71,5 @@ vec3 guidingDirection(vec3 point, uint cell, float choice, vec2 uv) {
   }
   bool skirt = choice - before < kGuidingSkirt * (lobe.upTo - before);
   float spread = skirt ? min(2.0f, kGuidingSkirts * lobe.spread) : lobe.spread;
-  float down = uv.x * spread;
-  vec2 around = unitCircle(uv.y) * sqrt(max(0.0f, down * (2.0f - down)));
-  return normalize(toWorld(frameAround(axisOf(lobe, point)), vec3(around, 1.0f - down)));
+  return normalize(toWorld(frameAround(axisOf(lobe, point)), sampleCone(spread, uv)));
 }

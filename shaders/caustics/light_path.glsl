@@ -183,22 +183,19 @@ uint chainAfter(Path p, Surface s, bool transmitted) {
 /// also passes through; chance takes one of the two.
 Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   p.phase = kPhaseEnd;
-  if (kUnlit && (flags & kMaterialUnlit) != 0u) return p;
+  bool unlit = kUnlit && (flags & kMaterialUnlit) != 0u;
   bool glossy = isCaster(flags, false);
   bool mirror = isCaster(flags, true);
   bool caster = glossy || mirror;
   bool scattered = p.prefix != kPrefixNone;
   bool singleSided = isSingleSided(s.material, flags);
   if (singleSided && !s.front) return p;
-  bool mayScatter = caster || scattered;
+  bool mayScatter = !unlit && (caster || scattered);
   bool passes = singleSided &&
                 (!mayScatter || hashFloat(p.sampler, kAlphaDimensions + uint(nextCrossing(p))) < kPassedOn);
   if (passes) return passOn(p, s, mayScatter ? 1.0 / kPassedOn : 1.0);
+  if (unlit) return p;
   if (singleSided) p.throughput /= 1.0 - kPassedOn;
-  if (p.bounce == 0) {
-    float travelled = p.fromLight.travelled + p.hitT;
-    p.fromLight.flux *= rangeWindow(travelled * travelled, p.fromLight.range);
-  }
   SurfaceMaterial m = materialAt(s.material, baseColor, s.texcoords);
   if (kDispersion) {
     p = disperse(p, m, s.material);
@@ -238,6 +235,11 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   float survival = delta ? 1.0 : min(1.0, maxComponent(weight));
   if (!delta && pathRandom(p, kSurvivalDimension) >= survival) return p;
   weight /= survival;
+  // A ray that goes straight through a thin wall is still that of the lamp.
+  if (!straight && p.bounce == p.straightBounces) {
+    float travelled = p.fromLight.travelled + p.hitT;
+    p.fromLight.flux *= rangeWindow(travelled * travelled, p.fromLight.range);
+  }
   if (p.bounce == 0) p.fromLight.glassFirst = glass && delta;
   if (!straight) p.fromLight.chain = chainAfter(p, s, next.transmitted);
   p = spawnRay(p, s, direction, weight, next.pdf, next.transmitted, m);

@@ -9,7 +9,6 @@ namespace fragtrace {
 
 namespace {
 
-constexpr int kSide = 256;  // light paths of a draw along each side
 /// All seeds have the same lobes: random numbers of its own keep it apart from what it guides.
 constexpr uint32_t kSeed = 0x6775696du;
 
@@ -30,10 +29,10 @@ bool Renderer::trainGuiding(const Film& film, const View& view, int sample, Rend
   const size_t wanted = photonsFor(view.placement ? view.placement->whole : film.size());
   if (!guides_ || guidingPhotons_ == wanted) return true;
   std::vector<Photon> photons;
-  const int rows = int(std::min(wanted / kSide, size_t(kSide)));
-  const int height = int(wanted * kMostPathsPerPhoton / kSide);
+  const int rows = int(std::min(wanted / kRecordSide, size_t(kRecordSide)));
+  const int height = int(wanted * kMostPathsPerPhoton / kRecordSide);
   for (int row = 0; row < height && photons.size() < wanted; row += rows) {
-    if (!tracePhotons(view, {{0, row}, {kSide, rows}, 0, 1}, height, photons, goOn)) return false;
+    if (!tracePhotons(view, {{0, row}, {kRecordSide, rows}, 0, 1}, height, photons, goOn)) return false;
   }
   buffers_.writeLastLights(fitGuiding(photons, casters_));
   guidingPhotons_ = wanted;
@@ -47,7 +46,7 @@ bool Renderer::tracePhotons(const View& view, const Work& paths, int height, std
   View seen = view;
   seen.seed = kSeed;
   seen.sampleOffset = 0;
-  seen.placement = Placement{{0, height - paths.corner.y - lightPathFilm_->size().y}, {kSide, height}};
+  seen.placement = Placement{{0, height - paths.corner.y - lightPathFilm_->size().y}, {kRecordSide, height}};
   lightPathFilm_->clearCounts();
   if (!drawPass({variant, *lightPathFilm_, seen, {rowsOfPaths(paths.size)}, true}, goOn)) return false;
   const FilmState records = lightPathFilm_->save();

@@ -8,9 +8,6 @@ namespace fragtrace {
 
 namespace {
 
-/// Light paths of a draw along each side. It is the same for every picture and driver, so that sums have the
-/// same bits.
-constexpr int kRecordSide = 256;
 /// A lane draws at most this many light paths of a column one after the other, so that no lane waits for the
 /// longest path of the others. A row of lanes is as wide as the tile, since llvmpipe's threads share squares
 /// of 64 pixels, and rows are even, since it draws two at a time.

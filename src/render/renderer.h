@@ -240,10 +240,13 @@ class Renderer {
   layout::Frame frame_{};
   LightShare lightShare_;
   PackedGrid grid_;
-  std::vector<glm::vec4> casters_;     ///< the casters of GpuScene
-  bool guides_ = false;                ///< the pass is guided
-  size_t guidingPhotons_ = 0;          ///< photons that the lobes were to be fitted to; 0: there are none yet
-  float sunChance_ = 0.0f;             ///< probability that a light path of the frame begins at the sun
+  std::vector<glm::vec4> casters_;  ///< the casters of GpuScene
+  bool guides_ = false;             ///< the pass is guided
+  size_t guidingPhotons_ = 0;       ///< photons that the lobes were to be fitted to; 0: there are none yet
+  float sunChance_ = 0.0f;          ///< probability that a light path of the frame begins at the sun
+  /// Light paths of a draw along each side. It is the same for every picture and driver, so that sums have
+  /// the same bits.
+  static constexpr int kRecordSide = 256;
   std::optional<Film> lightPathFilm_;  ///< two texels per light path (storeRecord of film.glsl)
   std::optional<Film>
       reservoirs_;  ///< a reservoir per pixel, for this sample (shaders/reuse/neighbours.glsl)

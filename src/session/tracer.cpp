@@ -106,7 +106,7 @@ std::string whyCaustics(const ShaderVariant& variant, const TraitSet& present, c
   }
   if (options.light.caustics == Caustics::Off) return "--caustics";
   if (!has(present, Trait::Caustics)) return traitRows()[size_t(Trait::Caustics)].absence;
-  const std::string excluded = whyNoLightPaths(options);
+  const std::string excluded = whyNoLightPaths(options, present);
   return excluded.empty() ? "a stage that they need is off" : excluded;
 }
 
@@ -122,7 +122,7 @@ RenderOptions asDrawn(const RenderOptions& options, const TraitSet& present) {
 
 /// Returns true if light paths, which the scene has, give way to another option.
 bool lightPathsGiveWay(const ShaderVariant& variant, const TraitSet& present, const RenderOptions& options) {
-  return options.light.caustics == Caustics::Auto && !whyNoLightPaths(options).empty() &&
+  return options.light.caustics == Caustics::Auto && !whyNoLightPaths(options, present).empty() &&
          has(present, Trait::Caustics) && has(variant.stages, Stage::Gi) &&
          has(variant.stages, Stage::Shadows);
 }

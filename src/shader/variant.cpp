@@ -175,7 +175,7 @@ std::string whyOff(Stage stage, const TraitSet& present, bool gi) {
   return traitRows()[size_t(*needed)].absence;
 }
 
-std::string whyNoLightPaths(const RenderOptions& options) {
+std::string whyNoLightPaths(const RenderOptions& options, const TraitSet& present) {
   // Limits, catchers and parts know paths from the camera alone.
   if (options.sampling.clampIndirect > 0.0) return "--clamp-indirect";
   if (options.light.shadowCatcher) return "--shadow-catcher";
@@ -184,6 +184,7 @@ std::string whyNoLightPaths(const RenderOptions& options) {
     return "--pixel-filter of a panorama";
   if (std::ranges::any_of(options.output.aovs, isLightPart)) return "--aov has parts of the light";
   if (options.camera.shutter > 0.0) return "--shutter";
+  if (hasMedia(present) || options.fog.density > 0.0) return "fog, grids and solids that scatter";
   return {};
 }
 
@@ -197,7 +198,7 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
     v.traits.set(size_t(Trait::LightTree), options.light.selection != LightSelection::Power);
   v.traits.set(size_t(Trait::Fog), options.fog.density > 0.0 && !options.light.shadowCatcher);
   if (options.light.shadowCatcher) v.traits.reset(size_t(Trait::DensityGrid));
-  if (options.light.caustics == Caustics::Off || !whyNoLightPaths(options).empty())
+  if (options.light.caustics == Caustics::Off || !whyNoLightPaths(options, present).empty())
     v.traits.reset(size_t(Trait::Caustics));
   v.countsVisits = options.output.debugView == DebugView::Visits;
   dropStages(v.stages, v.countsVisits);

@@ -97,8 +97,9 @@ std::string variantName(const ShaderVariant& variant);
 /// with stage gi, which alone sends shadow rays to the environment.
 std::string whyOff(Stage stage, const TraitSet& present, bool gi = true);
 
-/// The option that light paths cannot go with; empty when there is none.
-std::string whyNoLightPaths(const RenderOptions& options);
+/// The option, or the media of a scene of these traits, that light paths cannot go with; empty when there is
+/// none.
+std::string whyNoLightPaths(const RenderOptions& options, const TraitSet& present);
 
 /// Returns true if the tables of src/pack/glass_energy.cpp describe the loss. These traits change the facets:
 /// then no table fits, and samples would not follow their density.

@@ -25,11 +25,11 @@ WIDE = (("layout.glsl", "kSunRadius = 0.004651303f", f"kSunRadius = {0.004651303
 
 
 class SunCaustics(Case):
-    def scene(self, name, mirror=True, lamp=0.0):
+    def scene(self, name, mirror=True, lamp=0.0, roughness=0.0):
         """The mirror has two halves. A lamp of that radiance shines down from where it shades nothing."""
         gltf = GltfWriter(self.folder, name)
         place_quad(gltf, "ground", ground(1.05, 3), gltf.add_lambert("ground", (1, 1, 1)))
-        smooth = gltf.add_material("mirror", metallic=1, roughness=0)
+        smooth = gltf.add_material("mirror", metallic=1, roughness=roughness)
         for z in (0.0, 1.1) if mirror else ():
             place_quad(gltf, f"mirror {z}", quad((-1.05, 0, z), (0, 0, -1.1), (0, 1.3, 0)), smooth)
         if lamp:
@@ -56,6 +56,13 @@ class SunCaustics(Case):
         print(f"{what}: {difference:+.3%}, standard error {error:.3%}")
         self.assertLess(abs(difference), 6 * error + 5e-4, what)
         self.assertLess(error, known, what)
+
+    def test_candidates_bring_what_glossy_metal_scatters_of_the_sky(self):
+        """The sun stands behind the metal, which a sample may choose all the same."""
+        scene = self.scene("glossy", roughness=0.3)
+        behind = ("--sky", "--sun-elevation", "3", "--sun-azimuth", "270")
+        one, several = (self.seen(scene, *behind, "--light-reuse", reuse, spp=128) for reuse in ("none", "candidates"))
+        self.assert_mean(several, statistics.fmean(one), "candidates")
 
     def test_a_mirror_shows_the_ground_a_second_sun(self):
         direct, = self.seen(self.scene("bare", mirror=False), *SKY, *self.shaders(BLACK), seeds=[9])

@@ -45,6 +45,7 @@ inline bool kSlivers = false;
 inline bool kPassing = false;
 inline bool kMatchedGlass = false;
 inline bool kThinScattering = false;
+inline bool kCaustics = false;
 inline bool kLightPaths = false;
 inline bool kRoughGlass = true;
 inline bool kShadowCatcher = false;

@@ -12,7 +12,6 @@ inline bool kPhong = true;
 inline bool kEnvironment = true;
 inline bool kEnvironmentSampling = true;
 inline bool kSun = false;
-inline bool kCaustics = false;
 inline bool kPunctualLights = true;
 inline bool kEmissiveTriangles = true;
 inline bool kLightTree = false;
@@ -22,6 +21,9 @@ inline bool kNeighbours = false;
 inline bool kEmissionTexture = false;
 inline bool kClearcoatTexture = false;
 inline bool kTexcoords = false;
+inline bool kAlpha = false;
+inline bool kBaseColorTexture = false;
+inline bool kVertexColors = false;
 
 inline layout::Frame frame{};
 inline std::vector<glm::vec4> casters;

@@ -18,6 +18,10 @@ inline uvec4 faceRow(int slot, int row) { return readFaces(slot * int(kFaceRows)
 inline vec3 emissionAt(uint material, vec4 /*texcoords*/) {
   return vec3(materialFloats(material, kMaterialEmission));
 }
+inline uint materialFlags(uint /*material*/) { return 0u; }
+inline vec4 readColorAt(int /*i*/) { return vec4(1.0f); }
+inline vec4 baseColorAt(uint /*material*/, vec4 /*texcoords*/, vec4 color) { return color; }
+inline float alphaAt(uint /*material*/, uint /*flags*/, float alpha) { return alpha; }
 inline float emissionUnderCoat(uint /*material*/, vec4 /*texcoords*/, float /*cosine*/) { return 1.0f; }
 inline vec4 interpolate(vec4 a, vec4 b, vec4 c, vec2 weights) {
   return (1.0f - weights.x - weights.y) * a + weights.x * b + weights.y * c;

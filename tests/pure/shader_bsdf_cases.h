@@ -36,6 +36,7 @@ inline Bsdf makeBsdf(double metallic, double transmission, double roughness, dou
   b.eta = front ? ior : 1.0 / ior;
   b.stretch = 1.0;
   b.glassLost = 0.0;
+  b.sharesGlass = false;
   b.film = b.diffuseThrough = b.coat = 0.0;
   b.filmIndex = 1.3;
   b.filmThickness = 0.0;
@@ -58,6 +59,7 @@ inline glsl_float::Bsdf toFloat(const Bsdf& b) {
   f.glass = float(b.glass);
   f.alpha = float(b.alpha);
   f.mirrorLike = b.mirrorLike;
+  f.sharesGlass = b.sharesGlass;
   f.solid = b.solid;
   f.eta = float(b.eta);
   f.between = vec3(b.between);

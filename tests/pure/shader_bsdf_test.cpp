@@ -181,6 +181,33 @@ TEST(ShaderBsdf, SmoothGlassReflectsWithTheChanceOfItsReflectance) {
   }
 }
 
+TEST(ShaderBsdf, SmoothGlassThatSharesItsPathsSendsThemBothWays) {
+  const With caustics(glsl_variant::kCaustics, true);
+  for (bool front : {true, false}) {
+    Bsdf plain = makeBsdf(0, 1, 0.0, 1.5, true, front);
+    Bsdf shared = plain;
+    shared.sharesGlass = true;
+    for (double z : {1.0, 0.9, 0.7, 0.3, 0.05}) {
+      const dvec3 o = atElevation(z);
+      constexpr int kChoices = 10000;
+      dvec3 light[2][2]{};  // plain and shared, reflected and transmitted
+      int reflected = 0;
+      for (int k = 0; k < kChoices; ++k) {
+        for (int which : {0, 1}) {
+          const auto s =
+              glsl_double::sampleBsdf(which == 1 ? shared : plain, o, (k + 0.5) / kChoices, 0.3, 0.6);
+          light[which][s.transmitted ? 1 : 0] += s.weight / double(kChoices);
+          reflected += which == 1 && !s.transmitted ? 1 : 0;
+        }
+      }
+      for (int way : {0, 1}) EXPECT_LE(glm::distance(light[0][way], light[1][way]), 1e-3) << z << ", " << way;
+      const double fresnel = fresnelExact(z, shared.eta);
+      const double chance = fresnel >= 1.0 ? 1.0 : std::clamp(fresnel, 0.2, 0.8);
+      EXPECT_NEAR(double(reflected) / kChoices, chance, 1.5 / kChoices) << z;
+    }
+  }
+}
+
 TEST(ShaderBsdf, SmoothMetalReflectsSchlicksShare) {
   const Bsdf b = makeBsdf(1, 0, 0.0, 1.5, false, true);
   for (double z : {1.0, 0.5, 0.1}) {

@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""--caustics: lamps with alpha, and surfaces between a lamp and what makes its caustic. Light paths bring what camera paths do, as caustics_test.py says."""
+import math
+import statistics
+
+import caustics_test
+import glossy_caustics_test
+from caustics_test import INTENSITY, MIRROR, OVER, TURN, UP
+from support import main
+
+ALPHA = 0.25
+
+
+class CausticSources(caustics_test.Case):
+    scene = caustics_test.Caustics.scene
+    seen = caustics_test.Caustics.seen
+    assert_alike = caustics_test.Caustics.assert_alike
+
+    def lamp(self, like, rotation, **more):
+        """A lamp with these members of its material."""
+        material, place = caustics_test.Caustics.lamp(like, rotation)
+        color = material["pbrMetallicRoughness"] | {"baseColorFactor": [0, 0, 0, ALPHA]}
+        return (material | {"pbrMetallicRoughness": color} | more, place)
+
+    def test_a_lamp_shines_as_much_as_its_alpha_says(self):
+        """Most of its rays pass through it if alpha is small, so it is as dim for light samples and light paths."""
+        mirror = caustics_test.Caustics.above(0.9, 1.0)
+        for what, like, turn, things in (("caustic", UP, [0, 0, 0, 1], [mirror]), ("light sample", caustics_test.LAMP, OVER, [])):
+            seen = {}
+            for mode, more in (("OPAQUE", {}), ("BLEND", {}), ("MASK", {"alphaCutoff": 0.5})):
+                scene = self.scene("alpha", *things, self.lamp(like, turn, alphaMode=mode, **more))
+                seen[mode] = self.seen(scene, spp=128)
+            means = {mode: statistics.fmean(values) for mode, values in seen.items()}
+            errors = [statistics.stdev(seen[mode]) / means[mode] / math.sqrt(len(seen[mode])) for mode in ("OPAQUE", "BLEND")]
+            print(what, means, errors)
+            self.assertLess(math.hypot(*errors), 0.02, what)
+            self.assertLess(abs(means["BLEND"] / means["OPAQUE"] / ALPHA - 1), 6 * math.hypot(*errors), what)
+            self.assertEqual(means["MASK"], 0, what)
+
+    def test_light_passes_the_backs_of_unlit_cards(self):
+        """The card is seen from below, by the lamp. Camera paths come from above, where it is not there."""
+        mirror = caustics_test.Caustics.above(0.9, 1.0)
+        card = ({"extensions": {"KHR_materials_unlit": {}}, "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]}},
+                {"translation": [1.5, 0, 0.6], "rotation": OVER, "scale": [0.5, 0.5, 1]})
+        bare = self.assert_alike(self.scene("bare", mirror, self.lamp(UP, [0, 0, 0, 1])), "bare", 512, 512, known=0.01)
+        held = self.assert_alike(self.scene("card", mirror, self.lamp(UP, [0, 0, 0, 1]), card), "card", 512, 512, known=0.01)
+        self.assertGreater(held, 0.5 * bare)
+
+    def test_a_range_ends_behind_a_thin_pane(self):
+        """It counts from the light to the metal, as without the pane, which reflects nothing here."""
+        light = {"type": "point", "intensity": INTENSITY, "range": 0.55}
+        pane = ({"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0}, "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1}}},
+                {"translation": [-0.75, 0, 0.9], "rotation": TURN, "scale": [0.9, 0.9, 1]})
+        wall = glossy_caustics_test.GlossyCaustics.metal(0.3), {"translation": [-MIRROR, 0, 0.9], "rotation": TURN, "scale": [0.9, 0.9, 1]}
+        scene = self.scene("range", wall, pane, lights=[(light, {"translation": [-0.7, 0.1, 0.9]})])
+        self.assert_alike(scene, "range", 768, 256, bounces=4, known=0.02)
+
+
+if __name__ == "__main__":
+    main()
