@@ -3,7 +3,7 @@
 """Writes the tables of measurements into the documents, from what the benchmarks wrote into docs/measurements/data.
 
 usage: tables.py [--check] [--data FOLDER] [DOCUMENT...]
-Without DOCUMENT: all of docs/measurements. A document has a table between <!-- table: NAME --> and <!-- end of table -->.
+Without DOCUMENT: all of docs/measurements, and docs/design/accuracy.md. A document has a table between <!-- table: NAME --> and <!-- end of table -->.
 --check: changes nothing, and ends with status 1 where a document has other tables than its data. With and without it,
 the status is also 1 where a mark has no data or no end, and where data have no mark. The data are benchmarks' files,
 whole:
@@ -14,6 +14,7 @@ whole:
   aims-again.json  the same, parts that were measured again by a later program and replace those of aims.json
   gpu-compilers.json            bench/gpu/compilers --json FILE
   gpu-compilers-software.json   the same with --options "--tune software"
+  light.json       bench/light_table.py FRAGTRACE --json FILE
   denoise/         bench/denoise_table.py FRAGTRACE --out FOLDER --filters variance,oidn
 """
 
@@ -29,6 +30,7 @@ sys.path[:0] = [str(REPOSITORY / folder) for folder in ("bench", "bench/peers", 
 import aims  # noqa: E402
 import compiler_figures  # noqa: E402
 import denoise_table  # noqa: E402
+import light_table  # noqa: E402
 import markdown  # noqa: E402
 import program_tables  # noqa: E402
 
@@ -56,6 +58,10 @@ def gpu_compilers(path):
     return [f"Mesa {result['mesa']}, {result['date']}.", "", *compiler_figures.table(result)]
 
 
+def light(path):
+    return light_table.table(json.loads(path.read_text(encoding="utf-8")))
+
+
 def denoise(filter_name, what, folder):
     return denoise_table.tables_of(folder, filter_name)[what]
 
@@ -66,6 +72,7 @@ TABLES = {"report": ("report.json", program_tables.report_times),
           "scale": ("scale.json", program_tables.scale_times),
           "scale exponents": ("scale.json", program_tables.scale_exponents),
           "aims": ("aims.json", aims_table),
+          "light": ("light.json", light),
          "gpu compilers": ("gpu-compilers.json", gpu_compilers),
          "gpu compilers, software": ("gpu-compilers-software.json", gpu_compilers)}
 for one, whats in (("variance", ("relmse", "flip", "sooner", "baseline")), ("oidn", ("relmse", "flip", "sooner"))):
@@ -114,7 +121,7 @@ def main():
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--data", type=Path, default=DATA)
     options = parser.parse_args()
-    documents = options.documents or sorted(DOCUMENTS.glob("*.md"))
+    documents = options.documents or [*sorted(DOCUMENTS.glob("*.md")), REPOSITORY / "docs/design/accuracy.md"]
     faults = [fault for document in documents for fault in faults_of(document, options.data, options.check)]
     faults += [] if options.documents else unshown(documents, options.data)
     for fault in faults:
