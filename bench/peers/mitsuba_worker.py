@@ -128,9 +128,9 @@ def camera_with(sampler, camera, resolution):
                      "component_format": "float32"}, "sampler": {"type": sampler}}
 
 
-def draw(scene, sensor, resolution, spp, seed):
-    """Returns the picture, and the seconds it took by both clocks."""
-    step = min(spp, 1 << max(0, (PASS_SAMPLES // resolution ** 2).bit_length() - 1))  # both are powers of two
+def draw(scene, sensor, pixels, spp, seed):
+    """Returns the picture, and the seconds it took by both clocks. spp: a power of two."""
+    step = min(spp, 1 << max(0, (PASS_SAMPLES // pixels).bit_length() - 1))
     dr.sync_thread()
     wall, cpu, total = time.perf_counter(), time.process_time(), 0
     for k in range(spp // step):
@@ -156,9 +156,9 @@ def main():
         if sampler not in sensors:
             sensors[sampler] = mi.load_dict(camera_with(sampler, description["camera"], resolution))
         if (sampler, spp) not in warm and variant.startswith("llvm"):
-            draw(scene, sensors[sampler], resolution, spp, 1000)
+            draw(scene, sensors[sampler], resolution ** 2, spp, 1000)
             warm.add((sampler, spp))
-        picture, answer = draw(scene, sensors[sampler], resolution, spp, request["seed"])
+        picture, answer = draw(scene, sensors[sampler], resolution ** 2, spp, request["seed"])
         mi.Bitmap(picture.astype(np.float32)).write(request["output"])
         print("peer", json.dumps(answer), flush=True)
 
