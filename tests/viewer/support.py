@@ -173,9 +173,9 @@ class Viewer:
     def click(self, name):
         """Clicks the middle of the place with that name in the status file."""
         place = self.until(lambda s: s.get("places", {}).get(name), f"a place of {name}")["places"][name]
-        time.sleep(0.1)
-        self.at(round(place[0] + place[2] / 2), round(place[1] + place[3] / 2))
-        time.sleep(0.1)  # Dear ImGui takes the cursor for there one frame later
+        place = [round(place[0] + place[2] / 2), round(place[1] + place[3] / 2)]
+        self.at(*place)
+        self.until(lambda s: s["mouse"] == place, "the mouse")
         self.xdotool("click", 1)
 
     def drag(self, start, end, button=1, steps=8):

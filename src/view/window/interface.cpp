@@ -134,6 +134,11 @@ const char* Interface::focus() {
   return ImGui::GetCurrentContext()->OpenPopupStack.Size > 0 ? "popup" : "picture";
 }
 
+std::optional<glm::vec2> Interface::mouse() {
+  const ImVec2 at = ImGui::GetIO().MousePos;
+  return ImGui::IsMousePosValid(&at) ? std::optional(glm::vec2(at.x, at.y)) : std::nullopt;
+}
+
 bool Interface::closePopup() {
   // Dear ImGui does so itself only where it takes the keys that we have.
   const int open = ImGui::GetCurrentContext()->OpenPopupStack.Size;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <optional>
 
 struct GLFWwindow;
 
@@ -40,6 +41,9 @@ class Interface {
 
   /// The receiver of keys: "text" that is edited, a "popup", or the "picture".
   static const char* focus();
+
+  /// The mouse in pixels of the window, as the latest frame has seen it; nothing before it was there.
+  static std::optional<glm::vec2> mouse();
 
   /// The pixels that stand for one at 96 dots an inch.
   float scale() const { return scale_; }

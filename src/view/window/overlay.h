@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "view/message_list.h"
@@ -54,9 +55,10 @@ struct ViewFacts {
   Remembered remembered;
   RecentFiles recent;
   DialogKind dialog = DialogKind::None;
-  size_t sheetLines = 0;          ///< lines of the sheet that the search has found
-  const char* focus = "picture";  ///< receiver of keys (Interface::focus)
-  Places places;                  ///< places in the latest frame
+  size_t sheetLines = 0;           ///< lines of the sheet that the search has found
+  const char* focus = "picture";   ///< receiver of keys (Interface::focus)
+  std::optional<glm::vec2> mouse;  ///< Interface::mouse
+  Places places;                   ///< places in the latest frame
 };
 
 /// Draws all of that into Dear ImGui's frame, `now` being seconds of the messages' clock. Returns what is

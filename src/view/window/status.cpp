@@ -134,6 +134,7 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
                    : facts.dialog == DialogKind::List ? "list"
                                                       : "desktop";
   json["focus"] = facts.focus;
+  json["mouse"] = facts.mouse ? Json({facts.mouse->x, facts.mouse->y}) : Json();
   json["places"] = facts.places;
   json["pick"] = facts.pick ? Json(pickLines(state, *facts.pick)) : Json();
   json["measured"] =

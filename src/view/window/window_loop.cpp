@@ -343,6 +343,7 @@ void Window::draw() {
                 sides);
   readValues();
   facts_.focus = Interface::focus();
+  facts_.mouse = Interface::mouse();
   interface_.end();
   checkGl("drawing the window", driverLog_);
   glfwSwapBuffers(window_.get());
