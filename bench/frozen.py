@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Tells whether the program still draws the same as at an earlier commit: pictures, the SPIR-V of its shaders, and the keys of --stats.
 
-usage: frozen.py COMMIT [--folder DIR] [--only WORD]
+usage: frozen.py COMMIT [--folder DIR] [--only WORD] [--options WORDS]
 Builds the commit in DIR (default /tmp/fragtrace-frozen) and the working tree in build, and draws about 190 pictures by both. Where the SPIR-V of a picture's
 shaders differs, their texts are left in DIR for diff. Debug names are not compared. Needs glslangValidator (scripts/setup extended) and Mesa.
 """
@@ -92,6 +92,7 @@ def main():
     parser.add_argument("commit")
     parser.add_argument("--folder", type=Path, default=Path("/tmp/fragtrace-frozen"))
     parser.add_argument("--only", default="", help="rows in whose scene and options this stands")
+    parser.add_argument("--options", default="", help="for every row, such as '--caustics off' to compare all but the light paths")
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     commit = subprocess.run(["git", "-C", ROOT, "rev-parse", options.commit], check=True, capture_output=True, text=True).stdout.strip()
@@ -102,7 +103,7 @@ def main():
         if options.only not in name:
             continue
         count += 1
-        found = differences(programs, scene, words, options.folder)
+        found = differences(programs, scene, [*words, *options.options.split()], options.folder)
         other += bool(found)
         if found:
             print(f"{name}: {', '.join(found)}", flush=True)
