@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A system that fails: the n-th call of each kind that our own code makes fails once (tests/faults/failing_system.cpp), for every n of small
-runs; disks that are full, files that may not grow, folders that may not be written, and calls that are interrupted everywhere. The program
+runs; disks that are full, files that may not grow, folders that may not be written, calls that are interrupted everywhere, and disks that
+lose what they were not told to keep. The program
 ends with a documented status and one message, the old file stays, and no part is left; or it does without what failed, and the file is whole."""
 import os
 import random
@@ -16,7 +17,7 @@ ASKED = {"faults": 2000}
 KINDS = ("open", "read", "write", "fsync", "rename", "mmap", "spawn", "thread", "memory", "socket")  # as in failing_system.cpp
 PROGRAMS = ("fragtrace", "fragtrace_worker")
 OLD = b"what was there before\n" * 100
-SURROUNDINGS = ("interrupted", "full disk", "file limit", "read-only")
+SURROUNDINGS = ("interrupted", "power cut", "full disk", "file limit", "read-only")
 LARGE = "--resolution 160,120 --spp 1 --quiet".split()
 TINY = "--resolution 16,12 --spp 1 --quiet".split()
 ROOM = 64 << 10  # of the disk that is full, and of the largest file
@@ -89,8 +90,8 @@ def enlarged(words, large):
 
 def surrounded(ground, words, large, folder, kind):
     """The run in such surroundings, and whether it must fail."""
-    if kind == "interrupted":
-        environment = preloaded(ground, eintr=1)
+    if kind in ("interrupted", "power cut"):
+        environment = preloaded(ground, **({"eintr": 1} if kind == "interrupted" else {"power_cut": 1}))
         return run(ground, words, folder, environment=environment), False
     words = enlarged(words, large)
     if kind == "file limit":

@@ -6,6 +6,7 @@
 //   FRAGTRACE_SYSTEM_COUNTS   a file that gets the number of calls of each kind, 8 bytes each, as in kKinds
 //   FRAGTRACE_SYSTEM_FAIL     KIND,N: the N-th call of that kind fails
 //   FRAGTRACE_SYSTEM_EINTR    1: every second call that a signal may interrupt returns EINTR
+//   FRAGTRACE_SYSTEM_POWER_CUT  1: a file that is renamed before the disk has it (fsync) is left empty
 //   FRAGTRACE_SYSTEM_DELAY    SEED,MICROSECONDS: calls wait at random for at most so long, starts of programs
 //                             for ten times as long; locks do so rarely; writes are short
 #include <dlfcn.h>
@@ -17,6 +18,7 @@
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -97,6 +99,7 @@ struct Plan {
   Kind failing = KindCount;
   uint64_t failingCall = 0;
   bool interrupts = false;
+  bool losesUnsynced = false;
   uint64_t seed = 0;
   long delay = 0;  ///< microseconds
 };
@@ -109,6 +112,7 @@ std::array<std::atomic<uint64_t>, KindCount> unshared;
 std::atomic<uint64_t>* counts = unshared.data();
 std::atomic<uint64_t> interruptible = 0;
 std::atomic<uint64_t> dice = 0;
+std::atomic<ino_t> onDisk = 0;  // the file that was synced last, unless something was written since
 
 int addModule(dl_phdr_info* info, size_t, void*) {
   const std::string_view name = info->dlpi_name;
@@ -135,6 +139,7 @@ const char* setting(const char* name) {
 void readPlan() {
   plan.counts = std::string_view(program_invocation_short_name) == setting("FRAGTRACE_SYSTEM_PROGRAM");
   plan.interrupts = *setting("FRAGTRACE_SYSTEM_EINTR") != 0;
+  plan.losesUnsynced = *setting("FRAGTRACE_SYSTEM_POWER_CUT") != 0;
   std::sscanf(setting("FRAGTRACE_SYSTEM_DELAY"), "%lu,%ld", &plan.seed, &plan.delay);
   char kind[16] = "";
   std::sscanf(setting("FRAGTRACE_SYSTEM_FAIL"), "%15[a-z],%lu", kind, &plan.failingCall);
@@ -204,6 +209,14 @@ bool fails(Kind kind) {
   return true;
 }
 
+/// Empties a file that the disk does not have yet.
+void losePart(const char* path) {
+  struct stat status {};
+  const int code = errno;
+  if (::stat(path, &status) == 0 && status.st_ino != onDisk) (void)!::truncate(path, 0);
+  errno = code;
+}
+
 bool isInterrupted() {
   if (!plan.interrupts || ++interruptible % 2 == 0) return false;
   errno = EINTR;
@@ -236,11 +249,19 @@ int open(const char* path, int flags, ...) {
 FILE* fopen(const char* path, const char* mode) { PASS(Open, false, nullptr, ::fopen, path, mode); }
 FILE* fopen64(const char* path, const char* mode) { PASS(Open, false, nullptr, ::fopen64, path, mode); }
 ssize_t read(int file, void* data, size_t size) { PASS(Read, true, -1, ::read, file, data, size); }
-int fsync(int file) { PASS(Sync, false, -1, ::fsync, file); }
+int fsync(int file) {
+  struct stat status {};
+  if (::fstat(file, &status) == 0) onDisk = status.st_ino;
+  PASS(Sync, false, -1, ::fsync, file);
+}
 int fdatasync(int file) { PASS(Sync, false, -1, ::fdatasync, file); }
-int rename(const char* from, const char* to) noexcept { PASS(Rename, false, -1, ::rename, from, to); }
+int rename(const char* from, const char* to) noexcept {
+  if (plan.losesUnsynced && isOwn(CALLER)) losePart(from);
+  PASS(Rename, false, -1, ::rename, from, to);
+}
 
 ssize_t write(int file, const void* data, size_t size) {
+  if (plan.losesUnsynced && isOwn(CALLER)) onDisk = 0;
   // A short write is none that failed.
   if (plan.delay > 0 && size > 64 && isOwn(CALLER)) {
     size = size / 2;

@@ -34,8 +34,19 @@ int writeAll(int file, std::span<const uint8_t> bytes) {
   return error;
 }
 
-int writeAndClose(int file, std::span<const uint8_t> bytes) {
+/// Waits until the disk has the file: a power cut after it is renamed could leave an empty one. Returns the
+/// errno, or 0; some file systems know no such call.
+int keepOnDisk(int file) {
+  while (::fsync(file) != 0) {
+    if (errno == EINVAL || errno == ENOSYS || errno == EOPNOTSUPP) return 0;
+    if (errno != EINTR) return errno;
+  }
+  return 0;
+}
+
+int writeAndClose(int file, std::span<const uint8_t> bytes, Kept kept) {
   int error = writeAll(file, bytes);
+  if (error == 0 && kept == Kept::OnDisk) error = keepOnDisk(file);
   // Network file systems report a full disk only here.
   if (::close(file) != 0 && error == 0) error = errno;
   return error;
@@ -81,6 +92,21 @@ std::filesystem::path folderOf(const std::filesystem::path& target) {
   return target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");
 }
 
+RenderError cannotWrite(const std::filesystem::path& path, int code) {
+  return RenderError("cannot write " + path.string() + ": " + systemReason(code));
+}
+
+/// Throws the reason in `code` if that is not 0. Then, and if the name cannot be changed, the part is
+/// removed.
+void renamePart(const std::filesystem::path& path, int code) {
+  const std::filesystem::path part = partOf(path);
+  filesMayBeWritten = 1;
+  if (code == 0 && ::rename(part.c_str(), behindLinks(path).c_str()) != 0) code = errno;
+  if (code == 0) return;
+  ::unlink(part.c_str());
+  throw cannotWrite(path, code);
+}
+
 }  // namespace
 
 std::filesystem::path partOf(const std::filesystem::path& path) {
@@ -95,11 +121,10 @@ std::filesystem::path partOf(const std::filesystem::path& path) {
 
 void takePart(const std::filesystem::path& path) {
   const std::filesystem::path part = partOf(path);
-  filesMayBeWritten = 1;
-  if (::rename(part.c_str(), behindLinks(path).c_str()) == 0) return;
-  const int code = errno;
-  ::unlink(part.c_str());
-  throw RenderError("cannot write " + path.string() + ": " + systemReason(code));
+  const int file = ::open(part.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  const int code = file < 0 ? errno : keepOnDisk(file);
+  if (file >= 0) ::close(file);
+  renamePart(path, code);
 }
 
 std::vector<uint8_t> readOpenFile(int file, const MemoryBudget& memory, const BeginningCheck& check,
@@ -163,7 +188,7 @@ std::vector<uint8_t> readWholeFile(const std::filesystem::path& path, uint64_t l
 
 void checkReplaceable(const std::filesystem::path& path) {
   const auto check = [&](int code) {
-    if (code != 0) throw RenderError("cannot write " + path.string() + ": " + systemReason(code));
+    if (code != 0) throw cannotWrite(path, code);
   };
   if (takesWrites(path)) return check(::access(path.c_str(), W_OK) != 0 ? errno : 0);
   const std::filesystem::path target = behindLinks(path);
@@ -196,27 +221,20 @@ void writeToStandardOutput(std::span<const uint8_t> bytes) {
   if (code != 0) throw RenderError("cannot write to standard output: " + systemReason(code));
 }
 
-void replaceFile(const std::filesystem::path& path, std::span<const uint8_t> bytes) {
-  const auto fail = [&](int code) -> RenderError {
-    return RenderError("cannot write " + path.string() + ": " + systemReason(code));
-  };
-  if (!path.has_filename()) throw fail(EISDIR);
+void replaceFile(const std::filesystem::path& path, std::span<const uint8_t> bytes, Kept kept) {
+  if (!path.has_filename()) throw cannotWrite(path, EISDIR);
   if (takesWrites(path)) {
     filesMayBeWritten = 1;
     const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
-    const int code = file < 0 ? errno : writeAndClose(file, bytes);
-    if (code != 0) throw fail(code);
+    const int code = file < 0 ? errno : writeAndClose(file, bytes, Kept::Briefly);
+    if (code != 0) throw cannotWrite(path, code);
     return;
   }
   const std::filesystem::path part = partOf(path);
   const NamedPart named(part);
   const int file = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
-  if (file < 0) throw fail(errno);
-
-  const int code = writeAndClose(file, bytes);
-  if (code == 0) return takePart(path);
-  ::unlink(part.c_str());
-  throw fail(code);
+  if (file < 0) throw cannotWrite(path, errno);
+  renamePart(path, writeAndClose(file, bytes, kept));
 }
 
 }  // namespace fragtrace

@@ -33,16 +33,20 @@ std::vector<uint8_t> readBytes(const std::filesystem::path& path, uint64_t limit
 /// The same, but throws InputError naming the path, too.
 std::vector<uint8_t> readWholeFile(const std::filesystem::path& path, uint64_t limit = defaultMemoryLimit());
 
+/// Files that are replaced many times a second need not outlive a power cut.
+enum class Kept { OnDisk, Briefly };
+
 /// Makes the file hold exactly these bytes: they are written to .NAME.part beside it, which is then renamed,
-/// so that anybody sees the old file or the new one. On failure the old file is untouched and the part
-/// removed. A symbolic link stays, the file that it leads to is replaced; a device or a pipe is written to.
-/// Throws RenderError naming the path and the system's reason.
-void replaceFile(const std::filesystem::path& path, std::span<const uint8_t> bytes);
+/// so that anybody sees the old file or the new one, also after a power cut (Kept::OnDisk). On failure the
+/// old file is untouched and the part removed. A symbolic link stays, the file that it leads to is replaced;
+/// a device or a pipe is written to. Throws RenderError naming the path and the system's reason.
+void replaceFile(const std::filesystem::path& path, std::span<const uint8_t> bytes, Kept kept = Kept::OnDisk);
 
 /// The part of that file: .NAME.part beside what symbolic links lead to, for a program that writes it.
 std::filesystem::path partOf(const std::filesystem::path& path);
 
-/// Puts the part in the file's place, or removes it and throws RenderError naming the path and the reason.
+/// Puts the part in the file's place once the disk has it, or removes it and throws RenderError naming the
+/// path and the reason.
 void takePart(const std::filesystem::path& path);
 
 /// Writes all bytes to standard output. Throws RenderError, also where its reader has gone.

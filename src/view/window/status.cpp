@@ -151,7 +151,8 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
 }
 
 void writeStatusFile(const std::filesystem::path& file, const std::string& text) {
-  if (!file.empty()) replaceFile(file, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+  if (file.empty()) return;
+  replaceFile(file, {reinterpret_cast<const uint8_t*>(text.data()), text.size()}, Kept::Briefly);
 }
 
 }  // namespace fragtrace
