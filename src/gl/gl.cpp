@@ -3,13 +3,17 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <thread>
 
 #include "base/errors.h"
+#include "base/report.h"
 
 namespace fragtrace {
 
 namespace {
+
+constexpr GLint64 kMostLimit = GLint64(1) << 40;
 
 const char* errorName(GLenum error) {
   switch (error) {
@@ -70,15 +74,22 @@ void finishFence(void* fence, double expectedMs) {
   constexpr GLuint64 kShort = 200'000;  // ns; short draws are not made longer
   constexpr double kShortMs = 1e-6 * kShort;
   constexpr double kSurelyBusy = 0.5;  // part of the expected time: many samples at once take less each
+  constexpr Milliseconds kStall(10'000.0);
   const auto sync = static_cast<GLsync>(fence);
   const bool sleeps = expectedMs > kShortMs;
   const Milliseconds asleep(sleeps ? kSurelyBusy * expectedMs : 0.0);
   if (sleeps) std::this_thread::sleep_for(asleep);
   GLenum state = glClientWaitSync(sync, GL_SYNC_FLUSH_COMMANDS_BIT, sleeps ? 0 : kShort);
   // A look at the fence takes 15 us of a processor. The pauses are a twentieth of the time that has gone by.
+  Milliseconds waited(0.0);
   for (Milliseconds pause = std::max(Milliseconds(0.1), asleep / 20.0); state == GL_TIMEOUT_EXPIRED;
-       pause += pause / 20.0) {
+       pause = std::min(pause * 1.05, kStall / 20.0)) {
     std::this_thread::sleep_for(pause);
+    if (waited < kStall && waited + pause >= kStall) {
+      // A user who asked for quiet may have to end the program, too.
+      reportMessage("warning: the driver has not finished a draw for 10 s; it may be busy or stuck");
+    }
+    waited += pause;
     state = glClientWaitSync(sync, 0, 0);
   }
   if (state != GL_ALREADY_SIGNALED && state != GL_CONDITION_SATISFIED) glFinish();
@@ -98,7 +109,11 @@ int64_t driverLimit(GLenum name) {
   GLint64 value = 0;
   glGetInteger64v(name, &value);
   checkGl("asking for a limit of the driver");
-  return value;
+  return std::clamp(value, GLint64(0), kMostLimit);
+}
+
+GLsizei driverCount(GLenum name) {
+  return GLsizei(std::min<int64_t>(driverLimit(name), std::numeric_limits<GLsizei>::max()));
 }
 
 GlBuffer makeBuffer() {

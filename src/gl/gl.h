@@ -21,7 +21,7 @@ void awaitFence(void* fence);
 bool isSignalled(void* fence);
 /// Waits for the fence and releases it. Without a fence it waits for all commands of this context. The thread
 /// sleeps for half of the expected time (0: not known), and between looks at the fence, because NVIDIA's
-/// driver keeps a processor busy while it waits.
+/// driver keeps a processor busy while it waits. It reports if the fence takes more than ten seconds.
 void finishFence(void* fence, double expectedMs = 0.0);
 void releaseFence(void* fence);
 
@@ -31,8 +31,11 @@ void waitForDevice(double expectedMs = 0.0);
 /// The number of bytes that this thread has moved between host and device. Code that moves bytes adds to it.
 uint64_t& movedBytes();
 
-/// A limit of the driver, such as GL_MAX_TEXTURE_SIZE. Throws as checkGl(): a lost context says 0.
+/// A limit of the driver, such as GL_MAX_TEXTURE_SIZE, at most 2^40, so that 16 times it is a number of
+/// bytes. Throws as checkGl(): a lost context says 0.
 int64_t driverLimit(GLenum name);
+/// The same as a number of OpenGL's.
+GLsizei driverCount(GLenum name);
 
 /// An OpenGL object's name, released by its owner; move-only.
 template <void (*Release)(GLuint)>

@@ -2,6 +2,7 @@
 #include "render/film.h"
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 #include <stdexcept>
 
@@ -16,6 +17,15 @@ namespace {
 
 constexpr const char* kReading = "reading the film";
 constexpr const char* kLoading = "loading the film";
+
+/// No sample is added that could make a sum that is not finite, so only a faulty driver gives one. The pixel
+/// is black, and counts as one of a sample that was not finite.
+void dropNonfinite(FilmPixel& pixel) {
+  if (std::isfinite(pixel.sum.x + pixel.sum.y + pixel.sum.z + pixel.alpha)) return;
+  pixel.sum = glm::dvec3(0.0);
+  pixel.alpha = pixel.m2 = 0.0;
+  pixel.nonfinite = std::max(pixel.nonfinite, 1u);
+}
 
 /// A framebuffer by which these textures are cleared, in their order. Drivers clear framebuffers as they
 /// draw; llvmpipe clears a texture through the host.
@@ -33,7 +43,7 @@ GlFramebuffer targetOf(std::initializer_list<const GlTexture*> textures) {
 
 }  // namespace
 
-int Film::mostSide() { return int(driverLimit(GL_MAX_TEXTURE_SIZE)); }
+int Film::mostSide() { return driverCount(GL_MAX_TEXTURE_SIZE); }
 
 Film::Film(glm::ivec2 size) : size_(size), room_(size) {
   const int most = mostSide();
@@ -126,6 +136,7 @@ FilmPixels Film::read() const {
     pixel.m2 = compensation[i + 3];
   }
   addSplats(film);
+  for (FilmPixel& pixel : film.pixels) dropNonfinite(pixel);
   return film;
 }
 

@@ -114,13 +114,35 @@ class FailingDriver(Failing):
         self.assertNotIn("warning", self.drawn().stderr)
         self.assertEqual(drawn, self.path.read_bytes())
 
+    def test_limits_that_are_not_true_do_no_harm(self):
+        self.calls("memory")
+        huge = self.drawn(fail_kind="huge")
+        self.assertEqual((huge.returncode, huge.stderr, self.path.read_bytes()), (0, "", self.right))
+        small = self.drawn(fail_kind="small")
+        self.assertEqual(small.returncode, 1)
+        self.assertRegex(small.stderr, r"\Afragtrace: .*this driver.*\n\Z")
+        self.assertEqual(self.path.read_bytes(), OLD)
+
+    def test_what_is_no_number_is_black_and_said(self):
+        self.options = ()
+        result = self.drawn(fail_kind="nan")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("warning: samples of 256 pixels were not finite and count as black", result.stderr)
+        self.assertFalse(any(self.path.read_bytes()[-12 * 256:]))
+
+    def test_a_driver_that_is_stuck_is_said(self):
+        self.calls("memory")
+        result = self.drawn(fail_kind="stall")
+        self.assertEqual((result.returncode, self.path.read_bytes()), (0, self.right))
+        self.assertEqual(result.stderr, "fragtrace: warning: the driver has not finished a draw for 10 s; it may be busy or stuck\n")
+
     def test_every_function_that_is_called_can_fail(self):
         called = set()
         for folder in ("gl", "render"):
             for path in (SOURCES / folder).glob("*.*"):
                 called |= set(re.findall(r"\b(gl[A-Z]\w*)\(", path.read_text()))
         stand_in = Path(__file__).parent.parent / "faults/failing_egl.cpp"
-        wrapped = set(re.findall(r"WRAP(?:_STATUS|_FORMAT|_NAME)?\((gl\w+)\)", stand_in.read_text()))
+        wrapped = set(re.findall(r"WRAP(?:_[A-Z]+)?\((gl\w+)\)", stand_in.read_text()))
         self.assertEqual(called - {"glGetError"}, wrapped)
 
 

@@ -7,6 +7,9 @@
 //                        lost: the context is lost from then on, until another one is made
 //                        blend: none fails, but no format can be blended
 //                        gpu: none fails, and the driver says that it is one of a GPU
+//                        small, huge: none fails, and the driver says so of its limits
+//                        nan: none fails, but textures of floats that are read hold NaN
+//                        stall: none fails, but fences take twelve seconds from the first look at one on
 //   FRAGTRACE_FAIL_NAME  a function that does nothing and gives no error, as often as it is called
 //   FRAGTRACE_FAIL_WHEN  a file: once it is there it is removed, and the context is lost
 //   FRAGTRACE_FAIL_AGAIN after so many calls the context that took a lost one's place is lost, too; once
@@ -15,9 +18,11 @@
 #include <dlfcn.h>
 #include <glad/gl.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <mutex>
 #include <utility>
 
@@ -30,10 +35,12 @@ const char* setting(const char* name) {
   return value ? value : "";
 }
 
+bool isKind(const char* kind) { return std::strcmp(setting("FRAGTRACE_FAIL_KIND"), kind) == 0; }
+
 struct Faults {
   long failing = std::atol(setting("FRAGTRACE_FAIL_CALL"));
-  bool lostKind = std::strcmp(setting("FRAGTRACE_FAIL_KIND"), "lost") == 0;
-  bool buildKind = std::strcmp(setting("FRAGTRACE_FAIL_KIND"), "build") == 0;
+  bool lostKind = isKind("lost");
+  bool buildKind = isKind("build");
   const char* when = setting("FRAGTRACE_FAIL_WHEN");
   const char* never = setting("FRAGTRACE_FAIL_NAME");
   long again = std::atol(setting("FRAGTRACE_FAIL_AGAIN"));
@@ -119,16 +126,40 @@ void failingStatus(GLuint object, GLenum what, GLint* value) {
 template <const char* Name, typename Function>
 void failingFormat(GLenum target, GLenum format, GLenum what, GLsizei size, GLint* value) {
   Wrapped<Name, Function>::call(target, format, what, size, value);
-  const bool blends = std::strcmp(setting("FRAGTRACE_FAIL_KIND"), "blend") != 0;
-  if (!blends && what == GL_FRAMEBUFFER_BLEND) *value = GL_NONE;
+  if (isKind("blend") && what == GL_FRAMEBUFFER_BLEND) *value = GL_NONE;
 }
 
 /// The driver's word for itself.
 template <const char* Name, typename Function>
 const GLubyte* renamed(GLenum what) {
-  const bool gpu = std::strcmp(setting("FRAGTRACE_FAIL_KIND"), "gpu") == 0;
-  if (gpu && what == GL_RENDERER) return reinterpret_cast<const GLubyte*>("a GPU that is not there");
+  if (isKind("gpu") && what == GL_RENDERER)
+    return reinterpret_cast<const GLubyte*>("a GPU that is not there");
   return Wrapped<Name, Function>::call(what);
+}
+
+/// Limits that are not true.
+template <const char* Name, typename Function>
+void failingLimit(GLenum what, GLint64* value) {
+  Wrapped<Name, Function>::call(what, value);
+  if (isKind("small")) *value = 1;
+  if (isKind("huge")) *value = std::numeric_limits<GLint64>::max();
+}
+
+/// Bytes 0xff are NaN, as floats of 16 and of 32 bits.
+template <const char* Name, typename Function>
+void failingRead(GLuint texture, GLint level, GLint x, GLint y, GLint z, GLsizei width, GLsizei height,
+                 GLsizei depth, GLenum format, GLenum type, GLsizei size, void* pixels) {
+  Wrapped<Name, Function>::call(texture, level, x, y, z, width, height, depth, format, type, size, pixels);
+  if (isKind("nan") && (type == GL_FLOAT || type == GL_HALF_FLOAT)) std::memset(pixels, 0xff, size_t(size));
+}
+
+/// A driver that is stuck for a while.
+template <const char* Name, typename Function>
+GLenum failingWait(GLsync fence, GLbitfield flags, GLuint64 nanoseconds) {
+  using Clock = std::chrono::steady_clock;
+  static const Clock::time_point first = Clock::now();
+  if (isKind("stall") && Clock::now() - first < std::chrono::seconds(12)) return GL_TIMEOUT_EXPIRED;
+  return Wrapped<Name, Function>::call(fence, flags, nanoseconds);
 }
 
 template <typename Function>
@@ -149,6 +180,9 @@ Function realEgl(const char* name) {
 #define WRAP_STATUS(function) WRAP_BY(function, failingStatus<kName, Function>)
 #define WRAP_FORMAT(function) WRAP_BY(function, failingFormat<kName, Function>)
 #define WRAP_NAME(function) WRAP_BY(function, renamed<kName, Function>)
+#define WRAP_LIMIT(function) WRAP_BY(function, failingLimit<kName, Function>)
+#define WRAP_READ(function) WRAP_BY(function, failingRead<kName, Function>)
+#define WRAP_WAIT(function) WRAP_BY(function, failingWait<kName, Function>)
 
 extern "C" {
 
@@ -172,7 +206,7 @@ __eglMustCastToProperFunctionPointerType eglGetProcAddress(const char* name) {
   WRAP(glClearNamedFramebufferfv)
   WRAP(glClearNamedFramebufferuiv)
   WRAP(glClearTexImage)
-  WRAP(glClientWaitSync)
+  WRAP_WAIT(glClientWaitSync)
   WRAP(glCompileShader)
   WRAP(glCopyNamedBufferSubData)
   WRAP(glCreateBuffers)
@@ -200,13 +234,13 @@ __eglMustCastToProperFunctionPointerType eglGetProcAddress(const char* name) {
   WRAP(glFinish)
   WRAP(glFlush)
   WRAP(glGetFloatv)
-  WRAP(glGetInteger64v)
+  WRAP_LIMIT(glGetInteger64v)
   WRAP(glGetNamedBufferSubData)
   WRAP(glGetProgramInfoLog)
   WRAP(glGetQueryObjectui64v)
   WRAP(glGetShaderInfoLog)
   WRAP_NAME(glGetString)
-  WRAP(glGetTextureSubImage)
+  WRAP_READ(glGetTextureSubImage)
   WRAP(glLinkProgram)
   WRAP(glMapNamedBufferRange)
   WRAP(glMaxShaderCompilerThreadsKHR)

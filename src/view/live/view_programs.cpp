@@ -15,11 +15,10 @@ namespace fragtrace {
 namespace {
 
 void bindNothing() {
-  const auto most = [](GLenum limit) { return GLsizei(driverLimit(limit)); };
-  glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, most(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS), nullptr);
-  glBindBuffersBase(GL_UNIFORM_BUFFER, 0, most(GL_MAX_UNIFORM_BUFFER_BINDINGS), nullptr);
-  glBindImageTextures(0, most(GL_MAX_IMAGE_UNITS), nullptr);
-  glBindTextures(0, most(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS), nullptr);
+  glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, driverCount(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS), nullptr);
+  glBindBuffersBase(GL_UNIFORM_BUFFER, 0, driverCount(GL_MAX_UNIFORM_BUFFER_BINDINGS), nullptr);
+  glBindImageTextures(0, driverCount(GL_MAX_IMAGE_UNITS), nullptr);
+  glBindTextures(0, driverCount(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS), nullptr);
   waitForDevice();
   checkGl("compiling programs");
 }
