@@ -29,9 +29,6 @@ constexpr double kPackedOffset = 1.25;
 constexpr float kGentle = float(kClearance);
 /// All normals within half of that angle of one normal: cos(acos(kGentle) / 2).
 constexpr float kGentleCone = 0.9186f;
-/// The least cosine of a sharp crease, of 101 degrees. Wider ones leave a fifth of the offset as a height
-/// over the other face, which is more than the largest error of a distance that was ever found.
-constexpr double kSharp = -0.2;
 /// Nothing can be seen within wedges below half a degree, and cards with two faces have an angle of 0.
 constexpr double kLeastSine = 0x1p-7;
 /// The largest distance by which a point is moved, in offsets.
@@ -151,54 +148,47 @@ double nearest(const glm::dvec3& direction, const Sector& s) {
   return std::max(glm::dot(direction, s.toSecond), glm::dot(direction, s.toThird));
 }
 
-/// The distances that the points of a triangle need, and if the crease that asks for them is sharp.
-struct Asked {
-  double distance = 0.0;  // distance from the edge or vertex
-  bool sharp = false;
-};
-
 /// The distance from the edge at which the face and its neighbour meet, given the directions along the edge
 /// and to the third vertices. The height over the neighbour's plane, distance * sine - offset * cosine, must
 /// be the clearance.
-Asked besideEdge(const Sector& face, const Sector& other, const glm::dvec3& edge, const glm::dvec3& inFace,
+double besideEdge(const Sector& face, const Sector& other, const glm::dvec3& edge, const glm::dvec3& inFace,
                  const glm::dvec3& inOther) {
   const glm::dvec3 a = inFace - edge * glm::dot(edge, inFace);
   const glm::dvec3 b = inOther - edge * glm::dot(edge, inOther);
   const double lengths = glm::length(a) * glm::length(b);
-  if (lengths <= 0.0) return {};
+  if (lengths <= 0.0) return 0.0;
   const double cosine = glm::dot(a, b) / lengths;
   const double sine = glm::length(glm::cross(a, b)) / lengths;
   const double height = kClearance * std::max(face.offset, other.offset) + face.offset * cosine;
-  if (sine < kLeastSine || height <= 0.0) return {};
-  return {std::min(height / sine + face.grazing, kMostInset * face.offset), cosine > kSharp};
+  if (sine < kLeastSine || height <= 0.0) return 0.0;
+  return std::min(height / sine + face.grazing, kMostInset * face.offset);
 }
 
 /// The distance from a vertex at which two triangles without a common edge meet. A point at distance r is r
 /// times the sine of the angle between them away from the other.
-Asked besideVertex(const Sector& face, const Sector& other, bool woundAlike) {
+double besideVertex(const Sector& face, const Sector& other) {
   const double cosine = std::max({nearest(face.toSecond, other), nearest(face.toThird, other),
                                   nearest(other.toSecond, face), nearest(other.toThird, face)});
   const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-  if (cosine <= 0.0 || sine < kLeastSine) return {};
+  if (cosine <= 0.0 || sine < kLeastSine) return 0.0;
   const double height = kClearance * std::max(face.offset, other.offset) + face.offset;
-  return {std::min(height / sine + face.grazing, kMostInset * face.offset),
-          !woundAlike || glm::dot(face.normal, other.normal) < 0.0};
+  return std::min(height / sine + face.grazing, kMostInset * face.offset);
 }
 
 /// The same for triangles that run along each other, where no distance from the vertex is enough: the
 /// distance from the line in which their planes meet. It is at least `altitude` times the share of the way
 /// from the vertex to the edge opposite; 0 if the line leads through the face.
-Asked besideLine(const Sector& face, const Sector& other, double& altitude) {
+double besideLine(const Sector& face, const Sector& other, double& altitude) {
   const glm::dvec3 across = glm::cross(face.normal, other.normal);
   const double sine = glm::length(across);
-  if (sine < kLeastSine) return {};
+  if (sine < kLeastSine) return 0.0;
   const glm::dvec3 line = across / sine;
   const auto beside = [&](const glm::dvec3& direction, const Sector& s) {
     return glm::dot(glm::cross(line, direction), s.normal);
   };
   const std::array<double, 2> away{beside(face.toSecond, face) * face.length[0],
                                    beside(face.toThird, face) * face.length[1]};
-  if (!(away[0] * away[1] > 0.0)) return {};
+  if (!(away[0] * away[1] > 0.0)) return 0.0;
   altitude = std::min(std::abs(away[0]), std::abs(away[1]));
   return besideEdge(face, other, line, face.toSecond + face.toThird, other.toSecond + other.toThird);
 }
@@ -212,17 +202,18 @@ uint8_t codeOf(double part) {
 /// The codes of all triangles. Each is written by the place of its vertex, or of the lower end of its edge.
 struct Codes {
   std::vector<std::array<uint8_t, 6>> of;
-  std::atomic<bool> sharp{false};
+  std::atomic<bool> any{false};
 
-  void ask(const Sector& face, uint32_t code, double altitude, const Asked& asked) {
-    const uint8_t wanted = codeOf(asked.distance / altitude);
+  void ask(const Sector& face, uint32_t code, double altitude, double distance) {
+    const uint8_t wanted = codeOf(distance / altitude);
+    if (wanted == 0) return;
     uint8_t& kept = of[face.triangle][code];
-    if (wanted != 0 && (kept == 0 || wanted < kept)) kept = wanted;
-    if (asked.sharp) sharp.store(true, std::memory_order_relaxed);
+    if (kept == 0 || wanted < kept) kept = wanted;
+    any.store(true, std::memory_order_relaxed);
   }
 };
 
-void askBeside(const Sector& face, const Sector& other, uint32_t place, bool woundAlike, Codes& codes) {
+void askBeside(const Sector& face, const Sector& other, uint32_t place, Codes& codes) {
   // The edges to the second and to the third vertex, opposite to the third and to the second.
   bool adjacent = false;
   for (const bool toSecond : {true, false}) {
@@ -237,11 +228,10 @@ void askBeside(const Sector& face, const Sector& other, uint32_t place, bool wou
                          end == other.second ? other.toThird : other.toSecond));
   }
   if (adjacent) return;
-  Asked asked = besideVertex(face, other, woundAlike);
+  double distance = besideVertex(face, other);
   double altitude = face.altitude[0];
-  if (asked.distance <= 0.0 || asked.distance >= kMostInset * face.offset)
-    asked = besideLine(face, other, altitude);
-  codes.ask(face, 3 + face.corner, altitude, asked);
+  if (distance <= 0.0 || distance >= kMostInset * face.offset) distance = besideLine(face, other, altitude);
+  codes.ask(face, 3 + face.corner, altitude, distance);
 }
 
 /// Returns true if no two triangles around a place run along an edge in the same direction. If two do,
@@ -278,7 +268,7 @@ void askAround(const Scene& scene, const Fans& fans, uint32_t place, bool woundA
     for (const Sector& other : sectors) {
       if (&face == &other) continue;
       if (!woundAlike || glm::dot(face.normal, other.normal) < double(kGentle))
-        askBeside(face, other, place, woundAlike, codes);
+        askBeside(face, other, place, codes);
     }
   }
 }
@@ -302,8 +292,10 @@ std::vector<uint32_t> creaseInsets(const Scene& scene) {
   const std::vector<glm::vec3> normals = normalsOf(scene);
   Codes codes;
   codes.of.resize(scene.triangles.size());
-  const uint32_t threads = std::max(std::thread::hardware_concurrency(), 1u);
+  constexpr uint32_t kWorthAThread = 1024;  // places
   const auto places = uint32_t(fans.first.size() - 1);
+  const uint32_t threads =
+      std::clamp(places / kWorthAThread, 1u, std::max(std::thread::hardware_concurrency(), 1u));
   runOnThreads(threads, [&](uint32_t thread) {
     std::vector<Sector> sectors;
     for (uint32_t place = thread; place < places; place += threads) {
@@ -314,7 +306,7 @@ std::vector<uint32_t> creaseInsets(const Scene& scene) {
       askAround(scene, fans, place, woundAlike, sectors, codes);
     }
   });
-  if (!codes.sharp) return {};
+  if (!codes.any) return {};
   std::vector<uint32_t> insets(scene.triangles.size(), 0u);
   for (size_t i = 0; i < insets.size(); ++i) {
     for (uint32_t c = 0; c < 6; ++c) insets[i] |= uint32_t(codes.of[i][c]) << (5 * c);

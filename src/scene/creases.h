@@ -12,7 +12,7 @@ namespace fragtrace {
 /// along the normal does not lead through a neighbour. It has six codes of five bits, from bit 0 on: the
 /// least weight of vertex 0, 1, 2 (the distance from the edge opposite), and the least 1 - weight (the
 /// distance from the vertex). Code k > 0 stands for 2^-k, 0 for nothing. Empty if no two neighbours meet at
-/// less than 101 degrees, or if there is no triangle. Words of shared meshes are those of the mesh's own
+/// less than 133 degrees, or if there is no triangle. Words of shared meshes are those of the mesh's own
 /// space; they are multiplied by the factor by which an instance enlarges offsets. Vertices that more than
 /// 512 triangles share need no inset.
 std::vector<uint32_t> creaseInsets(const Scene& scene);

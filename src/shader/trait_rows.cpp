@@ -365,7 +365,7 @@ std::span<const TraitRow> traitRows() {  // NOLINT(readability-function-size): a
       {.trait = Trait::Creases,
        .name = "creases",
        .constant = "kCreases",
-       .absence = "no crease below 101 degrees, or no ray that leaves one"},
+       .absence = "no crease below 133 degrees, or no ray that leaves one"},
       {.trait = Trait::Slivers,
        .name = "slivers",
        .constant = "kSlivers",

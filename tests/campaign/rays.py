@@ -1,25 +1,40 @@
 # SPDX-License-Identifier: MIT
-"""The rows of `bench stress` with ever other seeds. Case n is row n % rows with seed n / rows; all count the cases that they tried."""
+"""The rows of `bench stress`, and the search beside creases (tests/pure/crease_search_test.cpp), with ever other seeds. Case n is row n % rows with
+seed n / rows; all count the cases that they tried."""
 import json
+import os
+import re
 
-from common import Finding, run
+from common import Finding, Run, run
 
 ASKED = {"rays": 10 ** 9}
 SEEDS = 1001  # that `bench stress --seed` takes
+SEARCH = "crease search"
 
 
 def prepare(ground):
     """The names of the rows: those that a name that is in none of them is compared with."""
     if ground.brief:
-        return ["boxes", "shell white"]
+        return ["boxes", "shell white", SEARCH]
     said = run(ground, ["bench", "stress", "--rows", "*", "--quick"], ground.folder).error
-    return said.strip().partition("is in none of ")[2].split(", ")
+    return [*said.strip().partition("is in none of ")[2].split(", "), SEARCH]
+
+
+def searched(ground, seed, folder):
+    environment = {**os.environ, "FRAGTRACE_ATTACK_SEED": str(seed), "FRAGTRACE_ATTACK_RAYS": str(1000 if ground.brief else 100_000)}
+    with Run(["--gtest_filter=CreaseSearch.*"], folder, environment=environment, program=ground.build / "pure_tests") as process:
+        result = process.wait(7200)
+    if result.status != 0:
+        raise Finding(f"the search beside creases, seed {seed}: {result.output}")
+    return {"rays": int(re.search(r"(\d+) of them promised", result.output)[1])}
 
 
 def case(ground, rows, number, folder):
     name, seed = rows[number % len(rows)], number // len(rows)
     if seed >= SEEDS:
         return {}
+    if name == SEARCH:
+        return searched(ground, seed, folder)
     words = ["bench", "stress", "--rows", name, "--seed", seed, "--json", "rows.json", "--quiet"]
     result = run(ground, words + (["--quick"] if ground.brief else []), folder, seconds=7200)
     if result.status != 0:
