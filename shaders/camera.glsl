@@ -113,7 +113,7 @@ vec2 fisheyePlace(vec3 d) {
 /// The solid angle of a small part of the panorama over its area, at a unit direction.
 float panoramaSpread(vec3 d) { return 0.5f * kPi * kPi * length(vec2(d.x, d.z)); }
 
-/// The same of the fisheye: sin a / a at the angle a.
+/// Returns the same of the fisheye: sin a / a at the angle a.
 float fisheyeSpread(vec3 d) {
   float aside = length(vec2(d.x, d.y));
   return aside > float(1e-6) ? aside / atan(aside, d.z) : 1.0f;

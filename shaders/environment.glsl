@@ -47,12 +47,12 @@ vec4 environmentAt(vec2 place) {
   return vec4(vec3(there) * intensity, there.w);
 }
 
-/// The same for a direction, without the sun.
+/// Returns the same for a direction, without the sun.
 vec4 mapAlong(vec3 direction) {
   return environmentAt(environmentCoordinates(direction) * vec2(ivec2(frame.environmentSize)));
 }
 
-/// The same with the sun.
+/// Returns the same with the sun.
 vec4 environmentAlong(vec3 direction) {
   if (!kEnvironment) return vec4(0.0f);
   if (kSun) return withSun(mapAlong(direction), direction);

@@ -128,7 +128,7 @@ LightSample environmentLight(float chance, uvec2 bits) {
   return makeLight(direction, kFarAway, vec3(there) / pdf, pdf);
 }
 
-/// The same of a sky with its sun (kSun).
+/// Returns the same of a sky with its sun (kSun).
 LightSample skyLight(float chance, uvec2 bits) {
   vec3 direction = sampleSky(bits);
   vec4 there = environmentAlong(direction);

@@ -385,7 +385,7 @@ Path spawnShadowRayFrom(Path p, vec3 point, vec3 origin, LightSample light, vec3
   return traceAnew(p, p.shadowLimit);
 }
 
-/// The same of a point of a surface.
+/// Returns the same of a point of a surface.
 Path spawnShadowRay(Path p, Surface s, LightSample light, vec3 value) {
   if (kMedia) p.shadowMedium = mediumTowards(p, s, light.direction);
   vec3 origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, light.direction);

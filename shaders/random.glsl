@@ -6,7 +6,7 @@
 /// The key from which all random numbers of a pixel derive.
 uint pixelKey(uint pixelX, uint pixelY, uint seed) { return mixBits(pixelX + mixBits(pixelY + mixBits(seed))); }
 
-/// The same for one path.
+/// Returns the same for one path.
 uint pathKey(uint key, uint sampleIndex) { return mixBits(key + mixBits(sampleIndex)); }
 
 /// 32 bits for one dimension of a path.
@@ -79,7 +79,7 @@ uvec2 drawPairBits(Sampler s, uint dimension) {
                bitfieldReverse(owenScramble(sobolSecond(index), other)));
 }
 
-/// The same as numbers in [0, 1).
+/// Returns the same as numbers in [0, 1).
 vec2 drawPair(Sampler s, uint dimension) {
   uvec2 bits = drawPairBits(s, dimension);
   return vec2(unitFloat(bits.x), unitFloat(bits.y));
@@ -90,5 +90,5 @@ uint hashBits(Sampler s, uint dimension) {
   return randomBits(mixBits(s.key + bitfieldReverse(s.reversed)), dimension);
 }
 
-/// The same as a number in [0, 1).
+/// Returns the same as a number in [0, 1).
 float hashFloat(Sampler s, uint dimension) { return unitFloat(hashBits(s, dimension)); }

@@ -89,8 +89,8 @@ float misWeight(float own, float other) {
   return 1.0f / (1.0f + ratio * ratio);
 }
 
-/// The same by the balance heuristic, for which the MIS compensation of the environment is derived. It is smooth, which
-/// preserves stratification.
+/// Returns the same by the balance heuristic, for which the MIS compensation of the environment is derived. It is
+/// smooth, which preserves stratification.
 float balanceWeight(float own, float other) { return own > 0.0f ? own / (own + other) : 0.0f; }
 
 /// The share of a diffuse reflection that is left towards `wi`. Where an interpolated normal sees light near the

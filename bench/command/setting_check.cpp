@@ -31,7 +31,7 @@ void judge(TimedSetting& s, const FilmPixels& other, CheckAgainst against, const
     v.wrong = "the driver ended loops early in " + std::to_string(totals.budgetHits) + " pixels";
 }
 
-/// The same by the other way through the tree; the heat map shows the way itself.
+/// Does the same by the other way through the tree; the heat map shows the way itself.
 RenderOptions otherWay(const RenderOptions& options) {
   RenderOptions other = options;
   other.output.quiet = true;

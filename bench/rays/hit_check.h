@@ -26,7 +26,7 @@ std::vector<FoundHit> foundBy(const RayCaster& caster, const Bvh& bvh);
 size_t countWrongNearest(std::span<const Ray> rays, std::span<const FoundHit> found,
                          std::span<const ExactHit> exact, double sceneSize);
 
-/// The same of rays that any hit ends: only whether there is one.
+/// Does the same of rays that any hit ends: only whether there is one.
 size_t countWrongAny(std::span<const Ray> rays, std::span<const FoundHit> found,
                      std::span<const ExactHit> exact);
 

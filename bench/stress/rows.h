@@ -17,7 +17,7 @@ StressOutcome attackByRays(const StressSetting& setting, const RayAttack& attack
 
 /// A black shell of 80,000 triangles; cases are camera rays, failures those that meet nothing.
 StressOutcome lookOutOfBlackShell(const StressSetting& setting);
-/// The same at (148376, 1234, -223423), in coordinates that are rounded there.
+/// Does the same at (148376, 1234, -223423), in coordinates that are rounded there.
 StressOutcome lookOutOfFarShell(const StressSetting& setting);
 /// A white one with one point of its surface at the origin, path traced; cases are paths, failures pixels
 /// that are not black.
@@ -33,7 +33,7 @@ StressOutcome scatterInSharedShells(const StressSetting& setting);
 /// fewer strips) as literals. Cases are paths, failures pixels that are not black.
 StressOutcome scatterInStrips(const StressSetting& setting);
 
-/// The same in boxes of 12 triangles, up to a thousand times as long as wide, with angles of 89 to 91
+/// Does the same in boxes of 12 triangles, up to a thousand times as long as wide, with angles of 89 to 91
 /// degrees.
 StressOutcome scatterInBoxes(const StressSetting& setting);
 

@@ -17,8 +17,8 @@ float spreadOf(vec4 ball, vec3 point) {
   return part < 1.0f ? part / (1.0f + sqrt(1.0f - part)) : 2.0f;
 }
 
-/// The same, but 0 for a ball that lies behind the plane of a lamp that shines to one side. A normal of zero means a
-/// lamp that shines to all sides.
+/// Does the same, but 0 for a ball that lies behind the plane of a lamp that shines to one side. A normal of zero means
+/// a lamp that shines to all sides.
 float seenSpread(int caster, vec3 point, vec3 normal) {
   vec4 ball = vec4(casters[caster]);
   bool behind = dot(normal, normal) > 0.0f && dot(normal, vec3(ball) - point) <= -ball.w;

@@ -55,7 +55,7 @@ float flightEnd(Path p, float from, float u) {
 /// A number of this bounce, or of this meeting with a surface that lets the ray pass.
 uint flightNumber(Path p) { return kFlightDimensions + (uint(p.bounce) << 12) + uint(p.crossings); }
 
-/// The same for flightEnd().
+/// Does the same for flightEnd().
 float flightRandom(Path p) {
   return p.crossings > 0 ? hashFloat(p.sampler, flightNumber(p)) : pathRandom(p, kFlightDimension);
 }

@@ -84,7 +84,7 @@ void printAllParts(const Scene& scene) {
                 withoutControls(volume.file.string() + (volume.grid ? ":" + *volume.grid : "")).c_str());
 }
 
-/// The same as JSON.
+/// Adds the same as JSON.
 void addParts(nlohmann::ordered_json& json, const Scene& scene) {
   json["scene_names"] = scene.sceneNames;
   json["animation_names"] = scene.animationNames;

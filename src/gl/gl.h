@@ -34,7 +34,7 @@ uint64_t& movedBytes();
 /// A limit of the driver, such as GL_MAX_TEXTURE_SIZE, at most 2^40, so that 16 times it is a number of
 /// bytes. Throws as checkGl(): a lost context says 0.
 int64_t driverLimit(GLenum name);
-/// The same as a number of OpenGL's.
+/// Returns the same as a number of OpenGL's.
 GLsizei driverCount(GLenum name);
 
 /// An OpenGL object's name, released by its owner; move-only.

@@ -65,8 +65,8 @@ Image wholeOf(Image part);
 /// alone, with its placement.
 Image readStoredImage(const std::filesystem::path& path, uint64_t memoryLimit = defaultMemoryLimit());
 
-/// The same as shown on a display: .exr, .hdr and .pfm (by their first bytes) through toDefaultDisplay, the
-/// rest as stored. Throws InputError, or RenderError where there is no colour to tone-map.
+/// Does the same as shown on a display: .exr, .hdr and .pfm (by their first bytes) through toDefaultDisplay,
+/// the rest as stored. Throws InputError, or RenderError where there is no colour to tone-map.
 Image readDisplayImage(const std::filesystem::path& path);
 
 /// All channels as linear values, as stored (readStoredImage); an 8 or 16 bit file's are decoded from sRGB,
@@ -95,7 +95,7 @@ bool isDisplayFormat(const std::filesystem::path& path);
 /// that. Throws RenderError naming the path and the reason.
 size_t writeImage(const std::filesystem::path& path, const Image& image, const Encoding& encoding = {});
 
-/// The same on standard output; the path tells the format, and is what messages call it.
+/// Does the same on standard output; the path tells the format, and is what messages call it.
 size_t printImage(const std::filesystem::path& path, const Image& image, const Encoding& encoding = {});
 
 /// Must be called before long work. Throws the error that writeImage() would throw if the format's library

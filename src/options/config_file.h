@@ -20,7 +20,7 @@ void addConfigOption(CLI::App& app, std::string& file);
 int runConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App& command,
                   const std::function<int(const RenderOptions&)>& run);
 
-/// The same for a caller that runs nothing yet: the options.
+/// Does the same for a caller that runs nothing yet: the options.
 RenderOptions finishConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App& command);
 
 }  // namespace fragtrace

@@ -19,10 +19,10 @@ CLI::Validator wholeNumber(int64_t least, int64_t most, const std::string& form 
 /// A number that is neither infinite nor NaN. `form` as above.
 CLI::Validator realNumber(const std::string& form = "");
 
-/// The same from `least` on; `type` is what --help calls it.
+/// Does the same from `least` on; `type` is what --help calls it.
 CLI::Validator realNumberFrom(double least, const char* type);
 
-/// The same within these bounds, which --help says.
+/// Does the same within these bounds, which --help says.
 CLI::Validator realNumber(double least, double most);
 
 /// Accepts one of these names.

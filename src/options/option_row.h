@@ -82,7 +82,7 @@ RenderOptions withoutEffects(RenderOptions options, std::initializer_list<Effect
 /// Keeps the options that loadScene() reads and aim() does not read again; all others get their defaults.
 RenderOptions sceneOptions(RenderOptions options);
 
-/// The same for makeTracer(), the options that loading depends on included.
+/// Does the same for makeTracer(), the options that loading depends on included.
 RenderOptions programOptions(RenderOptions options);
 
 /// All options of `render`, in the order of --help, in one list for each part of RenderOptions.

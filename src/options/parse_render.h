@@ -39,7 +39,7 @@ struct RawRender {
 /// Declares the option of the row with that name.
 CLI::Option* addOption(CLI::App& app, const char* name, RawRender& raw);
 
-/// The same with a help text of the command's own.
+/// Does the same with a help text of the command's own.
 CLI::Option* addOption(CLI::App& app, const char* name, RawRender& raw, const std::string& help);
 
 /// Declares all options of a group, in the order of the table.

@@ -78,9 +78,9 @@ inline DrawPlan planDraws(glm::ivec2 picture, int remaining, int most, int mostP
   return plan;
 }
 
-/// The same for the wavefront, whose draws are limited by steps. Paths continue from draw to draw, so a tile
-/// gets many samples before the next one, and only its last paths leave lanes idle. Rounds double, up to 64
-/// samples, so that a picture that is stopped early has about as many samples everywhere.
+/// Does the same for the wavefront, whose draws are limited by steps. Paths continue from draw to draw, so a
+/// tile gets many samples before the next one, and only its last paths leave lanes idle. Rounds double, up to
+/// 64 samples, so that a picture that is stopped early has about as many samples everywhere.
 inline DrawPlan planWaves(glm::ivec2 picture, glm::ivec2 tile, int done, int remaining) {
   return {glm::min(picture, tile), std::min(remaining, std::clamp(done, 1, 64))};
 }

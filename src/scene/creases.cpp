@@ -152,7 +152,7 @@ double nearest(const glm::dvec3& direction, const Sector& s) {
 /// and to the third vertices. The height over the neighbour's plane, distance * sine - offset * cosine, must
 /// be the clearance.
 double besideEdge(const Sector& face, const Sector& other, const glm::dvec3& edge, const glm::dvec3& inFace,
-                 const glm::dvec3& inOther) {
+                  const glm::dvec3& inOther) {
   const glm::dvec3 a = inFace - edge * glm::dot(edge, inFace);
   const glm::dvec3 b = inOther - edge * glm::dot(edge, inOther);
   const double lengths = glm::length(a) * glm::length(b);
@@ -175,7 +175,7 @@ double besideVertex(const Sector& face, const Sector& other) {
   return std::min(height / sine + face.grazing, kMostInset * face.offset);
 }
 
-/// The same for triangles that run along each other, where no distance from the vertex is enough: the
+/// Does the same for triangles that run along each other, where no distance from the vertex is enough: the
 /// distance from the line in which their planes meet. It is at least `altitude` times the share of the way
 /// from the vertex to the edge opposite; 0 if the line leads through the face.
 double besideLine(const Sector& face, const Sector& other, double& altitude) {

@@ -23,7 +23,7 @@ std::vector<glm::dvec3> outlineOf(const Scene& scene);
 /// The points, or, if there are many, those that are farthest in some of directionsAllAround().
 std::vector<glm::dvec3> farthest(std::vector<glm::dvec3> points);
 
-/// The same for the circles that points sweep as they turn about the vertical axis, +Y, through `point`.
+/// Does the same for the circles that points sweep as they turn about the vertical axis, +Y, through `point`.
 std::vector<glm::dvec3> sweptAbout(const glm::dvec3& point, std::span<const glm::dvec3> points);
 
 /// Moves the camera without turning it, and scales an orthographic one, until the points fill kFitted of the

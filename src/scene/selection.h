@@ -37,7 +37,7 @@ inline bool sameMoment(const SceneSelection& a, const SceneSelection& b) {
   return a.animation == b.animation && a.animationTime == b.animationTime && a.hiddenNodes == b.hiddenNodes;
 }
 
-/// The same, with the same numbers in place of the file's.
+/// Does the same, with the same numbers in place of the file's.
 inline bool samePose(const SceneSelection& a, const SceneSelection& b) {
   return sameMoment(a, b) && a.set == b.set;
 }

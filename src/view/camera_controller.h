@@ -48,8 +48,8 @@ CameraPose pan(CameraPose pose, const glm::dvec2& shift);
 /// Magnifies what lies in the focal point's plane by e^amount: comes nearer, or narrows an orthographic view.
 CameraPose zoom(CameraPose pose, double amount);
 
-/// The same, so that what lies in the focal point's plane at `place` stays there: from the picture's middle,
-/// in halves of its height to the right and up.
+/// Does the same, so that what lies in the focal point's plane at `place` stays there: from the picture's
+/// middle, in halves of its height to the right and up.
 CameraPose zoomAt(CameraPose pose, double amount, const glm::dvec2& place);
 
 /// Moves camera and focal point by `amount` times their distance: to the right, up, forwards.

@@ -13,7 +13,7 @@ std::string windowTitle(const std::filesystem::path& scene);
 /// The first of SCENE-1.png, SCENE-2.png, ... that no file in the folder has.
 std::filesystem::path freePictureName(const std::filesystem::path& folder, const std::filesystem::path& scene,
                                       const char* extension);
-/// The same in the current folder, as a name without a folder.
+/// Does the same in the current folder, as a name without a folder.
 std::filesystem::path freePictureName(const std::filesystem::path& scene, const char* extension);
 
 }  // namespace fragtrace

@@ -49,7 +49,7 @@ std::optional<FoundLayer> findLayer(const Image& file, std::initializer_list<con
   return std::nullopt;
 }
 
-/// The same, but only after that prefix.
+/// Does the same, but only after that prefix.
 std::optional<FoundLayer> findGuide(const Image& file, const std::string& prefix,
                                     std::initializer_list<const char*> names) {
   for (const char* name : names) {

@@ -27,10 +27,10 @@ using ReadProgress = std::function<void(uint64_t read, uint64_t size)>;
 std::vector<uint8_t> readOpenFile(int file, const MemoryBudget& memory, const BeginningCheck& check = {},
                                   const ReadProgress& progress = {});
 
-/// The same of the file at a path, of at most `limit` bytes.
+/// Does the same of the file at a path, of at most `limit` bytes.
 std::vector<uint8_t> readBytes(const std::filesystem::path& path, uint64_t limit,
                                const BeginningCheck& check = {}, const ReadProgress& progress = {});
-/// The same, but throws InputError naming the path, too.
+/// Does the same, but throws InputError naming the path, too.
 std::vector<uint8_t> readWholeFile(const std::filesystem::path& path, uint64_t limit = defaultMemoryLimit());
 
 /// Files that are replaced many times a second need not outlive a power cut.

@@ -61,7 +61,7 @@ double useOrCompile(Renderer& renderer, const ShaderVariant& variant, Film& film
 LayerDraw drawLayer(glm::ivec2 size, Renderer& renderer, const ShaderVariant& variant, const View& view,
                     int samples, const Renderer::Progress& progress = Renderer::toTheEnd);
 
-/// The same, appended to a picture of that size.
+/// Does the same, appended to a picture of that size.
 LayerDraw addLayer(Image& picture, Renderer& renderer, const ShaderVariant& variant, const View& view,
                    int samples, const Renderer::Progress& progress = Renderer::toTheEnd);
 
