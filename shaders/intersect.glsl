@@ -163,6 +163,10 @@ float insetPart(float weight, float middle, uint code, float times) {
   return weight < least ? (least - weight) / (middle - weight) : 0.0f;
 }
 
+/// The factor of the insets of a point that a ray has reached at distance t, if a ray's offset there is `error`: within
+/// the plane, the point is off by roundings of t (docs/design/ray-origins.md, "Creases").
+float insetTimes(float t, float error) { return 1.0f + t / (float(2097152.0) * error); }
+
 /// Moves a point of a triangle, given by its weights, towards the middle until it is as far from edges and vertices as
 /// its sharp creases require (creaseInsets of src/scene/creases.h). Otherwise the offset along the normal could lead
 /// through the neighbour. `times`: the ray's offset over the triangle's own.

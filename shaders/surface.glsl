@@ -160,10 +160,10 @@ Surface surfaceAt(int slot, int instance, vec3 origin, vec3 direction, float t, 
   if (kTriangles) s = triangleSurface(face, place, origin, direction, t, weights, moving);
   if (kCreases && !isSphere) {
     uvec4 inset = insetRow(slot);
-    float times = 1.0;
+    float times = insetTimes(t, error);
     if (shown) {
       InstanceReturn back = loadInstanceReturn(instance);
-      times = offsetOutOfMesh(back, error) * back.stretchBack / error;
+      times *= offsetOutOfMesh(back, error) * back.stretchBack / error;
     }
     vec3 middle = uintBitsToFloat(inset.xyz);
     if (kMoving) middle = (moving.at.v0 + moving.at.v1 + moving.at.v2) / 3.0f;

@@ -122,6 +122,7 @@ class FailingDriver(Failing):
         self.assertEqual(small.returncode, 1)
         self.assertRegex(small.stderr, r"\Afragtrace: .*this driver.*\n\Z")
         self.assertEqual(self.path.read_bytes(), OLD)
+        self.path.unlink()
 
     def test_what_is_no_number_is_black_and_said(self):
         self.options = ()
