@@ -163,13 +163,13 @@ float insetPart(float weight, float middle, uint code, float times) {
   return weight < least ? (least - weight) / (middle - weight) : 0.0f;
 }
 
-/// The factor of the insets of a point that a ray has reached at distance t, if a ray's offset there is `error`: within
-/// the plane, the point is off by roundings of t (docs/design/ray-origins.md, "Creases").
+/// The factor of the insets of a point that a ray has reached at distance t, if its offset there is `error`, 2^-19 m:
+/// 1 + t / (4 m). Within the plane, the point is off by roundings of t (docs/design/ray-origins.md, Creases).
 float insetTimes(float t, float error) { return 1.0f + t / (float(2097152.0) * error); }
 
 /// Moves a point of a triangle, given by its weights, towards the middle until it is as far from edges and vertices as
-/// its sharp creases require (creaseInsets of src/scene/creases.h). Otherwise the offset along the normal could lead
-/// through the neighbour. `times`: the ray's offset over the triangle's own.
+/// its creases require (creaseInsets of src/scene/creases.h). Otherwise the offset along the normal could lead through
+/// the neighbour. `times`: insetTimes(), in an instance times the ray's offset over the triangle's own.
 vec3 insetFromCreases(vec3 point, vec2 weights, vec3 middle, uint inset, float times) {
   const float third = 1.0f / 3.0f;
   float w0 = 1.0f - weights.x - weights.y;

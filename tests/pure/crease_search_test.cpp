@@ -256,7 +256,6 @@ TEST(CreaseSearch, NoRayStartsBehindAFaceOrMissesIt) {
     }
     least = std::min(least, lowest);
   }
-  RecordProperty("least_height", std::to_string(least));
   std::printf("%ld cases, %ld of them promised, least height %.3f eps m, %ld leaks\n", cases, promised, least,
               leaks);
   EXPECT_EQ(leaks, 0);
