@@ -87,9 +87,9 @@ Fold coneOf(Genes& g, const Turn& turn) {
   const double width = g.scale(0.02, 2.0);
   const double height = g.scale(0.02, 2.0);
   const dvec3 middle(g.between(-1, 1), g.between(-1, 1), 1.0);
-  std::vector<double> steps;
+  std::vector<double> steps(static_cast<size_t>(count));
   double all = 0.0;
-  for (int i = 0; i < count; ++i) steps.push_back(all += g.between(0.1, 1.0));
+  for (double& step : steps) step = all += g.between(0.1, 1.0);
   Fold fold;
   const auto rim = [&](double part) {
     const double angle = glm::two_pi<double>() * part;

@@ -73,6 +73,16 @@ Json animationJson(const ViewState& state) {
           {"time", time ? Json(*time) : Json()}};
 }
 
+std::string dialogName(DialogKind dialog) {
+  if (dialog == DialogKind::None) return "";
+  return dialog == DialogKind::List ? "list" : "desktop";
+}
+
+Json boundsJson(const BoundsDouble& b) {
+  if (b.empty()) return {};
+  return {b.minimum.x, b.minimum.y, b.minimum.z, b.maximum.x, b.maximum.y, b.maximum.z};
+}
+
 }  // namespace
 
 void keepTime(std::deque<double>& times, double ms) {
@@ -130,19 +140,14 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["error"] = facts.error;
   json["messages"] = Json::array();
   for (const Message& message : facts.messages) json["messages"].push_back(message.text);
-  json["dialog"] = facts.dialog == DialogKind::None   ? ""
-                   : facts.dialog == DialogKind::List ? "list"
-                                                      : "desktop";
+  json["dialog"] = dialogName(facts.dialog);
   json["focus"] = facts.focus;
   json["mouse"] = facts.mouse ? Json({facts.mouse->x, facts.mouse->y}) : Json();
   json["places"] = facts.places;
   json["pick"] = facts.pick ? Json(pickLines(state, *facts.pick)) : Json();
   json["measured"] =
       facts.pick && facts.pick->end ? Json(distanceText(facts.pick->point, *facts.pick->end)) : Json();
-  const BoundsDouble& b = state.selected;
-  json["selected"] =
-      b.empty() ? Json()
-                : Json({b.minimum.x, b.minimum.y, b.minimum.z, b.maximum.x, b.maximum.y, b.maximum.z});
+  json["selected"] = boundsJson(state.selected);
   json["gl_errors"] = report.glErrors;
   json["loop_ms"] = timesJson(report.times.loopMs);
   json["longest_loop_ms"] = report.times.longestLoopMs;
