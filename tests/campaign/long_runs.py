@@ -22,11 +22,19 @@ def prepare(ground):
     subprocess.run([ground.source / "scripts/build", "release", "load_rounds"], check=True)
 
 
-def held(pid):
-    """MiB and open files of a process that runs."""
+def target(link):
+    try:
+        return os.readlink(link)
+    except OSError:  # closed meanwhile
+        return ""
+
+
+def held(pid, folder):
+    """MiB and open files of a process that runs, without the picture that it writes into the folder."""
     try:
         resident = re.search(r"VmRSS:\s*(\d+)", Path(f"/proc/{pid}/status").read_text())
-        return int(resident[1]) / 1024, len(os.listdir(f"/proc/{pid}/fd"))
+        files = [target(link) for link in Path(f"/proc/{pid}/fd").iterdir()]
+        return int(resident[1]) / 1024, sum(not name.startswith(f"{folder}/") and name != "" for name in files)
     except (OSError, TypeError):
         return None
 
@@ -40,7 +48,7 @@ def sequence(ground, number, folder):
             if stop.is_set():
                 raise Stopped
             time.sleep(0.1)
-            if (now := held(process.pid)) is not None:
+            if (now := held(process.pid, folder)) is not None:
                 seen.append((len(os.listdir(folder)), *now))
         must(process.result(), 0)
     if len(os.listdir(folder)) != FRAMES:
@@ -49,7 +57,7 @@ def sequence(ground, number, folder):
     if not second or not fourth:
         return {"frames": FRAMES}
     growth = statistics.median(one[1] for one in fourth) - statistics.median(one[1] for one in second)
-    files = min(one[2] for one in fourth) - min(one[2] for one in second)  # beside the file that is being written
+    files = max(one[2] for one in fourth) - max(one[2] for one in second)
     if growth > MOST_GROWTH or files > 0:
         raise Finding(f"{scene.name}: {growth:.1f} MiB more and {files} files more in the fourth quarter of {FRAMES} frames than in the second")
     return {"frames": FRAMES}
