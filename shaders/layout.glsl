@@ -193,9 +193,10 @@ const uint kIrradianceRows = 9u;
 const uint kLobeLevels = 6u;
 
 // The sun before a sky (sky/sun.glsl), behind the map and its backdrop: its direction before the map is turned and the
-// chance that a light sample of the environment takes it; radiance and pdf in its middle. Its radius in radians, and
-// the powers of the cosine at its surface by which it gets darker to the limb (SunDisc, src/scene/sky/sky.h).
-const uint kSunRows = 2u;
+// chance that a light sample of the environment takes it; radiance and pdf in its middle; the luminance from which on a
+// place of the map is its sun (kMapSun). Its radius in radians, and the powers of the cosine at its surface by which it
+// gets darker to the limb (SunDisc, src/scene/sky/sky.h).
+const uint kSunRows = 3u;
 const float kSunRadius = 0.004651303f;
 const float kLimbRed = 0.456f;
 const float kLimbGreen = 0.508f;

@@ -236,7 +236,7 @@ Path meetSurroundings(Path p) {
   if (kPassesLight) p.throughput *= p.etaScale;
   // Light paths bring the sun.
   vec4 seen = environmentAlong(p.direction);
-  if (kSunPaths && p.prefix == kPrefixCaustic) seen.rgb = vec3(mapAlong(p.direction));
+  if (kSunPaths && p.prefix == kPrefixCaustic) seen.rgb = mapBesideSun(p.direction);
   float weight = 1.0;
   if (kGi && kEnvironmentSampling && p.pdf > 0.0) {
     weight = balanceWeight(p.pdf, frame.environmentChance * environmentPdf(seen, p.direction));

@@ -88,7 +88,7 @@ vec3 irradianceLeft(Path p, Surface s, LightSample light) {
   bool lamp = light.distance < kFarAway || light.pdf <= 0.0;
   if (kSunPaths && !lamp) {
     vec3 all = vec3(environmentAlong(light.direction));
-    return light.irradiance * vec3(mapAlong(light.direction)) / max(all, vec3(1e-30));
+    return light.irradiance * mapBesideSun(light.direction) / max(all, vec3(1e-30));
   }
   return lamp ? vec3(0.0) : light.irradiance;
 }

@@ -86,6 +86,18 @@ Emission sunEmission(float share, float choice, vec2 uv, vec2 aim) {
   return e;
 }
 
+/// A ray of the sun of a map. Light samples draw the map by its luminance; what is too dim is no sun.
+Emission mapSunEmission(float share, float choice, uvec2 bits, vec2 aim) {
+  LightSample light = environmentLight(1.0f, bits);
+  Emission e = noEmission();
+  if (light.pdf <= 0.0f || !isMapSun(vec3(mapAlong(light.direction)))) return e;
+  Aim a = aimAlong(-light.direction, choice, aim);
+  e.origin = a.origin;
+  e.direction = a.direction;
+  e.flux = light.irradiance / (share * a.pdf);
+  return e;
+}
+
 /// Draws the sun or a lamp by its power, a point on it, and a direction.
 Emission drawEmission(Sampler sampler) {
   uint bits = drawBits(sampler, kEmitterDimension);
@@ -93,6 +105,9 @@ Emission drawEmission(Sampler sampler) {
   vec2 aim = drawPair(sampler, kAimDimensions);
   uint border = kSunPaths ? uint(sunChance * 4294967040.0f) : 0u;
   bool ofSun = kSunPaths && (bits < border || sunChance >= 1.0f);
+  if (ofSun && kMapSun) {
+    return mapSunEmission(sunChance, choice, drawPairBits(sampler, kEmitterPointDimensions), aim);
+  }
   if (ofSun) return sunEmission(sunChance, choice, drawPair(sampler, kEmitterPointDimensions), aim);
   Emission e = noEmission();
   if (!kPunctualLights && !kEmissiveTriangles) return e;

@@ -5,8 +5,8 @@
 // walls may lie anywhere but beside the camera. A glossy caster is a D to the camera and to the lamp's path on its way,
 // and an S where a run of casters begins.
 
-/// Light paths begin at the sun, too.
-const bool kSunPaths = kCaustics && kSun && kEnvironmentSampling;
+/// Light paths begin at the sun of the sky or of the map, too.
+const bool kSunPaths = kCaustics && (kSun || kMapSun) && kEnvironmentSampling;
 
 /// A scattering beside the camera counts as a delta lobe if its direction is drawn with a larger pdf, in 1/sr, from the
 /// camera's side. A lamp's path that meets so narrow a lobe by chance would leave a bright dot.

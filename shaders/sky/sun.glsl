@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The disc of the sun before the map of the sky (kSun). Its two rows lie behind the map and its backdrop
-// (src/pack/pack_environment.h).
+// The disc of the sun before the map of the sky (kSun), and the sun of a map that was read (kMapSun). Their rows lie
+// behind the map and its backdrop (src/pack/pack_environment.h).
 
 struct Sun {
   vec3 direction;  // direction of the disc's middle, in the scene
@@ -9,9 +9,19 @@ struct Sun {
   float pdf;       // over solid angle, of a direction to its middle when the sun is taken
 };
 
-Sun sunOfSky() {
+int sunRow() {
   ivec2 lit = ivec2(frame.environmentSize);
-  int row = lit.x * lit.y + frame.backdropSize.x * frame.backdropSize.y;
+  return lit.x * lit.y + frame.backdropSize.x * frame.backdropSize.y;
+}
+
+/// Returns true if so bright a place of the map is its sun (kMapSun).
+bool isMapSun(vec3 radiance) {
+  float level = uintBitsToFloat(readEnvironment(sunRow() + 2).x);
+  return luminance(radiance) >= level * frame.environmentScale;
+}
+
+Sun sunOfSky() {
+  int row = sunRow();
   vec4 place = uintBitsToFloat(readEnvironment(row));
   vec4 light = uintBitsToFloat(readEnvironment(row + 1));
   float c = frame.environmentRotation.x;

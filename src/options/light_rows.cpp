@@ -83,7 +83,8 @@ std::vector<OptionRow> lightRows() {
           "sees choose among those of pixels nearby, too (spatial)",
           FRAGTRACE_MEMBER(light.reuse), kLightReuseNames, kEstimator),
       choice("--caustics",
-             "trace paths from lamps and the sun of --sky to smooth and glossy glass and metal, for light "
+             "trace paths from lamps and suns (--sky, --hdri-file) to smooth and glossy glass and metal, for "
+             "light "
              "that these throw on rough surfaces; auto does where there are both",
              FRAGTRACE_MEMBER(light.caustics), kCausticsNames,
              {.effect = Effect::Picture, .renewal = Renewal::Program}),

@@ -11,6 +11,7 @@
 #include "bvh/bvh.h"
 #include "image/image.h"
 #include "scene/scene.h"
+#include "scene/sky/map_sun.h"
 #include "scene/sky/sky.h"
 #include "shader/layout.h"
 #include "shader/variant.h"
@@ -25,7 +26,8 @@ struct Environment {
   Surroundings kind = Surroundings::None;
   Image image;
   Image backdrop{};  ///< equirectangular, seen by camera rays in place of the image; empty: there is none
-  std::optional<SunDisc> sun{};  ///< stands before the image
+  std::optional<SunDisc> sun{};    ///< stands before the image
+  std::optional<MapSun> mapSun{};  ///< is a part of the image
 };
 
 /// The picture, with the light of the sun in the texels where it stands: that is made in `memory`.

@@ -38,8 +38,8 @@ struct KeptArrays {
     int draws = 0;            ///< EnvironmentDraws
     bool forCatcher = false;  ///< upwardIrradiance is known
     bool light = false;       ///< appendEnvironmentLight()
-    bool sun = false;         ///< appendSun()
-    double sunPower = 0.0;    ///< the sun's part of the power
+    bool suns = false;        ///< appendSuns()
+    double sunPower = 0.0;    ///< the part of the power of the sun that light paths begin at
   };
   std::optional<KeptEnvironment> environment;  ///< the environment map; a sequence has only one
   bool geometry = false;  ///< tree, leaves, faces and vertices are as packed before, as are all pictures

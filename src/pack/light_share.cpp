@@ -16,15 +16,16 @@ float chanceOf(double side, double other) {
   return float(std::clamp(all > 0.0 ? side / all : 0.5, 0.1, 0.9));
 }
 
-SunLight lightOf(const std::optional<SunDisc>& sun) {
-  if (!sun) return SunLight::None;
-  return luminance(sun->irradiance) > 0.0 ? SunLight::Shines : SunLight::Set;
+SunLight lightOf(const Environment& environment) {
+  if (environment.mapSun) return SunLight::InMap;
+  if (!environment.sun) return SunLight::None;
+  return luminance(environment.sun->irradiance) > 0.0 ? SunLight::Shines : SunLight::Set;
 }
 
 }  // namespace
 
 TraitSet traitsOf(const Scene& scene, const Environment& environment) {
-  return traitsOf(scene, environment.kind, !environment.backdrop.values.empty(), lightOf(environment.sun));
+  return traitsOf(scene, environment.kind, !environment.backdrop.values.empty(), lightOf(environment));
 }
 
 float environmentChance(const LightShare& share, double intensity) {

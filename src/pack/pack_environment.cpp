@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/constants.hpp>
+#include <limits>
 #include <numeric>
 #include <thread>
 
@@ -112,7 +113,8 @@ void appendBackdrop(const Image& image, Words& texels) {
 
 double powerOf(const SunDisc& sun) { return glm::pi<double>() * luminance(sun.irradiance); }
 
-void appendSun(const SunDisc& sun, double drawnPower, Words& texels) {
+void appendSuns(const Environment& environment, double drawnPower, Words& texels) {
+  const SunDisc sun = environment.sun.value_or(SunDisc());
   const double radius = layout::kSunRadius;
   const double power = powerOf(sun);
   // A sun that has set is never drawn.
@@ -120,6 +122,8 @@ void appendSun(const SunDisc& sun, double drawnPower, Words& texels) {
   const double pdf = (2.0 + kLimbPowers.g) / (2.0 * glm::pi<double>() * radius * radius);
   appendRow(texels, glm::vec4(sun.direction, chance));
   appendRow(texels, glm::vec4(sun.radiance, pdf));
+  const MapSun none{std::numeric_limits<float>::infinity(), 0.0};
+  appendRow(texels, glm::vec4(environment.mapSun.value_or(none).level, 0.0f, 0.0f, 0.0f));
 }
 
 PackedEnvironment packEnvironment(const Image& image, EnvironmentDraws draws, double sunPower) {

@@ -32,8 +32,8 @@ void appendBackdrop(const Image& image, Words& texels);
 /// Luminance that the sun sends to a disk of unit radius.
 double powerOf(const SunDisc& sun);
 
-/// Appends the rows of a sun before a map of which `drawnPower` is sampled (shaders/sky/sun.glsl).
-void appendSun(const SunDisc& sun, double drawnPower, Words& texels);
+/// Appends the rows of the suns before and in a map of which `drawnPower` is sampled (shaders/sky/sun.glsl).
+void appendSuns(const Environment& environment, double drawnPower, Words& texels);
 
 /// An equirectangular map with R, G, B of at most 65,535 x 65,535 texels, with a sun of that power before it.
 /// Uses all processors.

@@ -219,11 +219,11 @@ namespace {
 KeptArrays::KeptEnvironment packMap(const Environment& environment, const ShaderVariant& variant,
                                     KeptArrays* kept, GpuScene& packed) {
   const EnvironmentDraws draws = drawsOf(variant);
+  const bool suns = has(variant.traits, Trait::Sun) || has(variant.traits, Trait::MapSun);
   const bool keeps = kept != nullptr && environment.kind == Surroundings::Map;
   const auto serves = [&](const KeptArrays::KeptEnvironment& packedBefore) {
     return packedBefore.draws == int(draws) && packedBefore.forCatcher == variant.shadowCatcher &&
-           packedBefore.light == lightsByEnvironment(variant) &&
-           packedBefore.sun == has(variant.traits, Trait::Sun) &&
+           packedBefore.light == lightsByEnvironment(variant) && packedBefore.suns == suns &&
            has(variant.traits, Trait::Backdrop) == (packedBefore.backdropSize.x > 0);
   };
   if (keeps && kept->environment && serves(*kept->environment)) {
@@ -240,15 +240,15 @@ KeptArrays::KeptEnvironment packMap(const Environment& environment, const Shader
                                      int(draws),
                                      variant.shadowCatcher,
                                      lightsByEnvironment(variant),
-                                     has(variant.traits, Trait::Sun),
-                                     sunPower};
+                                     suns,
+                                     environment.mapSun ? environment.mapSun->power : sunPower};
   if (has(variant.traits, Trait::Backdrop)) {
     // A program that is forced to have one (bench variants) draws the map itself.
     const Image& seen = environment.backdrop.values.empty() ? environment.image : environment.backdrop;
     result.backdropSize = {seen.width, seen.height};
     appendBackdrop(seen, map.texels);
   }
-  if (result.sun) appendSun(environment.sun.value_or(SunDisc()), map.drawnPower, map.texels);
+  if (suns) appendSuns(environment, map.drawnPower, map.texels);
   Image withSun;
   if (result.light) appendEnvironmentLight(wholeMap(environment, withSun), map.texels);
   if (variant.shadowCatcher) result.upwardIrradiance = upwardIrradiance(environment.image);

@@ -93,6 +93,7 @@ Environment makeEnvironment(const RenderOptions& options, std::future<LinearImag
     // Mirror balls and faces of cubes are square; there is one reading of an environment here.
     if (image.width == image.height && image.width > 1)
       warn(options, ": is square, and drawn as latitude and longitude: 360 degrees wide, 180 high", warnings);
+    environment.mapSun = sunOfMap(image);
     if (options.light.backgroundBlur > 0.0)
       environment.backdrop = blurredMap(image, options.light.backgroundBlur);
   } else if (options.light.sky.on) {

@@ -65,6 +65,7 @@ enum class Trait : uint8_t {
   EnvironmentSampling,
   Backdrop,
   Sun,
+  MapSun,
   Instances,
   Creases,
   Slivers,
@@ -109,7 +110,8 @@ inline bool hasLamps(const TraitSet& traits) {
 
 /// Returns true if there is a sun that light samples and light paths take (kSunPaths).
 inline bool samplesSun(const TraitSet& traits) {
-  return traits[size_t(Trait::Sun)] && traits[size_t(Trait::EnvironmentSampling)];
+  return (traits[size_t(Trait::Sun)] || traits[size_t(Trait::MapSun)]) &&
+         traits[size_t(Trait::EnvironmentSampling)];
 }
 
 /// Returns true if light may be scattered between surfaces.

@@ -95,9 +95,9 @@ void dropIdle(ShaderVariant& v) {
   // Without shadow rays, no light is found through thin glass.
   if (!stage(Stage::Shadows)) drop(v.traits, {Trait::ThinGlass});
   if (!hasLamps(v.traits)) drop(v.traits, {Trait::LightTree});
-  if (!hasLamps(v.traits) && !samplesSun(v.traits)) drop(v.traits, {Trait::Caustics});
+  if (!hasLamps(v.traits) && !samplesSun(v.traits)) drop(v.traits, {Trait::Caustics, Trait::MapSun});
   // Light paths do not know of media, nor of time.
-  if (hasMedia(v.traits) || isTimed(v.traits)) drop(v.traits, {Trait::Caustics});
+  if (hasMedia(v.traits) || isTimed(v.traits)) drop(v.traits, {Trait::Caustics, Trait::MapSun});
   if (!hasNormalMaps(v.traits)) off(Stage::NormalMaps);
   if (!has(v.traits, Trait::Triangles)) off(Stage::Watertight);
   const bool leavesSurfaces = stage(Stage::Gi) || stage(Stage::Shadows) || stage(Stage::Reflections) ||
@@ -149,11 +149,12 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop, 
   const bool lamps =
       surroundings != Surroundings::DefaultLight && (emissiveTriangles || !scene.lights.empty());
   mark(Trait::LightTree, lamps && gainByPlace(scene) >= kLeastGainByPlace);
-  mark(Trait::Caustics, (lamps || sun == SunLight::Shines) && anyCaster);
+  mark(Trait::Caustics, (lamps || sun == SunLight::Shines || sun == SunLight::InMap) && anyCaster);
   mark(Trait::Environment, surroundings != Surroundings::None);
   mark(Trait::EnvironmentSampling, surroundings != Surroundings::None);
   mark(Trait::Backdrop, backdrop);
-  mark(Trait::Sun, sun != SunLight::None);
+  mark(Trait::Sun, sun == SunLight::Set || sun == SunLight::Shines);
+  mark(Trait::MapSun, sun == SunLight::InMap && anyCaster);
   mark(Trait::Instances, !scene.instances.empty());
   mark(Trait::Creases, !scene.insets.empty());
   mark(Trait::Slivers, hasSlivers(scene));
@@ -238,7 +239,7 @@ ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& pre
   if (isLightPart(aov)) {
     ShaderVariant light = chooseVariant(wanted, present, surroundings, treeDepth, reads);
     light.aov = aov;
-    light.traits.reset(size_t(Trait::Caustics));
+    drop(light.traits, {Trait::Caustics, Trait::MapSun});
     light.neighbours = false;
     return light;
   }
@@ -319,7 +320,7 @@ std::optional<ShaderVariant> reservoirVariant(const ShaderVariant& variant) {
   ShaderVariant records = variant;
   records.neighbours = false;
   records.storesReservoirs = true;
-  records.traits.reset(size_t(Trait::Caustics));
+  drop(records.traits, {Trait::Caustics, Trait::MapSun});
   records.wavefront = false;
   records.waveUnit = -1;
   return records;

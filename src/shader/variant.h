@@ -47,8 +47,8 @@ struct ShaderVariant {
 /// The light from outside the scene: an environment map, a constant default light, or nothing.
 enum class Surroundings : uint8_t { None, DefaultLight, Map };
 
-/// The sun before the surroundings.
-enum class SunLight : uint8_t { None, Set, Shines };
+/// The sun of the surroundings: before them, where it may have set, or in their map.
+enum class SunLight : uint8_t { None, Set, Shines, InMap };
 
 /// The features of the scene, before anything is asked for. backdrop: the surroundings have a backdrop of
 /// their own.

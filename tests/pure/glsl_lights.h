@@ -12,6 +12,7 @@ inline bool kPhong = true;
 inline bool kEnvironment = true;
 inline bool kEnvironmentSampling = true;
 inline bool kSun = false;
+inline bool kMapSun = false;
 inline bool kPunctualLights = true;
 inline bool kEmissiveTriangles = true;
 inline bool kLightTree = false;

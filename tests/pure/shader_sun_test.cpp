@@ -49,7 +49,7 @@ class Sky {
 
  private:
   std::span<const uint32_t> withSun(const SunDisc& sun) {
-    appendSun(sun, packed_.drawnPower, packed_.texels);
+    appendSuns({Surroundings::Map, {}, {}, sun}, packed_.drawnPower, packed_.texels);
     return packed_.texels;
   }
   static layout::Frame frameOf() {

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "scene/sky/map_sun.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <glm/gtc/constants.hpp>
+
+#include "base/vectors.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// Wider lamps are found as well by camera paths (src/scene/casters.cpp).
+constexpr double kWidest = 0.03;  // sr
+constexpr double kLeastShare = 0.2;
+
+/// Places of about the same luminance: they differ by at most a sixteenth.
+struct Bin {
+  double angle = 0.0;  // sr
+  double light = 0.0;  // luminance times angle
+};
+/// The exponent of a positive float and four bits of its fraction number the bins.
+constexpr int kBinShift = 19;
+using Bins = std::array<Bin, (size_t(1) << (31 - kBinShift))>;
+
+float luminanceOf(const float* rgb) {
+  return std::max(0.0f, glm::dot(glm::vec3(rgb[0], rgb[1], rgb[2]), glm::vec3(kLuminance)));
+}
+
+Bins binsOf(const Image& map) {
+  Bins bins;
+  for (int y = 0; y < map.height; ++y) {
+    const double sine = std::sin(glm::pi<double>() * (y + 0.5) / map.height);
+    const double angle = 2.0 * glm::pi<double>() * glm::pi<double>() * sine / map.width / map.height;
+    const float* p = map.pixel(0, y);
+    for (int x = 0; x < map.width; ++x, p += map.channelCount()) {
+      const float bright = luminanceOf(p);
+      Bin& bin = bins[std::bit_cast<uint32_t>(bright) >> kBinShift];
+      bin.angle += angle;
+      bin.light += angle * double(bright);
+    }
+  }
+  return bins;
+}
+
+}  // namespace
+
+std::optional<MapSun> sunOfMap(const Image& map) {
+  const Bins bins = binsOf(map);
+  double all = 0.0;
+  for (const Bin& bin : bins) all += bin.light;
+  Bin sun;
+  size_t lowest = bins.size();
+  while (lowest > 1 && sun.angle + bins[lowest - 1].angle <= kWidest) {
+    --lowest;
+    sun.angle += bins[lowest].angle;
+    sun.light += bins[lowest].light;
+  }
+  if (!(sun.light > kLeastShare * all)) return std::nullopt;
+  return MapSun{std::bit_cast<float>(uint32_t(lowest) << kBinShift), glm::pi<double>() * sun.light};
+}
+
+}  // namespace fragtrace
