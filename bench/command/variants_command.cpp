@@ -87,7 +87,7 @@ SceneResult measure(const VariantsOptions& options, const BenchConfiguration& co
   const ShaderVariant own = settings.front().tracer.variant;
   const Surroundings surroundings = loaded->environment.kind;
   const std::vector<ForcedVariant> left =
-      forcedVariants(configuration.render, traitsOf(loaded->scene, surroundings), surroundings,
+      forcedVariants(configuration.render, traitsOf(loaded->scene, loaded->environment), surroundings,
                      loaded->bvh.depth, own.reads);
   for (const std::string& name : options.only) {
     if (std::ranges::find(left, name, &ForcedVariant::name) == left.end())

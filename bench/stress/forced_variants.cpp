@@ -10,7 +10,7 @@ namespace {
 
 bool choosesLights(Trait trait) {
   return trait == Trait::EmissiveTriangles || trait == Trait::PunctualLights || trait == Trait::LightTree ||
-         trait == Trait::EnvironmentSampling;
+         trait == Trait::EnvironmentSampling || trait == Trait::MapSun;
 }
 
 }  // namespace

@@ -84,8 +84,7 @@ std::vector<OptionRow> lightRows() {
           FRAGTRACE_MEMBER(light.reuse), kLightReuseNames, kEstimator),
       choice("--caustics",
              "trace paths from lamps and suns (--sky, --hdri-file) to smooth and glossy glass and metal, for "
-             "light "
-             "that these throw on rough surfaces; auto does where there are both",
+             "light that these throw on rough surfaces; auto does where there are both",
              FRAGTRACE_MEMBER(light.caustics), kCausticsNames,
              {.effect = Effect::Picture, .renewal = Renewal::Program}),
       word("--hdri-file",

@@ -136,8 +136,10 @@ PackedEnvironment packEnvironment(const Image& image, EnvironmentDraws draws, do
   const bool drawn = draws != EnvironmentDraws::Nothing;
   // Step: make two large arrays, whose pages are made at the same time.
   runOnThreads(2, [&](uint32_t part) {
-    // The light of a map that is not drawn from may be appended, which must not copy the whole array.
-    if (part == 0 && !drawn) packed.texels.reserve(rows * rowWords + mostLightWords());
+    // The light of a map that is not drawn from, or suns, may be appended, which must not copy the whole
+    // array.
+    const size_t appended = drawn ? size_t(layout::kSunRows) * 4 : mostLightWords();
+    if (part == 0) packed.texels.reserve(rows * rowWords + appended);
     if (part == 0) packed.texels.resize(rows * rowWords);
     if (part == 1 && drawn) packed.inversion.resize(rows * 4 + rows * stepWords);
   });

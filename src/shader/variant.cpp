@@ -72,7 +72,7 @@ void dropTraits(const StageSet& stages, bool countsVisits, Surroundings surround
     drop(traits, {Trait::Absorption, Trait::Scattering, Trait::MatchedGlass});
   if (!hasNormalMaps(traits) && !has(traits, Trait::Anisotropy)) drop(traits, {Trait::Tangents});
   if (gi && !has(stages, Stage::LightSampling))
-    drop(traits, {Trait::EmissiveTriangles, Trait::EnvironmentSampling});
+    drop(traits, {Trait::EmissiveTriangles, Trait::EnvironmentSampling, Trait::MapSun});
   // Scattered rays find a constant environment.
   if (gi && surroundings == Surroundings::DefaultLight) drop(traits, {Trait::EnvironmentSampling});
   const auto looksUp = [&](const TraitRow& row) { return readsTexcoords(row) && has(traits, row.trait); };

@@ -60,7 +60,8 @@ TEST(ForcedVariants, InGiAllTraitsTogetherAreAllThatCanBe) {
   for (const Trait t : {Trait::SmoothSurfaces, Trait::ObjectNumbers, Trait::Fog}) most.set(size_t(t));
   // Light paths know no media.
   EXPECT_FALSE(has(most, Trait::Caustics));
-  EXPECT_TRUE(most.set(size_t(Trait::Caustics)).all());
+  for (const Trait t : {Trait::Caustics, Trait::MapSun}) most.set(size_t(t));
+  EXPECT_TRUE(most.all());
   EXPECT_TRUE(has(named(all, "transmission").variant.stages, Stage::Refraction));
   EXPECT_TRUE(has(named(all, "metals").variant.stages, Stage::Reflections));
   EXPECT_TRUE(named(all, "environment-sampling").otherSamples);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/gtc/constants.hpp>
+#include <limits>
 
 #include "base/vectors.h"
 
@@ -17,18 +18,26 @@ namespace {
 /// Wider lamps are found as well by camera paths (src/scene/casters.cpp).
 constexpr double kWidest = 0.03;  // sr
 constexpr double kLeastShare = 0.2;
+/// Light samples draw the part of the luminance above the mean (EnvironmentDraws::LightAndPaths), so what is
+/// not much brighter is drawn too rarely.
+constexpr double kLeastLevel = 2.0;  // times the mean
 
 /// Places of about the same luminance: they differ by at most a sixteenth.
 struct Bin {
   double angle = 0.0;  // sr
   double light = 0.0;  // luminance times angle
 };
-/// The exponent of a positive float and four bits of its fraction number the bins.
+/// The exponent of a positive finite float and four bits of its fraction number the bins.
 constexpr int kBinShift = 19;
-using Bins = std::array<Bin, (size_t(1) << (31 - kBinShift))>;
+using Bins = std::array<Bin, (0x7f800000u >> kBinShift)>;
+
+/// The least luminance of a bin.
+float levelOf(size_t bin) { return std::bit_cast<float>(uint32_t(bin) << kBinShift); }
 
 float luminanceOf(const float* rgb) {
-  return std::max(0.0f, glm::dot(glm::vec3(rgb[0], rgb[1], rgb[2]), glm::vec3(kLuminance)));
+  // Rounding may lift the largest floats to infinity.
+  return std::clamp(glm::dot(glm::vec3(rgb[0], rgb[1], rgb[2]), glm::vec3(kLuminance)), 0.0f,
+                    std::numeric_limits<float>::max());
 }
 
 Bins binsOf(const Image& map) {
@@ -51,17 +60,18 @@ Bins binsOf(const Image& map) {
 
 std::optional<MapSun> sunOfMap(const Image& map) {
   const Bins bins = binsOf(map);
-  double all = 0.0;
-  for (const Bin& bin : bins) all += bin.light;
+  Bin all;
+  for (const Bin& bin : bins) all = {all.angle + bin.angle, all.light + bin.light};
+  const double least = kLeastLevel * all.light / all.angle;
   Bin sun;
   size_t lowest = bins.size();
-  while (lowest > 1 && sun.angle + bins[lowest - 1].angle <= kWidest) {
+  while (lowest > 1 && levelOf(lowest - 1) >= least && sun.angle + bins[lowest - 1].angle <= kWidest) {
     --lowest;
     sun.angle += bins[lowest].angle;
     sun.light += bins[lowest].light;
   }
-  if (!(sun.light > kLeastShare * all)) return std::nullopt;
-  return MapSun{std::bit_cast<float>(uint32_t(lowest) << kBinShift), glm::pi<double>() * sun.light};
+  if (!(sun.light > kLeastShare * all.light)) return std::nullopt;
+  return MapSun{levelOf(lowest), glm::pi<double>() * sun.light};
 }
 
 }  // namespace fragtrace
