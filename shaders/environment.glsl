@@ -52,17 +52,17 @@ vec4 mapAlong(vec3 direction) {
   return environmentAt(environmentCoordinates(direction) * vec2(ivec2(frame.environmentSize)));
 }
 
-/// Radiance along a direction without the sun, which light paths bring: that before the map, and that in it (kMapSun).
-vec3 mapBesideSun(vec3 direction) {
-  vec3 there = vec3(mapAlong(direction));
-  return kMapSun && isMapSun(there) ? vec3(0.0f) : there;
-}
-
 /// Returns the same with the sun.
 vec4 environmentAlong(vec3 direction) {
   if (!kEnvironment) return vec4(0.0f);
   if (kSun) return withSun(mapAlong(direction), direction);
   return mapAlong(direction);
+}
+
+/// Radiance along a direction without the sun, which light paths bring: that before the map, and that in it (kMapSun).
+vec3 mapBesideSun(vec3 direction) {
+  vec3 there = vec3(mapAlong(direction));
+  return kMapSun && isMapSun(there) ? vec3(0.0f) : there;
 }
 
 /// Radiance that camera rays see in place of the environment (kBackdrop).

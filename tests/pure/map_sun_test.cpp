@@ -49,7 +49,7 @@ TEST(MapSun, IsNotWhatIsWideOrDim) {
 
 TEST(MapSun, StandsBeforeADarkSky) {
   Image map = mapWith(4, 10.0f);
-  for (float& value : map.values) value = value == 10.0f ? value : 0.0f;
+  for (float& value : map.values) value = value == 10.0f ? value : -0.0f;
   const std::optional<MapSun> sun = sunOfMap(map);
   ASSERT_TRUE(sun);
   EXPECT_GT(sun->level, 2.0 * sun->power / (4.0 * glm::pi<double>() * glm::pi<double>()));

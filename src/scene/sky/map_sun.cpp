@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/gtc/constants.hpp>
-#include <limits>
 
 #include "base/vectors.h"
 
@@ -34,12 +33,6 @@ using Bins = std::array<Bin, (0x7f800000u >> kBinShift)>;
 /// The least luminance of a bin.
 float levelOf(size_t bin) { return std::bit_cast<float>(uint32_t(bin) << kBinShift); }
 
-float luminanceOf(const float* rgb) {
-  // Rounding may lift the largest floats to infinity.
-  return std::clamp(glm::dot(glm::vec3(rgb[0], rgb[1], rgb[2]), glm::vec3(kLuminance)), 0.0f,
-                    std::numeric_limits<float>::max());
-}
-
 Bins binsOf(const Image& map) {
   Bins bins;
   for (int y = 0; y < map.height; ++y) {
@@ -47,7 +40,8 @@ Bins binsOf(const Image& map) {
     const double angle = 2.0 * glm::pi<double>() * glm::pi<double>() * sine / map.width / map.height;
     const float* p = map.pixel(0, y);
     for (int x = 0; x < map.width; ++x, p += map.channelCount()) {
-      const float bright = luminanceOf(p);
+      // No sum of doubles overflows here, and -0 becomes 0, so that the bits number a bin.
+      const auto bright = float(std::max(0.0, luminance(glm::dvec3(p[0], p[1], p[2]))));
       Bin& bin = bins[std::bit_cast<uint32_t>(bright) >> kBinShift];
       bin.angle += angle;
       bin.light += angle * double(bright);
