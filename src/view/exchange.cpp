@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <stdexcept>
 #include <utility>
 
 #include "options/option_row.h"
@@ -126,6 +127,7 @@ std::pair<int, void*> Exchange::freeSlot(size_t side, bool together) {
     if (!taken_[side][size_t(slot)] && slot != reserved)
       return {slot, std::exchange(doneAt_[side][size_t(slot)], nullptr)};
   }
+  if (reserved < 0) throw std::logic_error("the window holds all textures of a side");
   std::erase_if(delivery_.pictures,
                 [&](const TracedPicture& p) { return p.shared.slot >= 0 && (together || p.side == side); });
   return {reserved, std::exchange(doneAt_[side][size_t(reserved)], nullptr)};
