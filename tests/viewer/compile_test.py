@@ -57,6 +57,18 @@ class Compiles(Case):
         viewer.rest(lambda s: "gi" in s["sides"][0]["variant"], "the other stage")
         self.ends_well(viewer, viewer.close())
 
+    def test_the_sun_moves_while_the_picture_is_compiled(self):
+        viewer = self.start("--sky")
+        viewer.until(lambda s: s["state"] == "compiling" and s["pictures"] > 0, "compiling")
+        viewer.xdotool("keydown", "shift")
+        viewer.drag((100, 100), (180, 140), button=3)
+        viewer.xdotool("keyup", "shift")
+        status = viewer.rest(lambda s: "gi" in s["sides"][0]["variant"], "the picture")
+        self.assertEqual(status["error"], "")
+        written = viewer.press_for_file("F12", ".png")
+        self.assertTrue(pixels_of(written) != pixels_of(self.render("vitrine", *SIZE, "--sky")), "the sun has moved")
+        self.ends_well(viewer, viewer.close())
+
     def test_it_ends_while_it_compiles(self):
         viewer = self.start()
         viewer.until(lambda s: s["state"] == "compiling" and s["pictures"] > 0, "compiling")

@@ -142,8 +142,13 @@ void ViewPrograms::keep(std::shared_ptr<ViewProgram> program) {
   }
 }
 
+/// The thread that compiles aside packs the scene.
+void ViewPrograms::refuseWhileCompiling() const {
+  if (compiling()) throw std::logic_error("the scene was changed while a program was made for it");
+}
+
 void ViewPrograms::showPose(const RenderOptions& options) {
-  settle();
+  refuseWhileCompiling();
   std::erase_if(programs_, [](const auto& p) { return p.use_count() == 1 || !p->error.empty(); });
   treeOptions_ = options;
   for (const std::shared_ptr<ViewProgram>& program : programs_) {
@@ -155,7 +160,7 @@ void ViewPrograms::showPose(const RenderOptions& options) {
 }
 
 void ViewPrograms::showSurfaces(const SceneSelection& selection) {
-  settle();
+  refuseWhileCompiling();
   std::erase_if(programs_, [](const auto& p) {
     return p.use_count() == 1 || !p->error.empty() ||
            p->tracer.variant.traversal == TraversalMethod::Literals;
@@ -181,7 +186,7 @@ void ViewPrograms::replace(ViewProgram& program, bool surfacesAlone) const {
 }
 
 void ViewPrograms::showSurroundings() {
-  settle();
+  refuseWhileCompiling();
   std::erase_if(programs_, [](const auto& p) { return p.use_count() == 1 || !p->error.empty(); });
   for (const std::shared_ptr<ViewProgram>& program : programs_) replaceSurroundings(program->tracer, loaded_);
 }

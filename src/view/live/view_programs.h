@@ -47,15 +47,14 @@ class ViewPrograms {
   std::shared_ptr<ViewProgram> soon(const RenderOptions& options);
   /// Returns true if a program that was compiled aside has come since the last call.
   bool takeNews();
-  /// While one is compiled aside, the scene must stay as it is.
   bool compiling() const { return coming_.valid(); }
-  /// Waits for it.
+  /// Waits for what is compiled aside, which reads the scene: it comes before every change of the scene.
   void settle();
   /// Makes all again when they are asked for again.
   void forget();
   /// The scene and its tree are those of another time of its animation, loaded with these options: programs
   /// that somebody holds draw it from now on, all others are made again when they are asked for again. Throws
-  /// as replaceScene().
+  /// as replaceScene(), and std::logic_error if the scene was changed before settle().
   void showPose(const RenderOptions& options);
   /// Does the same if only numbers of surfaces and lights have changed, which the selection has: nothing else
   /// is packed. A program whose text holds the whole scene is made again when it is asked for again.
@@ -69,6 +68,7 @@ class ViewPrograms {
   std::shared_ptr<ViewProgram> makeAside(const RenderOptions& part) const;
   void keep(std::shared_ptr<ViewProgram> program);
   void replace(ViewProgram& program, bool surfacesAlone) const;
+  void refuseWhileCompiling() const;
 
   const Context& context_;
   LoadedScene& loaded_;

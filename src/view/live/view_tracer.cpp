@@ -278,6 +278,7 @@ void ViewTracer::pose(const TraceRequest& request) {
     if (tree_ && sameNodes) before.tree = &*tree_;
     before.document = &document_;
     before.volume = &loaded_->scene.volume;
+    programs_->settle();
     *loaded_ = loadScene(options, stats, {}, FilmOf::Picture, before);
     if (!stats.treeRefitted && loaded_->scene.instances.empty())
       tree_ = refittable(loaded_->bvh, loaded_->scene);
@@ -311,6 +312,7 @@ bool ViewTracer::relight(const TraceRequest& request) {
   const bool shone = shines();
   std::vector<std::string> repeated;
   const SaidHere silence(repeated);  // said above, and not at each step of a drag
+  programs_->settle();
   loaded_->environment = skyOf(loadedOptions_, repeated);
   // When the sun rises or sets, programs change: light paths begin at it (Trait::Caustics).
   if (shines() == shone)
