@@ -321,11 +321,12 @@ void Window::draw() {
   facts_.canUndo = !history_.past.empty();
   facts_.canRedo = !history_.future.empty();
   const double now = glfwGetTime();
-  dialog_.draw(facts_.places, layout);
   const Task said = drawOverlay(state_, facts_, layout, now);
   fades_ = now + secondsToFade(facts_.messages, now);
   if (panel) execute(drawPanel(state_, facts_, layout));
   execute(said);
+  // It comes last: Dear ImGui 1.86 asserts that no window appears after a modal one in the latter's first frame.
+  dialog_.draw(facts_.places, layout);
   askForThumbnails();
   // Software would draw the same picture again, with the processors that trace the next one.
   skipped_ = askedMoving_ && !display_.hasNews() && now - drawn_ < kSameSeconds;
