@@ -39,6 +39,8 @@ void drop(TraitSet& traits, std::initializer_list<Trait> members) {
   for (const Trait t : members) traits.reset(size_t(t));
 }
 
+void dropLightPaths(TraitSet& traits) { drop(traits, {Trait::Caustics, Trait::MapSun}); }
+
 /// A stage that is off by itself, or by what was asked for, turns others off.
 void dropStages(StageSet& stages, bool countsVisits) {
   // gi does its own shading. Without gi and phong, no stage beyond flat changes anything.
@@ -95,9 +97,9 @@ void dropIdle(ShaderVariant& v) {
   // Without shadow rays, no light is found through thin glass.
   if (!stage(Stage::Shadows)) drop(v.traits, {Trait::ThinGlass});
   if (!hasLamps(v.traits)) drop(v.traits, {Trait::LightTree});
-  if (!hasLamps(v.traits) && !samplesSun(v.traits)) drop(v.traits, {Trait::Caustics, Trait::MapSun});
-  // Light paths do not know of media, nor of time.
-  if (hasMedia(v.traits) || isTimed(v.traits)) drop(v.traits, {Trait::Caustics, Trait::MapSun});
+  // Light paths begin at lamps and suns. They do not know of media, nor of time.
+  const bool begin = hasLamps(v.traits) || samplesSun(v.traits);
+  if (!begin || hasMedia(v.traits) || isTimed(v.traits)) dropLightPaths(v.traits);
   if (!hasNormalMaps(v.traits)) off(Stage::NormalMaps);
   if (!has(v.traits, Trait::Triangles)) off(Stage::Watertight);
   const bool leavesSurfaces = stage(Stage::Gi) || stage(Stage::Shadows) || stage(Stage::Reflections) ||
@@ -239,7 +241,7 @@ ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& pre
   if (isLightPart(aov)) {
     ShaderVariant light = chooseVariant(wanted, present, surroundings, treeDepth, reads);
     light.aov = aov;
-    drop(light.traits, {Trait::Caustics, Trait::MapSun});
+    dropLightPaths(light.traits);
     light.neighbours = false;
     return light;
   }
@@ -320,7 +322,7 @@ std::optional<ShaderVariant> reservoirVariant(const ShaderVariant& variant) {
   ShaderVariant records = variant;
   records.neighbours = false;
   records.storesReservoirs = true;
-  drop(records.traits, {Trait::Caustics, Trait::MapSun});
+  dropLightPaths(records.traits);
   records.wavefront = false;
   records.waveUnit = -1;
   return records;

@@ -15,6 +15,7 @@ from pathlib import Path
 
 over = threading.Event()  # no further case begins
 stop = threading.Event()  # those that run are given up
+NO_DISPLAY = 77  # the status of a test of the viewer that was skipped
 TICKS = os.sysconf("SC_CLK_TCK")
 
 
@@ -137,6 +138,18 @@ class Run:
 def run(ground, words, folder, seconds=120, **options):
     with Run(words, folder, program=ground.fragtrace, **options) as started:
         return started.wait(seconds)
+
+
+def view(ground, test, folder, seconds, **settings):
+    """Runs a class of tests/viewer, told by FRAGTRACE_ variables what to do. Returns False where it was skipped, without a display."""
+    environment = {**os.environ, **{f"FRAGTRACE_{name.upper()}": str(value) for name, value in settings.items()}}
+    file, case = test
+    with Run(["/usr/bin/python3", ground.source / "tests/viewer" / file, ground.fragtrace, ground.source, case], folder, environment) as process:
+        result = process.wait(seconds)
+    if result.status not in (0, NO_DISPLAY):
+        told = " ".join(f"{name} {value}" for name, value in settings.items())
+        raise Finding(f"{file}, {told}: status {result.status}: {result.error[-3000:]}")
+    return result.status == 0
 
 
 def must(result, *statuses):

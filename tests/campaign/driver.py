@@ -2,12 +2,11 @@
 """A driver that fails: the n-th call of OpenGL loses the context, or does nothing and says that memory ran out, for every n of small renders
 (tests/command/failing_driver_test.py, whose stand-in and checks these are). The status is 1 or 4 with one message, and the old file stays.
 The viewer comes back from each loss with the same picture (tests/viewer/lost_context_test.py)."""
-import os
 import subprocess
 
 from failing_driver_test import Failing
 
-from common import Absent, Finding, Run
+from common import Absent, Finding, view
 
 ASKED = {"lost contexts": 200, "failing calls": 2000, "lost contexts in the viewer": 200}
 VIEWED = 50  # every so many cases the viewer
@@ -45,20 +44,11 @@ def prepare(ground):
     return made
 
 
-def viewed(ground, folder):
-    environment = {**os.environ, "FRAGTRACE_LOSSES": str(LOSSES)}
-    words = ["/usr/bin/python3", ground.source / "tests/viewer/lost_context_test.py", ground.fragtrace, ground.source, "LostContext"]
-    with Run(words, folder, environment) as process:
-        result = process.wait(600)
-    if result.status not in (0, 77):
-        raise Finding(f"the viewer: {result.error[-3000:]}")
-    return {"lost contexts in the viewer": 0 if result.status else LOSSES}
-
-
 def case(ground, made, number, folder):
     """Draws each of the c calls of a setting once, since c and the step have no common divisor, or nearly all."""
     if number % VIEWED == 0 and not ground.brief:
-        return viewed(ground, folder)
+        seen = view(ground, ("lost_context_test.py", "LostContext"), folder, 600, losses=LOSSES)
+        return {"lost contexts in the viewer": LOSSES if seen else 0}
     kind = ("lost", "memory")[number % 2]
     setting, calls, right = made[number // 2 % len(made)]
     call = number // 2 // len(made) * STEP % len(calls) + 1

@@ -8,7 +8,7 @@ import subprocess
 import time
 from pathlib import Path
 
-from common import Finding, Run, Stopped, must, stop
+from common import Finding, Run, Stopped, must, stop, view
 
 ASKED = {"frames": 100_000, "loads": 10_000, "seconds of the viewer": 28_800}
 BRIEF = False
@@ -72,22 +72,11 @@ def loads(ground, folder):
     return {"loads": LOADS}
 
 
-def viewer(ground, number, folder):
-    environment = {**os.environ, "FRAGTRACE_RANDOM_SECONDS": str(SECONDS), "FRAGTRACE_RANDOM_SEED": str(number),
-                   "FRAGTRACE_RANDOM_LOG": str(folder / "memory.log")}
-    words = ["/usr/bin/python3", ground.source / "tests/viewer/random_events_test.py", ground.fragtrace, ground.source, "RandomEvents"]
-    with Run(words, folder, environment) as process:
-        result = process.wait(SECONDS + 600)
-    if result.status == 77:
-        return {}
-    if result.status != 0:
-        raise Finding(f"random events of seed {number}: status {result.status}: {result.error[-3000:]}")
-    return {"seconds of the viewer": SECONDS}
-
-
 def case(ground, _, number, folder):
     """Of 15 cases ten are sequences, four the viewer and one loads, so that all reach what is asked for at about the same time."""
     place = number % 15
     if place % 4 == 2:
-        return viewer(ground, number, folder)
+        settings = {"random_seconds": SECONDS, "random_seed": number, "random_log": folder / "memory.log"}
+        seen = view(ground, ("random_events_test.py", "RandomEvents"), folder, SECONDS + 600, **settings)
+        return {"seconds of the viewer": SECONDS if seen else 0}
     return loads(ground, folder) if place == 7 else sequence(ground, number, folder)
