@@ -79,8 +79,8 @@ struct SharedTexture {
   unsigned texture = 0;
   void* ready = nullptr;  ///< the GLsync after which it holds the picture; the tracing thread's
 };
-/// There are four textures for a side: one is shown, one waits for its fence, the window has just taken one that
-/// replaces the latter, and one is drawn.
+/// There are four textures for a side: one is shown, one waits for its fence, the window has just taken one
+/// that replaces the latter, and one is drawn.
 inline constexpr size_t kSlots = 4;
 
 /// A finished picture of one side.
