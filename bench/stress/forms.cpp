@@ -101,6 +101,12 @@ SceneSketch flattened(const SceneSketch& sketch) {
   return flat;
 }
 
+SceneSketch shared(const SceneSketch& sketch) {
+  SceneSketch other = sketch;
+  other.instancing = Instancing::Share;
+  return other;
+}
+
 /// Part k of a mesh: every count-th triangle; all parts keep all vertices.
 SketchMesh partOf(const SketchMesh& mesh, size_t k, size_t count) {
   SketchMesh part = mesh;
@@ -159,6 +165,8 @@ SceneSketch inForm(const SceneSketch& sketch, Form form, uint32_t seed) {
       return flattened(sketch);
     case Form::Split:
       return split(sketch, dice);
+    case Form::Shared:
+      return shared(sketch);
   }
   return sketch;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bench/stress/likeness.h"
 
+#include <array>
 #include <cmath>
 
 #include "base/text.h"
@@ -54,6 +55,15 @@ SceneDrawing drawingOf(const Context& context, const SceneSketch& drawn, RenderO
   return {context, sceneOf(drawn), options, environmentOf(drawn), drawn.skyTurn};
 }
 
+/// The other way to draw the same: the shader reads the scene by other buffers, and runs in another stage.
+RenderOptions byOtherMeans(RenderOptions options, uint32_t seed) {
+  constexpr std::array kReads{BufferReads::Ssbo, BufferReads::Image, BufferReads::Texel};
+  options.device.bufferReads = kReads[seed / 7 % kReads.size()];
+  options.device.dispatch = seed / 11 % 2 == 0 ? Dispatch::Fragment : Dispatch::Compute;
+  if (options.device.schedule == Schedule::Wavefront) options.device.dispatch = Dispatch::Auto;
+  return options;
+}
+
 /// A random scene and its form.
 struct Pair {
   SceneSketch sketch;
@@ -65,7 +75,8 @@ struct Pair {
       : sketch(randomSketch(seed)),
         other(inForm(sketch, form, seed)),
         a(drawingOf(context, sketch, options, options.sampling.seed)),
-        b(drawingOf(context, other, options, options.sampling.seed + (sameNumbers(form) ? 0 : 1))) {}
+        b(drawingOf(context, other, byOtherMeans(options, seed),
+                    options.sampling.seed + (sameNumbers(form) ? 0 : 1))) {}
 
   void compareHits(Likeness& l, const SceneDrawing::GoOn& goOn) {
     const FilmPixels before = a.depth(goOn);

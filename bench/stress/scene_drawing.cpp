@@ -4,6 +4,7 @@
 #include "base/errors.h"
 #include "bench/report/scratch_folder.h"
 #include "bvh/bvh.h"
+#include "gl/driver_choice.h"
 #include "gl/schedule.h"
 #include "gltf/gltf.h"
 #include "pack/literals.h"
@@ -14,7 +15,7 @@ namespace fragtrace {
 Scene sceneOf(const SceneSketch& sketch) {
   const ScratchFolder folder;
   writeSketch(sketch, folder.path());
-  return loadGltf(folder.path() / "sketch.gltf");
+  return loadGltf(folder.path() / "sketch.gltf", {.instancing = sketch.instancing});
 }
 
 Environment environmentOf(const SceneSketch& sketch) {
@@ -39,6 +40,8 @@ SceneDrawing::SceneDrawing(const Context& context, const Scene& scene, const Ren
   }
   picture_.reads = chooseReads(options.device.bufferReads, context.software, packed, readLimits()).reads;
   depth_.reads = picture_.reads;
+  const bool literals = picture_.traversal == TraversalMethod::Literals;
+  picture_.dispatch = chooseDispatch(options.device.dispatch, context, literals);
   chooseSchedule(picture_, options, {});
   renderer_ =
       std::make_unique<Renderer>(context, std::move(packed), picture_.reads, options.device.shaderFolder);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "image/image.h"
+#include "scene/scene.h"
 
 namespace fragtrace {
 
@@ -69,6 +70,7 @@ struct SceneSketch {
   glm::dmat4 root{1.0};  ///< transform of nodes, lights and the camera
   Image sky;             ///< the environment map; 0 x 0: none
   double skyTurn = 0.0;  ///< radians about +y
+  Instancing instancing = Instancing::Flatten;
 };
 
 /// The matrix of a camera at a point that looks at another, +y up.

@@ -4,6 +4,7 @@
 import json
 import math
 import random
+import struct
 import subprocess
 import unittest
 from pathlib import Path
@@ -38,6 +39,7 @@ class Volumes(Case):
         done = run("render", scene or self.camera_alone() + ".gltf", "-o", self.folder / "x.pfm", "--spp", 1, "--resolution", "8,8", *options)
         self.assertEqual(done.returncode, status, (options, done.stderr))
         self.assertIn(reason, done.stderr)
+        self.assertEqual(sum(": warning: " not in line for line in done.stderr.splitlines()), 1, done.stderr)
 
     def test_a_grid_dims_by_its_depth(self):
         """Beer's law holds through the middle of a cube of 30 of 32 voxels, for two types and codecs."""
@@ -164,6 +166,11 @@ class Volumes(Case):
         text = self.folder / "text.nvdb"
         text.write_text("this is no grid, but a text that is long enough to be one\n" * 20)
         self.refused("text.nvdb", "--volume", text)
+        later = self.folder / "later.nvdb"
+        data = bytearray(self.grid("ball").read_bytes())
+        struct.pack_into("<I", data, 8, 37 << 21)  # the version, whose major number counts
+        later.write_bytes(data)
+        self.refused("against the newer version", "--volume", later)
 
     def test_grids_with_little_in_them(self):
         empty = run("render", self.camera_alone() + ".gltf", "-o", self.folder / "x.pfm", "--spp", 1, "--resolution", "8,8", "--volume",

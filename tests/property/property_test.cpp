@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // property_test BACKEND FIRST COUNT [FORM]: scenes of the seeds FIRST, FIRST + 1, ... are drawn as they are
-// and in an equivalent form (bench/stress/forms.h), which must show the same. Seed s takes form s / 6 % 6
+// and in an equivalent form (bench/stress/forms.h), which must show the same. Seed s takes form s / 6 % 7
 // unless one is named. A scene that does not is printed with its seed and form: `property_test egl SEED 1
 // FORM` draws it again.
 #include <cstdio>

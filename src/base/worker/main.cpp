@@ -7,6 +7,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -31,8 +33,13 @@ WorkFunction* openModule(const char* path) {
   return module == nullptr ? nullptr : reinterpret_cast<WorkFunction*>(::dlsym(module, kWorkFunction));
 }
 
+/// A message is one line, but a library's text may have several.
 void setReason(WorkReply& reply, const char* reason) {
-  std::strncpy(reply.reason, reason, sizeof reply.reason - 1);
+  std::string line = reason;
+  std::ranges::replace_if(line, [](char c) { return std::iscntrl(uint8_t(c)) != 0; }, ' ');
+  const auto doubled = std::ranges::unique(line, [](char a, char b) { return a == ' ' && b == ' '; });
+  line.erase(doubled.begin(), doubled.end());
+  std::strncpy(reply.reason, line.c_str(), sizeof reply.reason - 1);
 }
 
 WorkReply answer(WorkFunction* work, const WorkRequest& request, int file) {
