@@ -19,8 +19,8 @@ enum class Form : uint8_t {
   Split,      ///< each mesh into several
   Shared,     ///< meshes held once, shown by instances
 };
-inline constexpr std::array<std::string_view, 7> kFormNames{
-    "scaled", "moved", "turned", "reordered", "flattened", "split", "shared"};
+inline constexpr std::array<std::string_view, 7> kFormNames{"scaled",    "moved", "turned", "reordered",
+                                                            "flattened", "split", "shared"};
 
 /// The sketch in another form; the seed chooses by how much, or in which way.
 SceneSketch inForm(const SceneSketch& sketch, Form form, uint32_t seed);

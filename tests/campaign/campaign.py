@@ -12,6 +12,7 @@ alone. state.json in FRAGTRACE's folder holds what was reached; findings/NAME-NU
 import argparse
 import importlib
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -42,8 +43,8 @@ def parsed(words):
     if unknown:
         parser.error(f"there is no campaign {unknown[0]}; there are {', '.join(NAMES)}")
     if sum((options.hours is not None, options.seconds is not None, options.case is not None)) != (0 if options.table and options.hours is None else 1):
-        parser.error("one of HOURS, --seconds, --case and --table is needed")
-    if options.case and not options.case[1].isdigit():
+        parser.error("one of HOURS, --seconds, --case and --table is needed, and no second one")
+    if options.case and not re.fullmatch("[0-9]+", options.case[1]):
         parser.error(f"'{options.case[1]}' is no number of a case")
     if not all(number is None or 0 < number < 1e6 for number in (options.hours, options.seconds)):
         parser.error("the time must be above 0")
@@ -171,12 +172,15 @@ def is_done(name, state):
 
 
 def one_case(options, state):
-    """Draws a case again; a finding that is none any more is mended."""
+    """Draws a case again, many times where its moment is left to chance; a finding that is none any more is mended."""
     name, number = options.case[0], int(options.case[1])
+    row = state.changed(name)
     campaign = Campaign(name, ground_of(name, options, state, False), state)
     campaign.prepare()
-    says, counts = campaign.draw(number)
-    row = state.changed(name)
+    for _ in range(getattr(campaign.module, "REPEATS", 1)):
+        says, counts = campaign.draw(number)
+        if says:
+            break
     if not says:
         print(f"{name} {number}: no finding ({', '.join(f'{count} {unit}' for unit, count in counts.items())})")
         row["mended"] += [one for one in row["findings"] if one["number"] == number]
@@ -210,20 +214,23 @@ def main():
     sys.path[:0] = [str(HERE), str(HERE.parent / "command")]
     global common, reached
     import common
-    from state import State, reached, write_table
+    from state import State, Unusable, reached, write_table
     signal.signal(signal.SIGTERM, signal.default_int_handler)
-    state = State(options.state or options.fragtrace.resolve().parent / "campaign", options.source)
     status = 0
     try:
+        state = State(options.state or options.fragtrace.resolve().parent / "campaign", options.source)
         if options.case:
             return one_case(options, state)
         if options.hours or options.seconds:
             status = campaigns(options, state)
+    except Unusable as reason:
+        print(f"campaign: {reason}", file=sys.stderr)
+        return 2
     except KeyboardInterrupt:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
         print("\ncampaign: interrupted; it goes on there when it is started again", file=sys.stderr)
         status = 130
-    finally:
-        state.save()
+    state.save()
     text = state.table({name: module_of(name).ASKED for name in NAMES})
     print(text, end="")
     if options.table:

@@ -13,6 +13,7 @@ import time
 from common import Finding, Run, Stopped, must, preloaded, processor_seconds, run, session_of, stop
 
 ASKED = {"starts": 20000}
+REPEATS = 100  # of a finding, before it counts as mended
 JOBS = 6  # most of a start waits for a processor
 LOOPS = 8
 PATIENCE = 10.0  # seconds without processor time

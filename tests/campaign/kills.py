@@ -11,6 +11,7 @@ from pathlib import Path
 from common import Finding, Run, check_whole, contents, must, parts_in, preloaded, run
 
 ASKED = {"signals": 1000}
+REPEATS = 100  # of a finding, before it counts as mended
 ENDING = (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
 SIGNALS = (signal.SIGKILL, signal.SIGKILL, *ENDING, signal.SIGSTOP)
 OLD = b"what was there before\n" * 100

@@ -9,6 +9,7 @@ import subprocess
 from common import Absent, Finding, Run
 
 ASKED = {"seconds": 3600}
+REPEATS = 5  # of a finding, before it counts as mended
 BRIEF = False
 JOBS = 2
 

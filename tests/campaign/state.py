@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Keeps what the campaigns have reached in a file that is replaced as a whole, and makes a table of it."""
+import copy
 import datetime
 import fcntl
 import json
@@ -7,7 +8,12 @@ import os
 import re
 import subprocess
 
+EMPTY = {"counts": {}, "next": 0, "again": [], "findings": [], "mended": [], "commits": [], "date": "", "seconds": 0}
 MARKS = re.compile(r"(<!-- campaigns -->\n).*?(<!-- end of campaigns -->)", re.S)
+
+
+class Unusable(Exception):
+    """State that cannot be read or written, or that another process writes."""
 
 
 def commit_of(source):
@@ -33,17 +39,37 @@ def reached(row):
 class State:
     def __init__(self, folder, source):
         self.folder, self.findings, self.file = folder, folder / "findings", folder / "state.json"
-        folder.mkdir(parents=True, exist_ok=True)
-        self.rows = json.loads(self.file.read_text()) if self.file.exists() else {}
-        self.used = set()
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise Unusable(f"{folder}: {error.strerror}") from None
+        self.rows = self.read()
+        self.locks = {}  # of the campaigns that this process runs
         self.commit = commit_of(source)
 
+    def read(self):
+        try:
+            rows = json.loads(self.file.read_text()) if self.file.exists() else {}
+            if all(set(EMPTY) <= set(row) for row in rows.values()):
+                return rows
+            raise ValueError("a campaign lacks some of its members")
+        except (OSError, ValueError, AttributeError, TypeError) as error:
+            raise Unusable(f"{self.file}: is no state of campaigns ({error}); move it away to begin anew") from None
+
     def changed(self, name):
-        self.used.add(name)
+        """The row, which this process alone may change from now on."""
+        if name not in self.locks:
+            lock = open(self.folder / f"{name}.lock", "w")
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                raise Unusable(f"{self.folder}: another process runs {name}") from None
+            self.locks[name] = lock
+            self.rows[name] = self.read().get(name) or self.row(name)
         return self.row(name)
 
     def row(self, name):
-        return self.rows.setdefault(name, {"counts": {}, "next": 0, "again": [], "findings": [], "mended": [], "commits": [], "date": "", "seconds": 0})
+        return self.rows.setdefault(name, copy.deepcopy(EMPTY))
 
     def add(self, row, counts):
         for unit, count in counts.items():
@@ -59,9 +85,8 @@ class State:
         """The rows that were asked for; others may be those of a campaign that runs at the same time."""
         with open(self.folder / "lock", "w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
-            there = json.loads(self.file.read_text()) if self.file.exists() else {}
             part = self.file.with_suffix(".part")
-            part.write_text(json.dumps({**there, **{name: self.rows[name] for name in self.used}}, indent=1) + "\n")
+            part.write_text(json.dumps({**self.read(), **{name: self.rows[name] for name in self.locks}}, indent=1) + "\n")
             os.replace(part, self.file)
 
     def table(self, asked):

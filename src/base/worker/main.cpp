@@ -36,7 +36,8 @@ WorkFunction* openModule(const char* path) {
 /// A message is one line, but a library's text may have several.
 void setReason(WorkReply& reply, const char* reason) {
   std::string line = reason;
-  std::ranges::replace_if(line, [](char c) { return std::iscntrl(uint8_t(c)) != 0; }, ' ');
+  std::ranges::replace_if(
+      line, [](char c) { return std::iscntrl(uint8_t(c)) != 0; }, ' ');
   const auto doubled = std::ranges::unique(line, [](char a, char b) { return a == ' ' && b == ' '; });
   line.erase(doubled.begin(), doubled.end());
   std::strncpy(reply.reason, line.c_str(), sizeof reply.reason - 1);
