@@ -38,8 +38,8 @@ void setReason(WorkReply& reply, const char* reason) {
   std::string line = reason;
   std::ranges::replace_if(
       line, [](char c) { return std::iscntrl(uint8_t(c)) != 0; }, ' ');
-  const auto doubled = std::ranges::unique(line, [](char a, char b) { return a == ' ' && b == ' '; });
-  line.erase(doubled.begin(), doubled.end());
+  const auto doubled = [](char a, char b) { return a == ' ' && b == ' '; };
+  line.erase(std::unique(line.begin(), line.end(), doubled), line.end());
   std::strncpy(reply.reason, line.c_str(), sizeof reply.reason - 1);
 }
 
