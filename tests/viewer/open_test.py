@@ -3,6 +3,7 @@
 """Files that are opened and saved: by the desktop's dialog (a portal of the tests' own), by the list in the window, and those shown before."""
 import json
 import shutil
+import signal
 import time
 import unittest
 from urllib.parse import quote
@@ -89,6 +90,29 @@ class Open(Case):
         viewer.key("ctrl+o")
         viewer.wait(lambda: len(portal.calls) == 2, 10, "asked")
         viewer.until(lambda s: s["dialog"] == "desktop", "it is waited for")
+        self.ends_well(viewer, viewer.close())
+
+    @unittest.skipIf(WHY_NOT, WHY_NOT)
+    def test_a_tip_and_the_list_appear_in_one_frame(self):
+        """Dear ImGui 1.86 ends the program where a window appears after a modal one in the latter's first frame."""
+        bus = Bus()
+        self.addCleanup(bus.close)
+        portal = Portal(bus)
+        viewer = self.view("furnace", *FEW, environment={**self.screen.environment, "DBUS_SESSION_BUS_ADDRESS": bus.address})
+        viewer.key("Tab")
+        row = viewer.until(lambda s: s["places"].get("Denoise"), "the panel")["places"]["Denoise"]
+        for _ in range(4):
+            portal.answers = ["silent"]
+            viewer.at(10, 10)
+            viewer.key("ctrl+o")
+            viewer.until(lambda s: s["dialog"] == "desktop", "it is waited for")
+            viewer.process.send_signal(signal.SIGSTOP)
+            viewer.at(round(row[0] + row[2] / 2), round(row[1] + row[3] / 2))
+            viewer.key("ctrl+o")
+            viewer.process.send_signal(signal.SIGCONT)
+            self.list_of(viewer, None)
+            viewer.key("Escape")
+            self.no_dialog(viewer)
         self.ends_well(viewer, viewer.close())
 
     def test_the_list_and_files_shown_before(self):
