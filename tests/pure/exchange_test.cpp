@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <iterator>
 #include <random>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -114,6 +116,31 @@ TEST(Exchange, ASlotThatIsDrawnToBelongsToNobodyElse) {
       held.erase(gone);
     }
   }
+}
+
+/// Each message and the last request arrive, whatever the two threads do meanwhile.
+TEST(Exchange, NothingIsLostBetweenTwoThreads) {
+  constexpr size_t kMessages = 2000;
+  Exchange exchange;
+  std::thread tracer([&] {
+    for (size_t i = 0; i < kMessages; ++i) {
+      TracedPicture picture;
+      picture.shared.slot = exchange.freeSlot(0, false).first;
+      exchange.deliver(std::move(picture));
+      exchange.tell(std::to_string(i));
+    }
+  });
+  std::vector<std::string> messages;
+  uint64_t asked = 0;
+  while (messages.size() < kMessages) {
+    asked = exchange.ask({RenderOptions{}}, {1, 1}, false);
+    Delivery news = exchange.take();
+    for (const TracedPicture& picture : news.pictures) exchange.giveBack(0, picture.shared, nullptr);
+    std::ranges::move(news.messages, std::back_inserter(messages));
+  }
+  tracer.join();
+  EXPECT_EQ(messages.back(), std::to_string(kMessages - 1));
+  EXPECT_EQ(exchange.wait(0.0).request->number, asked);
 }
 
 /// Else the window would show an old picture beside a new one.
