@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Damaged files. In process: the fuzz targets of scripts/fuzz, under sanitizers, whose executions are counted. Through the real command line:
+"""Damaged files. In process: scenes, and the fuzz targets of scripts/fuzz, whose executions are counted, under sanitizers. Through the real command line:
 files that are damaged by a case's number (damage.py). The status is a documented one, there is one message, it takes at most 10 s of processor
 time, it ends in limited memory, and no file outside is touched."""
+import os
 import random
 import re
 import resource
@@ -17,7 +18,8 @@ KINDS = ("gltf", "gltf", "gltf", "glb", "bin", "png", "jpg", "hdr", "exr", "webp
 STATUSES = {"config": (0, 2, 3), "checkpoint": (0, 2, 3), "part.exr": (0, 1, 2, 3)}  # 2: of another render, or without what is asked for
 SECONDS = 10  # of processor time, of all processes together
 ADDRESSES = 6 << 30  # bytes
-FUZZED = 100  # every so many cases a minute of the fuzz targets
+FUZZED = 100  # every so many cases a minute of the fuzz targets, and between two of these
+BATCH = 1000  # damaged scenes in process
 fuzzing = threading.Lock()
 
 
@@ -38,6 +40,22 @@ def fuzz(ground, seconds):
     if result.returncode != 0 and not stop.is_set():
         raise Finding(f"scripts/fuzz: {result.stderr[-3000:]}")
     return {"inputs": sum(int(count) for log in logs for count in re.findall(r"stat::number_of_executed_units: (\d+)", log))}
+
+
+def in_process(ground, files, number, folder):
+    """Damaged scenes, loaded, made into a tree and packed under sanitizers (tests/fuzz/loader_fuzz.cpp)."""
+    dice = random.Random(f"scenes {number}")
+    for i in range(BATCH):
+        (folder / str(i)).write_bytes(damage.damaged(dice.choice(("gltf", "glb")), files, dice))
+    subprocess.run([ground.source / "scripts/build", "sanitize", "loader_fuzz"], check=True, capture_output=True)
+    build = ground.source / "build-sanitize"
+    words = [build / "loader_fuzz", "-timeout=10", "-rss_limit_mb=4096", *(str(i) for i in range(BATCH))]
+    with Run(words, folder, {**os.environ, "FRAGTRACE_LIBRARY_PATH": str(build)}) as process:
+        result = process.wait(1800)
+    if result.status != 0:
+        last = result.error.rpartition("Running: ")[2].partition("\n")[0]
+        raise Finding(f"scene {last} of batch {number}: status {result.status}: {result.error[-3000:]}")
+    return {"inputs": BATCH}
 
 
 def words_of(ground, kind, data, folder):
@@ -69,6 +87,8 @@ def case(ground, files, number, folder):
             return fuzz(ground, 30)
         finally:
             fuzzing.release()
+    if number % FUZZED == FUZZED // 2 and not ground.brief:
+        return in_process(ground, files, number, folder)
     dice = random.Random(f"inputs {number}")
     kind = dice.choice(KINDS)
     words = words_of(ground, kind, damage.damaged(kind, files, dice), folder)
