@@ -2,8 +2,10 @@
 #include "base/worker.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstring>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "base/message.h"
@@ -27,6 +29,16 @@ void noteConfinement(const WorkReply& reply) {
   if (length == 0) return;
   const std::lock_guard lock(unconfined().mutex);
   unconfined().reason.assign(reply.unconfined, length);
+}
+
+/// A message is one line, but a library's text may have several.
+std::string reasonOf(const WorkReply& reply) {
+  std::string line(reply.reason, ::strnlen(reply.reason, sizeof reply.reason));
+  std::ranges::replace_if(
+      line, [](char c) { return std::iscntrl(uint8_t(c)) != 0; }, ' ');
+  const auto doubled = [](char a, char b) { return a == ' ' && b == ' '; };
+  line.erase(std::unique(line.begin(), line.end(), doubled), line.end());
+  return line;
 }
 
 }  // namespace
@@ -72,8 +84,7 @@ WorkResult Worker::perform(std::initializer_list<std::span<const uint8_t>> parts
       !awaitReply(*child_, asMessage(reply), patienceMs))
     failLocked(limits);
   noteConfinement(reply);
-  if (reply.done == 0)
-    throw std::runtime_error(std::string(reply.reason, ::strnlen(reply.reason, sizeof reply.reason)));
+  if (reply.done == 0) throw std::runtime_error(reasonOf(reply));
   if (reply.outputBytes > room) throw std::runtime_error("the worker process sent a broken answer");
   return {memory, memory->bytes().subspan(request.outputOffset(), reply.outputBytes)};
 }

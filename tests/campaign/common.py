@@ -15,7 +15,7 @@ from pathlib import Path
 
 over = threading.Event()  # no further case begins
 stop = threading.Event()  # those that run are given up
-NO_DISPLAY = 77  # the status of a test of the viewer that was skipped
+SKIPPED = 77  # the status of a test that cannot run here
 TICKS = os.sysconf("SC_CLK_TCK")
 
 
@@ -146,7 +146,7 @@ def view(ground, test, folder, seconds, **settings):
     file, case = test
     with Run(["/usr/bin/python3", ground.source / "tests/viewer" / file, ground.fragtrace, ground.source, case], folder, environment) as process:
         result = process.wait(seconds)
-    if result.status not in (0, NO_DISPLAY):
+    if result.status not in (0, SKIPPED):
         told = " ".join(f"{name} {value}" for name, value in settings.items())
         raise Finding(f"{file}, {told}: status {result.status}: {result.error[-3000:]}")
     return result.status == 0

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Random scenes in equivalent forms (tests/property/property_test.cpp): scaled, moved, turned, reordered, flattened, split and shared, by
 both schedules and, in the other form, other reads of buffers and another stage of the pipeline, on both backends. Each must show the same. A case is one scene, its number the seed."""
-from common import Finding, Run
+from common import SKIPPED, Finding, Run
 
 ASKED = {"scenes": 5000}
-SKIPPED = 77  # libOSMesa is not installed
 
 
 def prepare(ground):
@@ -17,7 +16,7 @@ def case(ground, _, number, folder):
     backend = ("egl", "osmesa")[number // 5 % 2]
     with Run([ground.build / "property_test", backend, number, 1], folder) as process:
         result = process.wait(300)
-    if result.status == SKIPPED:
+    if result.status == SKIPPED:  # without libOSMesa
         return {}
     if result.status != 0:
         raise Finding(f"scene {number}: status {result.status}: {(result.output + result.error).strip()}; repeat: build/property_test {backend} {number} 1")

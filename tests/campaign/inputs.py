@@ -18,13 +18,15 @@ KINDS = ("gltf", "gltf", "gltf", "glb", "bin", "png", "jpg", "hdr", "exr", "webp
 STATUSES = {"config": (0, 2, 3), "checkpoint": (0, 2, 3), "part.exr": (0, 1, 2, 3)}  # 2: of another render, or without what is asked for
 SECONDS = 10  # of processor time, of all processes together
 ADDRESSES = 6 << 30  # bytes
-FUZZED = 100  # every so many cases a minute of the fuzz targets, and between two of these
-BATCH = 1000  # damaged scenes in process
+FUZZED = 100  # every so many cases there is a minute of the fuzz targets; half-way between, a batch of scenes in process
+BATCH = 1000  # scenes
 fuzzing = threading.Lock()
 
 
 def prepare(ground):
     sys.path.insert(0, str(ground.source / "tests/fuzz"))
+    if not ground.brief:
+        subprocess.run([ground.source / "scripts/build", "sanitize", "loader_fuzz"], check=True)
     return damage.seeds(ground)
 
 
@@ -47,7 +49,6 @@ def in_process(ground, files, number, folder):
     dice = random.Random(f"scenes {number}")
     for i in range(BATCH):
         (folder / str(i)).write_bytes(damage.damaged(dice.choice(("gltf", "glb")), files, dice))
-    subprocess.run([ground.source / "scripts/build", "sanitize", "loader_fuzz"], check=True, capture_output=True)
     build = ground.source / "build-sanitize"
     words = [build / "loader_fuzz", "-timeout=10", "-rss_limit_mb=4096", *(str(i) for i in range(BATCH))]
     with Run(words, folder, {**os.environ, "FRAGTRACE_LIBRARY_PATH": str(build)}) as process:

@@ -7,8 +7,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -33,14 +31,8 @@ WorkFunction* openModule(const char* path) {
   return module == nullptr ? nullptr : reinterpret_cast<WorkFunction*>(::dlsym(module, kWorkFunction));
 }
 
-/// A message is one line, but a library's text may have several.
 void setReason(WorkReply& reply, const char* reason) {
-  std::string line = reason;
-  std::ranges::replace_if(
-      line, [](char c) { return std::iscntrl(uint8_t(c)) != 0; }, ' ');
-  const auto doubled = [](char a, char b) { return a == ' ' && b == ' '; };
-  line.erase(std::unique(line.begin(), line.end(), doubled), line.end());
-  std::strncpy(reply.reason, line.c_str(), sizeof reply.reason - 1);
+  std::strncpy(reply.reason, reason, sizeof reply.reason - 1);
 }
 
 WorkReply answer(WorkFunction* work, const WorkRequest& request, int file) {
