@@ -122,7 +122,7 @@ FRAMES = (
 
 # Cases that break ray tracers, each seed with others.
 STRESS_SEEDS = (0, 1, 2)
-STRESS_CALLS = (("rays", []), ("shell", []), ("strips", ["--quick"]), ("boxes", []), ("skins", []), ("bad", []), ("glass,contact", []), ("scenes", []),
+STRESS_CALLS = (("rays", []), ("shell", []), ("strips", ["--quick"]), ("boxes", []), ("skins", []), ("leaks", ["--quick"]), ("bad", []), ("glass,contact", []), ("scenes", []),
                 ("hits", []), ("tree", []), ("film", ["--quick"]), ("no numbers", []))  # strips: each wedge has a program of its own
 STRESS_SECONDS = 500  # limit for all seeds together, so this part needs a call of its own
 

@@ -41,6 +41,19 @@ StressOutcome scatterInBoxes(const StressSetting& setting);
 /// is cut out everywhere.
 StressOutcome scatterInSkinnedBoxes(const StressSetting& setting);
 
+// Closed meshes that leak (docs/design/ray-origins.md): cases are paths inside, failures pixels that are not
+// black.
+
+/// Shells that are instances of one mesh as in scatterInSharedShells(), scaled up to three times as much
+/// along one axis as along another.
+StressOutcome scatterInUnevenShells(const StressSetting& setting);
+/// Prisms of three and four sides, about as long as wide, cut at random into triangles of all sizes.
+StressOutcome scatterInCutMeshes(const StressSetting& setting);
+/// Does the same in prisms 10,000 times as long as wide.
+StressOutcome scatterInLongPrisms(const StressSetting& setting);
+/// Boxes through whose walls pass sheets that share no edge with them.
+StressOutcome scatterInCrossedBoxes(const StressSetting& setting);
+
 // Shading in a white furnace: whatever normals and boundaries are, no pixel is black, too bright or not a
 // number.
 

@@ -77,6 +77,29 @@ void scatterInside(const StressSetting& setting, SceneDrawing& picture, const gl
   }
 }
 
+/// Traces paths inside spiky shells that are instances of one mesh.
+StressOutcome scatterInShells(const StressSetting& setting, bool uneven) {
+  constexpr size_t kShells = 8;
+  const glm::ivec2 pixels = setting.quick ? glm::ivec2(32) : glm::ivec2(128);
+  Dice dice(71 + setting.seed * kSeedStride);
+  Scene scene = spikyMesh(dice);
+  for (size_t i = 0; i < kShells; ++i) {
+    // Half of the shells are near the origin, half far from it. None is within another.
+    const glm::dvec3 place =
+        glm::dvec3(20.0 * double(i), 0.0, 0.0) + (i % 2 == 0 ? glm::dvec3(0.0) : 1000.0 * dice.direction());
+    const glm::dmat4 turned =
+        glm::rotate(glm::translate(glm::dmat4(1.0), place), dice.between(0.0, 6.0), dice.direction());
+    glm::dvec3 scale(dice.between(2.0, 8.0));
+    if (uneven) scale *= glm::dvec3(1.0, dice.between(1.0, 3.0), dice.between(1.0, 3.0));
+    scene.instances.push_back({glm::scale(turned, scale), 0, ""});
+  }
+  SceneDrawing picture = drawingOf(setting, scene, whiteWorld(1e4f), optionsOf(setting, Stage::Gi));
+  StressOutcome outcome;
+  for (const Instance& instance : scene.instances)
+    scatterInside(setting, picture, glm::dvec3(instance.toLocal[3]), pixels, setting.quick ? 4 : 16, outcome);
+  return outcome;
+}
+
 }  // namespace
 
 StressOutcome lookOutOfBlackShell(const StressSetting& setting) {
@@ -100,24 +123,8 @@ StressOutcome scatterInWhiteShell(const StressSetting& setting) {
   return outcome;
 }
 
-StressOutcome scatterInSharedShells(const StressSetting& setting) {
-  constexpr size_t kShells = 8;
-  const glm::ivec2 pixels = setting.quick ? glm::ivec2(32) : glm::ivec2(128);
-  Dice dice(71 + setting.seed * kSeedStride);
-  Scene scene = spikyMesh(dice);
-  for (size_t i = 0; i < kShells; ++i) {
-    // Half of the shells are near the origin, half far from it. None is within another.
-    const glm::dvec3 place =
-        glm::dvec3(20.0 * double(i), 0.0, 0.0) + (i % 2 == 0 ? glm::dvec3(0.0) : 1000.0 * dice.direction());
-    const glm::dmat4 turned =
-        glm::rotate(glm::translate(glm::dmat4(1.0), place), dice.between(0.0, 6.0), dice.direction());
-    scene.instances.push_back({glm::scale(turned, glm::dvec3(dice.between(2.0, 8.0))), 0, ""});
-  }
-  SceneDrawing picture = drawingOf(setting, scene, whiteWorld(1e4f), optionsOf(setting, Stage::Gi));
-  StressOutcome outcome;
-  for (const Instance& instance : scene.instances)
-    scatterInside(setting, picture, glm::dvec3(instance.toLocal[3]), pixels, setting.quick ? 4 : 16, outcome);
-  return outcome;
-}
+StressOutcome scatterInSharedShells(const StressSetting& setting) { return scatterInShells(setting, false); }
+
+StressOutcome scatterInUnevenShells(const StressSetting& setting) { return scatterInShells(setting, true); }
 
 }  // namespace fragtrace

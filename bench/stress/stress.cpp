@@ -22,6 +22,15 @@ std::vector<StressRow> stressRows() {
   rows.push_back({"boxes", "paths inside white boxes, right-angled or nearly so", 0.0, true, scatterInBoxes});
   rows.push_back({"skins", "paths inside white boxes with see-through skins on their walls", 0.0, true,
                   scatterInSkinnedBoxes});
+  // These leak (docs/design/ray-origins.md). The limits are bounds on measured shares.
+  rows.push_back({"leaks uneven", "paths inside spiky white shells, unevenly scaled instances of one mesh",
+                  1e-6, true, scatterInUnevenShells});
+  rows.push_back({"leaks cut", "paths inside white prisms that are cut at random into triangles of all sizes",
+                  1e-6, true, scatterInCutMeshes});
+  rows.push_back(
+      {"leaks long", "the same in prisms 10,000 times as long as wide", 5e-3, true, scatterInLongPrisms});
+  rows.push_back({"leaks crossed", "paths inside white boxes whose walls are crossed by sheets", 3e-6, true,
+                  scatterInCrossedBoxes});
   rows.push_back({"bad normals", "missing, backwards and tilted normals in a white furnace", 0.0, false,
                   shadeBadNormals});
   // Mirror directions along the surface: a few paths do not come back with all of their light

@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: MIT
 """Signals at random moments. Every output is then whole, the old one or the new one, and at most one part file is left, which the next run
-removes. Every second case delays the program's own calls of the system, and in half of these the moment is counted from the first change of a
-file, so that more moments lie within the writing of one."""
+removes. Every 50th case sends them to the viewer while it saves (tests/viewer/killed_test.py). Every second one of the others delays the
+program's own calls of the system, and in half of these the moment is counted from the first change of a file, so that more moments lie within
+the writing of one."""
 import os
 import random
 import signal
 import time
 from pathlib import Path
 
-from common import Finding, Run, check_whole, contents, must, parts_in, preloaded, run
+from common import Finding, Run, check_whole, contents, must, parts_in, preloaded, run, view
 
-ASKED = {"signals": 1000}
+ASKED = {"signals": 1000, "signals to the viewer": 500}
+VIEWED = 50  # every so many cases the viewer
+KILLS = 20
 REPEATS = 100  # of a finding, before it counts as mended
 ENDING = (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
 SIGNALS = (signal.SIGKILL, signal.SIGKILL, *ENDING, signal.SIGSTOP)
@@ -139,6 +142,9 @@ def check_next(ground, name, words, outputs, new, folder):
 
 
 def case(ground, made, number, folder):
+    if number % VIEWED == VIEWED - 1 and not ground.brief:
+        seen = view(ground, ("killed_test.py", "Killed"), folder, 600, kills=KILLS, kills_seed=number)
+        return {"signals to the viewer": KILLS if seen else 0}
     dice = random.Random(f"kills {number}")
     every = commands(ground)
     name = dice.choice(sorted(every))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The thread sanitizer over what works on several threads: reading files, building trees, the exchange between the viewer's threads, progress,
-checkpoints. A case is one run of them in an order of its own (thread_tests of tests/CMakeLists.txt, built in build-threads)."""
+checkpoints. A case is one run of them in an order of its own (thread_tests of tests/CMakeLists.txt, built in build-threads). In two of three
+cases locks wait at random (tests/faults/delayed_locks.cpp)."""
 import os
 import re
 import shutil
@@ -12,6 +13,7 @@ ASKED = {"seconds": 3600}
 REPEATS = 5  # of a finding, before it counts as mended
 BRIEF = False
 JOBS = 2
+DELAYS = (0, 100, 2000)  # microseconds at most
 
 
 def prepare(ground):
@@ -22,7 +24,8 @@ def prepare(ground):
 
 def case(ground, _, number, folder):
     build = ground.source / "build-threads"
-    environment = {**os.environ, "FRAGTRACE_LIBRARY_PATH": str(ground.build), "TSAN_OPTIONS": "halt_on_error=0:second_deadlock_stack=1"}
+    environment = {**os.environ, "FRAGTRACE_LIBRARY_PATH": str(ground.build), "TSAN_OPTIONS": "halt_on_error=0:second_deadlock_stack=1",
+                   "FRAGTRACE_LOCK_SEED": str(number), "FRAGTRACE_LOCK_DELAY": str(DELAYS[number % len(DELAYS)])}
     # The sanitizer needs addresses where it expects them.
     words = ["setarch", "-R", build / "thread_tests", "--gtest_shuffle", f"--gtest_random_seed={number % 99999 + 1}", "--gtest_brief=1"]
     with Run(words, folder, environment) as process:
