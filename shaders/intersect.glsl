@@ -190,5 +190,5 @@ vec3 pointOnPlane(vec3 origin, vec3 direction, float t, vec3 normal, float dista
   vec3 point = origin + t * direction;
   float facing = dot(normal, direction);
   float height = dot(normal, point) - distance;
-  return point - (abs(facing) > 0.0625f ? direction * (height / facing) : height * normal);
+  return point - (abs(facing) > 0.25f ? direction * (height / facing) : height * normal);
 }

@@ -13,7 +13,7 @@ namespace fragtrace {
 namespace {
 
 constexpr double kGridSteps = 65535.0;
-constexpr double kBoxPadding = 0.125;  // cells
+constexpr double kBoxPadding = 0.125;  // of the longest side of a cell, along all axes
 
 struct GridBox {
   glm::uvec3 low;
@@ -22,11 +22,13 @@ struct GridBox {
 
 GridBox quantise(const Bounds& box, const BoxGrid& grid) {
   GridBox q;
+  const double padding = kBoxPadding * double(std::max({grid.cell.x, grid.cell.y, grid.cell.z}));
   for (int axis = 0; axis < 3; ++axis) {
+    const double cells = padding / double(grid.cell[axis]);
     const double low = (double(box.minimum[axis]) - grid.origin[axis]) / grid.cell[axis];
     const double high = (double(box.maximum[axis]) - grid.origin[axis]) / grid.cell[axis];
-    q.low[axis] = uint32_t(std::clamp(std::floor(low - kBoxPadding), 0.0, kGridSteps));
-    q.high[axis] = uint32_t(std::clamp(std::ceil(high + kBoxPadding), 0.0, kGridSteps));
+    q.low[axis] = uint32_t(std::clamp(std::floor(low - cells), 0.0, kGridSteps));
+    q.high[axis] = uint32_t(std::clamp(std::ceil(high + cells), 0.0, kGridSteps));
   }
   return q;
 }
@@ -95,14 +97,17 @@ void appendLeaf(Words& words, const LeafSide& a, const LeafSide& b) {
 BoxGrid makeGrid(const Bounds& bounds) {
   BoxGrid grid;
   if (bounds.empty()) return grid;
+  const glm::dvec3 low(bounds.minimum);
+  const glm::dvec3 high(bounds.maximum);
+  const glm::dvec3 largest = glm::max(glm::abs(low), glm::abs(high));
+  const glm::dvec3 cell =
+      glm::max(glm::max((high - low) / (kGridSteps - 4.0), largest * 0x1p-23), glm::dvec3(1e-30));
+  const double widest = std::max({cell.x, cell.y, cell.z});
   for (int axis = 0; axis < 3; ++axis) {
-    // Two steps of margin on either side leave room for the padding.
-    const double extent = double(bounds.maximum[axis]) - bounds.minimum[axis];
-    const double largest =
-        std::max(std::abs(double(bounds.minimum[axis])), std::abs(double(bounds.maximum[axis])));
-    const double cell = std::max({extent / (kGridSteps - 4.0), largest * 0x1p-23, 1e-30});
-    grid.cell[axis] = std::nextafter(float(cell), std::numeric_limits<float>::infinity());
-    grid.origin[axis] = float(double(bounds.minimum[axis]) - 2.0 * grid.cell[axis]);
+    // The padding is then at most a step, for which two steps of margin on either side leave room.
+    const double step = std::max(cell[axis], kBoxPadding * widest);
+    grid.cell[axis] = std::nextafter(float(step), std::numeric_limits<float>::infinity());
+    grid.origin[axis] = float(low[axis] - 2.0 * grid.cell[axis]);
   }
   return grid;
 }

@@ -98,7 +98,6 @@ struct BoxTrial {
   bool isSkipped = false;  ///< the traversal does not visit the box
 };
 
-/// Distances of rays that pass the box are left out: they are a matter of its padding.
 BoxTrial boxTrial(Genes g) {
   const BoxedHit hit = boxedHit(g);
   const BoxGrid grid = makeGrid(hit.scene);
@@ -117,7 +116,6 @@ BoxTrial boxTrial(Genes g) {
   s.tMin = t;
   const glsl_float::TreeRay ray = glsl_float::treeRayOf(s, hit.origin, hit.direction, tree);
   const auto [near, far] = distancesOf(ray);
-  if (near > far) return {};
   const dvec3 normal = normalOf(hit.v);
   const double exact =
       glm::dot(normal, dvec3(hit.v[0]) - dvec3(hit.origin)) / glm::dot(normal, dvec3(hit.direction));

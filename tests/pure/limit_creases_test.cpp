@@ -10,8 +10,8 @@ namespace fragtrace {
 namespace {
 
 /// In units of eps m (1 + t / m) / cosine for a ray of length t, no ray begins farther behind a neighbour.
-/// The worst that searches have found is 2.86.
-constexpr double kMostBehind = 5.0;
+/// The worst that searches have found is 5.8.
+constexpr double kMostBehind = 12.0;
 /// Bands of cosines, each a 16th of the one before.
 constexpr int kCosineBands = 6;
 
