@@ -22,7 +22,7 @@ std::vector<StressRow> stressRows() {
   rows.push_back({"boxes", "paths inside white boxes, right-angled or nearly so", 0.0, true, scatterInBoxes});
   rows.push_back({"skins", "paths inside white boxes with see-through skins on their walls", 0.0, true,
                   scatterInSkinnedBoxes});
-  // These leak (docs/design/ray-origins.md). The limits are bounds on measured shares.
+  // These leak (docs/design/ray-origins.md). The limits are four times what was measured, or 1 of a million.
   rows.push_back({"leaks uneven", "paths inside spiky white shells, unevenly scaled instances of one mesh",
                   1e-6, true, scatterInUnevenShells});
   rows.push_back({"leaks cut", "paths inside white prisms that are cut at random into triangles of all sizes",

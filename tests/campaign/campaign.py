@@ -7,7 +7,7 @@ campaign.py FRAGTRACE SOURCE_FOLDER --table
 
 Runs the campaigns of docs/design/reliability.md: HOURS are shared among those that have not reached their counts. A case is drawn by its number
 alone. state.json in FRAGTRACE's folder holds what was reached; findings/NAME-NUMBER what a case has left, and the command that repeats it.
---seconds runs each for so long, but those that take hours. --state FOLDER is another place for all this.
+--seconds runs each for so long, but those that take hours. --state FOLDER is another place for all this; --table still writes the document.
 """
 import argparse
 import importlib
@@ -20,6 +20,7 @@ import sys
 import tempfile
 import threading
 import time
+import traceback
 from pathlib import Path
 
 NAMES = ("kills", "faults", "hangs", "inputs", "forms", "rays", "driver", "long", "races")
@@ -177,10 +178,13 @@ def one_case(options, state):
     row = state.changed(name)
     campaign = Campaign(name, ground_of(name, options, state, False), state)
     campaign.prepare()
-    for _ in range(getattr(campaign.module, "REPEATS", 1)):
+    repeats = getattr(campaign.module, "REPEATS", 1)
+    for k in range(repeats):
         says, counts = campaign.draw(number)
         if says:
             break
+        if k + 1 < repeats:
+            print(f"campaign: {name} {number}: drawn {k + 1} of {repeats} times, no finding", file=sys.stderr)
     if not says:
         print(f"{name} {number}: no finding ({', '.join(f'{count} {unit}' for unit, count in counts.items())})")
         row["mended"] += [one for one in row["findings"] if one["number"] == number]
@@ -228,8 +232,13 @@ def main():
         return 2
     except KeyboardInterrupt:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
+        if options.case:
+            return 130
         print("\ncampaign: interrupted; it goes on there when it is started again", file=sys.stderr)
         status = 130
+    except Exception:  # of the campaign itself
+        traceback.print_exc()
+        return 2
     state.save()
     text = state.table({name: module_of(name).ASKED for name in NAMES})
     print(text, end="")

@@ -122,6 +122,7 @@ TEST(Exchange, ASlotThatIsDrawnToBelongsToNobodyElse) {
 TEST(Exchange, NothingIsLostBetweenTwoThreads) {
   constexpr size_t kMessages = 2000;
   Exchange exchange;
+  std::atomic<bool> isDone = false;
   std::thread tracer([&] {
     for (size_t i = 0; i < kMessages; ++i) {
       TracedPicture picture;
@@ -129,16 +130,19 @@ TEST(Exchange, NothingIsLostBetweenTwoThreads) {
       exchange.deliver(std::move(picture));
       exchange.tell(std::to_string(i));
     }
+    isDone = true;
   });
   std::vector<std::string> messages;
   uint64_t asked = 0;
-  while (messages.size() < kMessages) {
+  for (bool wasDone = false; !wasDone;) {
+    wasDone = isDone;
     asked = exchange.ask({RenderOptions{}}, {1, 1}, false);
     Delivery news = exchange.take();
     for (const TracedPicture& picture : news.pictures) exchange.giveBack(0, picture.shared, nullptr);
     std::ranges::move(news.messages, std::back_inserter(messages));
   }
   tracer.join();
+  ASSERT_EQ(messages.size(), kMessages);
   EXPECT_EQ(messages.back(), std::to_string(kMessages - 1));
   EXPECT_EQ(exchange.wait(0.0).request->number, asked);
 }

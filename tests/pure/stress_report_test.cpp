@@ -15,6 +15,7 @@ StressReport report() {
       {"right", "nothing is wrong", 0.0, {1000, 0, 0.5, ""}, StressOutcome{1000, 3, 0.25, "seen"}});
   r.rows.push_back({"allowed", "a thousandth may be", 1e-3, {1000, 1, 0.5, "there"}, {}});
   r.rows.push_back({"over", "more than that", 1e-3, {1000, 2, 0.5, "here"}, {}});
+  r.rows.push_back({"once", "as chance has it", 1e-6, {1000, 1, 0.5, "there"}, {}});
   r.rows.push_back({"nothing", "was tried", 0.0, {0, 0, 0.0, ""}, {}});
   return r;
 }
@@ -24,7 +25,8 @@ TEST(StressReport, ARowIsOverAboveItsLimitAndWhereNothingWasTried) {
   EXPECT_FALSE(r.rows[0].over());
   EXPECT_FALSE(r.rows[1].over());
   EXPECT_TRUE(r.rows[2].over());
-  EXPECT_TRUE(r.rows[3].over());
+  EXPECT_FALSE(r.rows[3].over());
+  EXPECT_TRUE(r.rows[4].over());
   EXPECT_EQ(r.rowsOver(), 2u);
 }
 
