@@ -5,7 +5,7 @@
 usage: light_table.py FRAGTRACE --json FILE [--rows NAME,...] [--seeds N] [--python PYTHON]
 bench/light_rows.json holds scene, camera, mask and resolution of each row, as words of bench/variance.py. FILE keeps what each row found: what stands there is
 not measured again, so the same command goes on after an interruption, and ends with the table of all that is there. PYTHON has mitsuba 3.9.1 and numpy. Run it on
-a quiet machine. bench/tables.py puts the table of docs/measurements/data/light.json into docs/design/accuracy.md.
+a quiet machine. bench/tables.py puts the table of docs/measurements/data/light.json into docs/measurements/accuracy.md.
 """
 import argparse
 import json
