@@ -144,7 +144,7 @@ Likeness likenessOf(const Context& context, uint32_t seed, Form form, Schedule s
                     const SceneDrawing::GoOn& goOn) {
   RenderOptions options = optionsOf(24);
   options.device.schedule = schedule;
-  const Likeness first = compared(context, seed, form, options, goOn);
+  Likeness first = compared(context, seed, form, options, goOn);
   if (form != Form::Shared || first.wrong.empty()) return first;
   // In some scenes most paths part: one picture in 160 is then more than kMostErrorsShared apart by chance
   // (80 seeds of scene 3861). Four times as many samples double the distance of a fault, in standard errors.
