@@ -15,15 +15,11 @@ namespace {
 
 using glm::dvec3;
 
-void turnAtRandom(Prism& p, Dice& dice) {
-  p.turn = glm::angleAxis(dice.between(0.0, glm::two_pi<double>()), dice.direction());
-  p.place = dice.inCube(0.5);
-}
-
 /// A closed prism of so many sides, of radius 1, along z.
 Prism makeColumn(uint32_t sides, double length, Dice& dice) {
   Prism p;
-  turnAtRandom(p, dice);
+  p.turn = randomRotation(dice);
+  p.place = dice.inCube(0.5);
   p.inside = p.turn * dvec3(dice.between(-0.3, 0.3), dice.between(-0.3, 0.3), 0.0) + p.place;
   for (uint32_t i = 0; i < sides; ++i) {
     const double angle = glm::two_pi<double>() * i / sides;

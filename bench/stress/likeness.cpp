@@ -106,7 +106,8 @@ RenderOptions optionsOf(int side) {
   return options;
 }
 
-/// Draws a scene and its form, and compares the pictures.
+/// Draws a scene and its form, and compares the pictures. Only samples that are wrong by themselves are in
+/// `wrong`.
 Likeness compared(const Context& context, uint32_t seed, Form form, const RenderOptions& options,
                   const SceneDrawing::GoOn& goOn) {
   Likeness l;
@@ -126,7 +127,6 @@ Likeness compared(const Context& context, uint32_t seed, Form form, const Render
     if (t.budgetHits > 0) l.wrong = std::to_string(t.budgetHits) + " pixels in which a loop was cut";
     if (t.emptyPixels > 0) l.wrong = "a pixel without samples";
   }
-  if (l.wrong.empty()) l.wrong = whyOther(l);
   return l;
 }
 
@@ -144,13 +144,17 @@ Likeness likenessOf(const Context& context, uint32_t seed, Form form, Schedule s
                     const SceneDrawing::GoOn& goOn) {
   RenderOptions options = optionsOf(24);
   options.device.schedule = schedule;
-  Likeness first = compared(context, seed, form, options, goOn);
-  if (form != Form::Shared || first.wrong.empty()) return first;
+  Likeness l = compared(context, seed, form, options, goOn);
+  if (!l.wrong.empty()) return l;
+  l.wrong = whyOther(l);
+  if (form != Form::Shared || l.wrong.empty()) return l;
   // In some scenes most paths part: one picture in 160 is then more than kMostErrorsShared apart by chance
   // (80 seeds of scene 3861). Four times as many samples double the distance of a fault, in standard errors.
   options.sampling.spp *= 4;
   options.sampling.seed += 1;
-  return compared(context, seed, form, options, goOn);
+  l = compared(context, seed, form, options, goOn);
+  if (l.wrong.empty()) l.wrong = whyOther(l);
+  return l;
 }
 
 std::string likenessLine(const Likeness& l) {

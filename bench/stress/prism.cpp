@@ -29,9 +29,13 @@ void Prism::quad(uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
   face(a, c, d);
 }
 
+glm::dquat randomRotation(Dice& dice) {
+  return glm::angleAxis(dice.between(0.0, glm::two_pi<double>()), dice.direction());
+}
+
 Prism makeBox(double degrees, double length, bool turned, Dice& dice) {
   Prism w;
-  if (turned) w.turn = glm::angleAxis(dice.between(0.0, glm::two_pi<double>()), dice.direction());
+  if (turned) w.turn = randomRotation(dice);
   const dvec3 x(1.0, 0.0, 0.0);
   const dvec3 y(std::cos(glm::radians(degrees)), std::sin(glm::radians(degrees)), 0.0);
   const dvec3 z(0.0, 0.0, length);

@@ -26,6 +26,8 @@ struct Prism {
   glm::dvec3 place{0.0};
 };
 
+glm::dquat randomRotation(Dice& dice);
+
 /// A skew box of 1 x 1 x length, its sides at an angle, of 12 triangles.
 Prism makeBox(double degrees, double length, bool turned, Dice& dice);
 

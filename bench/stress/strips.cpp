@@ -69,7 +69,7 @@ void cutAlong(Prism& w, double height, uint32_t count, Dice& dice) {
 /// A prism from z = -1 to 1 with its crease along z and its back at x = 1, turned and moved.
 Prism makeWedge(double degrees, bool across, uint32_t count, Dice& dice) {
   Prism w;
-  w.turn = glm::angleAxis(dice.between(0.0, glm::two_pi<double>()), dice.direction());
+  w.turn = randomRotation(dice);
   w.place = dice.inCube(0.5);
   const double height = std::tan(glm::radians(degrees) / 2.0);
   w.inside = w.turn * dvec3(dice.between(0.1, 0.9), 0.0, dice.between(-0.9, 0.9)) + w.place;

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "mixed.h"
+
 // The linker makes these names. NOLINTBEGIN(bugprone-reserved-identifier)
 extern "C" {
 int __real_pthread_mutex_lock(pthread_mutex_t* mutex);
@@ -32,12 +34,8 @@ void mayWait() {
   static const uint64_t seed = numberOf("FRAGTRACE_LOCK_SEED");
   static const uint64_t most = numberOf("FRAGTRACE_LOCK_DELAY");
   if (most == 0) return;
-  // Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, 2014.
-  uint64_t z = seed + dice.fetch_add(0x9e3779b97f4a7c15u, std::memory_order_relaxed);
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  z ^= z >> 31;
-  if (z % 8 == 0) ::usleep(useconds_t((z >> 8) % most));
+  const uint64_t number = mixed(seed + dice.fetch_add(0x9e3779b97f4a7c15u, std::memory_order_relaxed));
+  if (number % 8 == 0) ::usleep(useconds_t((number >> 8) % most));
 }
 
 }  // namespace

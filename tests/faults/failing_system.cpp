@@ -36,6 +36,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "mixed.h"
+
 // The names are glibc's. NOLINTBEGIN(bugprone-reserved-identifier)
 extern "C" {
 void* __libc_malloc(size_t size);
@@ -156,12 +158,7 @@ void shareCounts() {
   ::close(file);
 }
 
-uint64_t roll() {
-  uint64_t x = plan.seed * 0x9e3779b97f4a7c15u + ++dice * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
+uint64_t roll() { return mixed(plan.seed * 0x9e3779b97f4a7c15u + ++dice * 0xbf58476d1ce4e5b9u); }
 
 /// One time in `rarity` it waits.
 void mayWait(uint64_t rarity, long factor = 1) {

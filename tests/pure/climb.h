@@ -69,7 +69,6 @@ inline long numberFrom(const char* variable, long otherwise) {
 struct Climbed {
   long promised = 0;           ///< cases for which the bound is
   double least = kImpossible;  ///< the least margin
-  Genes worst;                 ///< of the case that has it
 };
 
 /// Tries so many cases, in climbs of `steps`. margin(genes) says how far a case is from breaking its bound:
@@ -88,9 +87,7 @@ Climbed climb(Draw& draw, long cases, long steps, Margin margin) {
       lowest = found;
       best = next;
     }
-    if (lowest > all.least) continue;
-    all.least = lowest;
-    all.worst = best;
+    all.least = std::min(all.least, lowest);
   }
   return all;
 }

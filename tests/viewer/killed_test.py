@@ -13,16 +13,16 @@ import sys
 import time
 from pathlib import Path
 
-from material_test import PANEL
+from material_test import PANEL, write_over
 from support import FRAGTRACE, SCENES, Case, main, wait_for
 
 sys.path.append(str(Path(__file__).resolve().parent.parent / "campaign"))
-from common import check_whole  # noqa: E402
+from common import check_whole, parts_in  # noqa: E402
+from kills import HELD, SIGNALS  # noqa: E402
 
 KILLS = int(os.environ.get("FRAGTRACE_KILLS", "4"))
 SEED = int(os.environ.get("FRAGTRACE_KILLS_SEED", "1"))
-SIGNALS = (signal.SIGKILL, signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGSTOP)
-KINDS = {"png": "F12", "exr": "shift+F12", "gltf": "ctrl+shift+s"}
+KINDS = {"png": "F12", "exr": "shift+F12", "gltf": None}
 SET = "/materials/0/pbrMetallicRoughness/roughnessFactor=0.5"
 MOMENTS = 0.2  # seconds after the key
 WRITING = 0.05  # seconds after a part is seen, where writing is delayed
@@ -43,21 +43,16 @@ class Killed(Case):
 
     def ask(self, viewer, kind):
         """Presses the keys after which that kind of file is written."""
-        viewer.key(KINDS[kind])
         if kind == "gltf":
-            viewer.until(lambda s: s["dialog"] == "list", "a list")
-            time.sleep(0.2)
-            viewer.xdotool("type", "scene")
-            time.sleep(0.2)
-            viewer.key("Return")
-            time.sleep(0.2)
-            viewer.key("Return")
+            write_over(viewer)
+        else:
+            viewer.key(KINDS[kind])
 
     def names(self, folder, kind):
         return {path.name for path in folder.glob("*." + kind)}
 
     def parts(self, folder):
-        return {path.name for path in folder.glob(".*.part")} - {".status.json.part"}
+        return set(parts_in(os.listdir(folder))) - {".status.json.part"}
 
     def write(self, viewer, folder, kind):
         """The bytes that an unbroken writing leaves."""
@@ -94,7 +89,7 @@ class Killed(Case):
                 break
         viewer.process.send_signal(which)
         if which == signal.SIGSTOP:
-            time.sleep(0.2)
+            time.sleep(HELD)
             viewer.process.send_signal(signal.SIGCONT)
             viewer.rest()
             viewer.process.terminate()

@@ -12,6 +12,18 @@ from xdnd import drop
 PANEL = ["--resolution", "560,400", "--spp", "1", "--stage", "phong"]
 
 
+def write_over(viewer):
+    """Presses the keys after which the model is written over the file that is shown."""
+    viewer.key("ctrl+shift+s")
+    viewer.until(lambda s: s["dialog"] == "list", "a list")
+    time.sleep(0.2)
+    viewer.xdotool("type", "scene")
+    time.sleep(0.2)
+    viewer.key("Return")
+    time.sleep(0.2)
+    viewer.key("Return")
+
+
 class Materials(Case):
     def start(self, name, *options, **keywords):
         self.scene = self.folder / "scene.gltf"
@@ -28,12 +40,7 @@ class Materials(Case):
 
     def save_over(self, viewer):
         """Writes the model over the file that is shown, which is read again."""
-        viewer.key("ctrl+shift+s")
-        viewer.until(lambda s: s["dialog"] == "list", "a list")
-        time.sleep(0.2)
-        viewer.xdotool("type", "scene")
-        time.sleep(0.2)
-        viewer.key("Return", "Return")
+        write_over(viewer)
         return viewer.rest(lambda s: not s["set"], "read again")
 
     def settled(self, viewer, name):
