@@ -209,16 +209,19 @@ const uint kEmitterRows = 4u;
 const uint kEmitterPunctual = 0x80000000u;     // flag of a light's index; without it a triangle's leaf slot
 const uint kEmitterDoubleSided = 0x80000000u;  // flag of the material's index
 
-// Behind the emitters, where they are chosen by a tree (src/pack/light_tree.h): its nodes, the root first; their
-// parents, four per row; the leaves of emissive triangles, four per row, one per leaf slot of the scene. Node rows:
-// middle, intensity; axis as three 10-bit numbers, cosine of the spread as a 16-bit number and, above it, the thickness
-// along the axis in parts of the radius, radius or -1 for what shines everywhere, first child or kLightLeaf and the
-// emitter, with flags.
+// Behind the emitters, where they are chosen by a tree (src/pack/light_tree.h): a row with the number of its nodes; the
+// nodes, the root first; their parents, four per row; the leaves of emissive triangles, four per row, one per leaf slot
+// of the scene. Node rows: middle, intensity; axis as three 10-bit numbers, cosine of the spread as a 16-bit number
+// and, above it, the thickness along the axis in parts of the radius, radius or -1 for what shines everywhere, first
+// child or kLightLeaf and the first emitter, with flags. A leaf has up to kMostLightsOfLeaf emitters, one after the
+// other, which are chosen alike.
 const uint kLightNodeRows = 2u;
 const uint kLightLeaf = 0x80000000u;
 const uint kLightBothSides = 0x40000000u;
 const uint kLightSharp = 0x20000000u;  // nothing shines beyond the spread; else up to a right angle more
-const uint kLightIndex = 0x1fffffffu;
+const uint kLightIndex = 0x03ffffffu;
+const uint kMostLightsOfLeaf = 8u;
+const uint kLightMoreShift = 26u;  // three bits: the number of a leaf's emitters behind the first
 const uint kNoLightNode = 0xffffffffu;
 const uint kNoNormal = 0xffffffu;  // replaces a normal as three 8-bit numbers (packNormal)
 

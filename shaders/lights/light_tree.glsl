@@ -29,8 +29,8 @@ Receiver receiverOf(vec3 point, uint normal) {
   return r;
 }
 
-/// The row behind the emitters.
-int lightNodes() { return int(frame.emitterCount) * int(kEmitterRows); }
+/// The row of the root.
+int lightNodes() { return int(frame.emitterCount) * int(kEmitterRows) + 1; }
 
 /// Reads a word of a list that has four words in a row.
 uint lightWord(int firstRow, int index) {
@@ -40,7 +40,7 @@ uint lightWord(int firstRow, int index) {
 }
 
 /// A node of the light tree: what the lights below it may send to a receiver, and the first child, or kLightLeaf and
-/// the emitter, with flags.
+/// the first emitter, with flags.
 struct LightNode {
   float importance;
   uint child;
@@ -93,6 +93,9 @@ float shareOf(LightNode node, LightNode sibling) {
   return node.importance > 0.0f ? node.importance / (node.importance + sibling.importance) : 0.0f;
 }
 
+/// The number of emitters of a leaf.
+uint emittersOf(uint leaf) { return (leaf >> kLightMoreShift & (kMostLightsOfLeaf - 1u)) + 1u; }
+
 /// Chooses an emitter by the tree, with the random number `choice`. `chance` is the probability that the light sample
 /// goes to an emitter at all; the result's probability includes it.
 LightChoice emitterByTree(float chance, Receiver to, uint choice, uvec2 bits) {
@@ -105,24 +108,27 @@ LightChoice emitterByTree(float chance, Receiver to, uint choice, uvec2 bits) {
     float share = shareOf(first, second);
     uint border = uint(share * 4294967040.0f);
     bool taken = choice < border || second.importance <= 0.0f;
-    choice = taken ? stretchBits(choice, 0u, 1.0f / share) : stretchBits(choice, border, 1.0f / (1.0f - share));
+    choice = stretchBits(choice, taken ? 0u : border, 1.0f / (taken ? share : 1.0f - share));
     own *= taken ? share : shareOf(second, first);
     child = taken ? first.child : second.child;
   }
-  return makeChoice(int(child & kLightIndex), chance * own, bits, unitFloat(bits.x), unitFloat(bits.y));
+  uint count = emittersOf(child);
+  uint emitter = (child & kLightIndex) + ((choice >> 8u) * count >> 24u);
+  return makeChoice(int(emitter), chance * own / float(count), bits, unitFloat(bits.x), unitFloat(bits.y));
 }
 
 /// The pdf over solid angle with which the tree chooses, from a point, the place that its ray hit on an emissive
 /// triangle: a leaf knows its way to the root.
 float treePdf(int slot, vec3 point, uint normal, float distance, float cosine) {
-  int count = 2 * int(frame.emitterCount) - 1;
+  int count = int(readEmitters(lightNodes() - 1).x);
   int parents = lightNodes() + count * int(kLightNodeRows);
   uint leaf = lightWord(parents + (count + 3) / 4, slot);
   if (leaf == kNoLightNode) return 0.0f;
   Receiver to = receiverOf(point, normal);
   int node = int(leaf);
   LightNode own = lightNodeFrom(node, to);
-  float pdf = uintBitsToFloat(emitterRow(int(own.child & kLightIndex), 2).w) * (1.0f - frame.environmentChance);
+  float perArea = uintBitsToFloat(emitterRow(int(own.child & kLightIndex), 2).w);
+  float pdf = perArea * (1.0f - frame.environmentChance) / float(emittersOf(own.child));
   while (node > 0 && pdf > 0.0f) {
     pdf *= shareOf(own, lightNodeFrom(node % 2 == 1 ? node + 1 : node - 1, to));
     node = int(lightWord(parents, node));

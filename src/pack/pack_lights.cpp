@@ -116,17 +116,67 @@ LightBounds boundsOf(const Emitter& e, const Scene& scene, std::span<const glm::
                         scene.materials[t.material].doubleSided);
 }
 
-/// Appends the nodes, and the leaf of each slot.
-void appendTree(Words& words, std::span<const Emitter> emitters, std::span<const LightBounds> bounds,
-                size_t slotCount) {
-  const std::vector<LightNode> nodes = buildLightTree(bounds);
-  appendLightNodes(words, nodes);
-  const size_t first = words.size();
-  words.resize(first + (slotCount + 3) / 4 * 4, layout::kNoLightNode);
-  for (uint32_t i = 0; i < nodes.size(); ++i) {
-    const bool triangle = nodes[i].light != kMissIndex && emitters[nodes[i].light].triangle != kMissIndex;
-    if (triangle) words[first + emitters[nodes[i].light].kind] = i;
+/// Emitters that make one leaf, `count` of them from `first` on.
+struct EmitterGroup {
+  uint32_t first = 0;
+  uint32_t count = 1;
+};
+
+/// Returns true if the triangles are as large as one another, but for rounding, and send their light alike.
+bool areAlike(const Scene& scene, const Emitter& a, const Emitter& b) {
+  if (a.triangle == kMissIndex || b.triangle == kMissIndex || scene.motion.segments > 0) return false;
+  const Triangle& s = scene.triangles[a.triangle];
+  const Triangle& t = scene.triangles[b.triangle];
+  return s.material == t.material && std::abs(a.power - b.power) <= 1e-6 * a.power;
+}
+
+/// Returns true if flat lights lie in one plane, within four radii of one of them.
+bool areTogether(const LightBounds& a, const LightBounds& both, double along) {
+  return glm::dot(a.axis, both.axis) >= 1.0 - 1e-9 && std::abs(along) <= 1e-4 * radiusOf(a) &&
+         radiusOf(both) <= 4.0 * radiusOf(a);
+}
+
+/// Joins neighbours in the order of the emitters, as the triangles of a window are, and their bounds. So the
+/// tree has fewer levels, which would hardly choose better between the two halves of a square.
+std::vector<EmitterGroup> joinNeighbours(std::span<const Emitter> emitters, const Scene& scene,
+                                         std::vector<LightBounds>& bounds) {
+  std::vector<EmitterGroup> groups;
+  std::vector<LightBounds> joined;
+  for (uint32_t i = 0; i < emitters.size(); ++i) {
+    if (!groups.empty() && groups.back().count < layout::kMostLightsOfLeaf) {
+      EmitterGroup& group = groups.back();
+      const LightBounds both = unite(joined.back(), bounds[i]);
+      const double along = glm::dot(bounds[i].axis, emitters[i].position - emitters[group.first].position);
+      if (areAlike(scene, emitters[group.first], emitters[i]) &&
+          areTogether(bounds[group.first], both, along)) {
+        joined.back() = both;
+        ++group.count;
+        continue;
+      }
+    }
+    groups.push_back({i, 1});
+    joined.push_back(bounds[i]);
   }
+  bounds = std::move(joined);
+  return groups;
+}
+
+/// Appends the nodes, and the leaf of each slot.
+void appendTree(Words& words, std::span<const Emitter> emitters, std::span<const EmitterGroup> groups,
+                std::span<const LightBounds> bounds, size_t slotCount) {
+  std::vector<LightNode> nodes = buildLightTree(bounds);
+  std::vector<uint32_t> leaves((slotCount + 3) / 4 * 4, layout::kNoLightNode);
+  for (uint32_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].light == kMissIndex) continue;
+    const auto [first, count] = groups[nodes[i].light];
+    for (const Emitter& e : emitters.subspan(first, count)) {
+      if (e.triangle != kMissIndex) leaves[e.kind] = i;
+    }
+    nodes[i].light = first | (count - 1) << layout::kLightMoreShift;
+  }
+  words.insert(words.end(), {uint32_t(nodes.size()), 0u, 0u, 0u});
+  appendLightNodes(words, nodes);
+  words.insert(words.end(), leaves.begin(), leaves.end());
 }
 
 }  // namespace
@@ -163,7 +213,8 @@ PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> mater
     bounds.reserve(emitters.size());
     for (const Emitter& e : emitters)
       bounds.push_back(boundsOf(e, scene, materialRadiance, variant.uniformLights));
-    appendTree(packed.entries, emitters, bounds, slotCount);
+    const std::vector<EmitterGroup> groups = joinNeighbours(emitters, scene, bounds);
+    appendTree(packed.entries, emitters, groups, bounds, slotCount);
   }
   for (size_t m = 0; m < scene.materials.size() && packed.power > 0.0; ++m) {
     packed.materialPdf[m] = luminance(glm::dvec3(materialRadiance[m])) * kPi / packed.power;

@@ -72,6 +72,8 @@ LIKELY = {
     "lights/light_tree.lightWord": ("pure.light_tree_test",),
     "lights/light_tree.lightNodeFrom": ("pure.light_tree_test", "command.LightTree"),
     "lights/light_tree.shareOf": ("pure.light_tree_test", "command.LightTree"),
+    "lights/light_tree.emitterByTree place": ("pure.light_leaves_test",),
+    "lights/light_tree.emittersOf": ("pure.light_leaves_test",),
     "lights/light_tree.emitterByTree": ("pure.light_tree_test", "command.LightTree"),
     "lights.chanceOfLight": ("pure.light_tree_test",),
     "path.normalOfLight": ("command.LightTree",),
