@@ -23,8 +23,8 @@ Scene wallScene(bool alternating) {
   const dvec3 up = glm::normalize(glm::cross(right, dvec3(1.0, -0.1, -2.0)));
   for (int i = 0; i < kColumns * kRows; ++i) {
     const int column = i % kColumns;
-    const dvec3 corner =
-        dvec3(0.0, 0.0, -4.0) + (column - 0.5 * kColumns) * right + (i / kColumns - 3.0) * up;
+    const int row = i / kColumns;
+    const dvec3 corner = dvec3(0.0, 0.0, -4.0) + (column - 0.5 * kColumns) * right + (row - 3.0) * up;
     const auto first = uint32_t(scene.vertices.position.size());
     for (const dvec3& p : {corner, corner + 0.6 * right, corner + 0.6 * (right + up), corner + 0.6 * up})
       scene.vertices.position.emplace_back(p);
