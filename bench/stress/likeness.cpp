@@ -149,7 +149,7 @@ Likeness likenessOf(const Context& context, uint32_t seed, Form form, Schedule s
   l.wrong = whyOther(l);
   const bool byChance = form == Form::Shared || !sameNumbers(form);
   if (l.wrong.empty() || !byChance) return l;
-  // Where paths part, rare bright samples take pictures apart by chance: one in 160 of scene 3861 shared (80
+  // Chance takes pictures apart whose paths part, by rare bright samples: one in 160 of scene 3861 shared (80
   // seeds), one in 100 of scene 4182 flattened. Four times as many samples double the distance of a fault, in
   // standard errors.
   options.sampling.spp *= 4;
