@@ -165,7 +165,7 @@ float insetPart(float weight, float middle, uint code, float times) {
 
 /// The factor of the insets of a point that a ray has reached at distance t, if its offset there is `error`, 2^-19 m:
 /// 1 + t / (4 m). Within the plane, the point is off by roundings of t (docs/design/ray-origins.md, Creases).
-float insetTimes(float t, float error) { return 1.0f + t / (float(2097152.0) * error); }
+float insetTimes(float t, float error) { return (t * float(4.76837158203125e-7) + error) / error; }
 
 /// Moves a point of a triangle, given by its weights, towards the middle until it is as far from edges and vertices as
 /// its creases require (creaseInsets of src/scene/creases.h). Otherwise the offset along the normal could lead through

@@ -342,6 +342,14 @@ Path proceed(Path p) {
   return p;
 }
 
+/// The MIS weight of the emission of an emissive triangle that the path's ray has hit, against light sampling.
+float weightOfEmission(Path p, Surface s, float cosine) {
+  if (!kGi || !kEmissiveTriangles || !s.emitter || p.pdf <= 0.0) return 1.0;
+  int slot = kMoving ? slotInFirst(p.hitSlot, p.time) : p.hitSlot;
+  float pdf = kLightTree ? treePdf(slot, p.origin, p.normal, p.hitT, cosine) : emitterPdf(s.material, p.hitT, cosine);
+  return misWeight(p.pdf, pdf);
+}
+
 /// Emission of the point hit, weighted against light sampling.
 vec3 emittedAt(Path p, Surface s, uint flags) {
   if (!s.front && (flags & kMaterialDoubleSided) == 0u) return vec3(0.0);
@@ -349,13 +357,10 @@ vec3 emittedAt(Path p, Surface s, uint flags) {
   bool sampled = kEmissiveTriangles && s.emitter && materialFloats(s.material, kMaterialMaps).z > 0.0;
   if (kCaustics && sampled && p.prefix == kPrefixCaustic) return vec3(0.0);
   float cosine = abs(dot(s.geometricNormal, p.direction));
+  float weight = weightOfEmission(p, s, cosine);
   vec3 radiance = emissionAt(s.material, s.texcoords);
   if (kClearcoat) radiance *= emissionUnderCoat(s.material, s.texcoords, cosine);
-  if (!kGi || !kEmissiveTriangles || !s.emitter || p.pdf <= 0.0) return radiance;
-  int slot = kMoving ? slotInFirst(p.hitSlot, p.time) : p.hitSlot;
-  float pdf = kLightTree ? treePdf(slot, p.origin, p.normal, p.hitT, cosine)
-                             : emitterPdf(s.material, p.hitT, cosine);
-  return radiance * misWeight(p.pdf, pdf);
+  return radiance * weight;
 }
 
 /// Sets up the shadow ray of a light sample of a point that would add `value`; without shadows it is added at once. The

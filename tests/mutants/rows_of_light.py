@@ -30,7 +30,7 @@ ROWS = [
       "it is told in the statistics, and no picture holds it"),
     F("path.emittedAt", "vec3 radiance = emissionAt", "vec3 radiance = 1.02 * emissionAt", "lamps that are hit are 2 % too bright"),
     F("path.emittedAt coat", "radiance *= emissionUnderCoat", "radiance *= 1.02 * emissionUnderCoat", "coated lamps that are hit are 2 % too bright"),
-    F("path.emittedAt density", "misWeight(p.pdf,", "misWeight(1.05 * p.pdf,", "the weight of lamps that are hit takes the ray's pdf 5 % too high"),
+    F("path.weightOfEmission", "misWeight(p.pdf,", "misWeight(1.05 * p.pdf,", "the weight of lamps that are hit takes the ray's pdf 5 % too high"),
     F("path.addLight", "p.aovWeight * light", "1.02 * p.aovWeight * light", "the parts of light are 2 % too bright"),
     F("shade.aovShare", "vec3 share = clamp(diffuse", "vec3 share = clamp(0.98 * diffuse", "2 % of the diffuse part count as specular"),
     F("path.spawnShadowRay", "light, value)", "light, 1.02 * value)", "chosen light of surfaces is 2 % too bright"),

@@ -35,6 +35,11 @@ def largest_difference(a, b):
     return max(abs(u - v) for p, q in zip(a, b) for u, v in zip(p, q))
 
 
+def covers(place, point):
+    """A place is x, y, width and height, or None."""
+    return place is not None and all(0 <= p - low < size for p, low, size in zip(point, place[:2], place[2:]))
+
+
 class Screen:
     """An X server on a number that is free, with a window manager; `dpi` is what the user's desktop says."""
 
@@ -179,6 +184,8 @@ class Viewer:
         self.xdotool("click", 1)
 
     def drag(self, start, end, button=1, steps=8):
+        """Drags once no message covers the start; in a small window, they would take the button."""
+        self.until(lambda s: not covers(s.get("places", {}).get("news"), start), "a start without messages")
         self.at(*start)
         self.xdotool("mousedown", button)
         for i in range(1, steps + 1):
