@@ -138,8 +138,19 @@ bool withinFisheye(vec2 point) {
   return length(point * whole) <= min(whole.x, whole.y);
 }
 
-Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
-  Sampler sampler = makeSampler(key, sampleIndex);
+/// Camera rays that do not go on have numbers from the far half of the sequence. The one that goes on has those of a
+/// sample with one ray, so that its numbers of all samples are stratified together.
+const uint kFarHalf = 0x80000000u;
+const uint kShortRays = uint(kCameraRays) - 1u;
+
+/// The index in the sequence of a sample's camera ray that has so many earlier ones.
+uint indexOfRay(uint sampleIndex, int earlier) {
+  return uint(earlier) < kShortRays ? kFarHalf + sampleIndex * kShortRays + uint(earlier) : sampleIndex;
+}
+
+/// Starts with the camera ray that has so many earlier ones in its sample.
+Path startPath(ivec2 pixel, uint key, uint sampleIndex, int earlier, int steps) {
+  Sampler sampler = makeSampler(key, indexOfRay(sampleIndex, earlier));
   vec2 place = vec2(inPicture(pixel)) + 0.5;
   if (!kIdAov) {
     vec2 jitter = drawPair(sampler, kCameraDimensions);
@@ -166,14 +177,9 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   if (kFisheye && !withinFisheye(point)) ray = CameraRay(vec3(0.0, kAboveAll, 0.0), vec3(0.0, 1.0, 0.0));
   Path p = pathAlong(ray.origin, ray.direction, sampler, steps);
   p.pixel = pixel;
+  p.earlierRays = earlier;
+  p.throughput = vec3(1.0 / float(kCameraRays));
   return p;
-}
-
-/// The depth of a point at a distance along the camera's ray of a path with this time, in metres.
-float depthAlong(vec3 direction, float t, float time) {
-  vec3 forward = frame.cameraForward;
-  if (kMovingCamera) forward = turnedWith(cameraAt(time), forward);
-  return (kPanorama || kFisheye ? t : t * dot(direction, forward)) * frame.metresPerUnit;
 }
 
 /// Adds light, or the share of it that belongs to the AOV.
@@ -204,20 +210,6 @@ bool passesGlass(Path p, Surface s, SurfaceMaterial m, vec3 direction) {
   return !inside && limitedScatterings(p) < frame.maxBounces;
 }
 
-/// The luminance of the throughput that a path had left when --bounces ended it, as seen from outside all glass.
-float cutThroughput(Path p) {
-  if (!kScatters || p.phase != kPhaseCut) return 0.0;
-  return kPassesLight ? luminance(p.throughput) * p.etaScale : luminance(p.throughput);
-}
-
-/// Adds it to what the draw reports.
-void reportCut(float cut) {
-  if (!(cut > 0.0) || isNonfinite(cut)) return;
-  uint units = uint(min(cut * kCutUnits, float(4.0e9)));
-  uint before = atomicAdd(progress.cutLow, units);
-  if (before + units < before) atomicAdd(progress.cutHigh, 1u);
-}
-
 /// The radiance that the camera sees where its ray meets nothing.
 vec3 seenBehind(vec3 direction) {
   if (!kEnvironment || frame.backgroundShows <= 0.0) return frame.background;
@@ -239,7 +231,8 @@ Path meetSurroundings(Path p) {
   if (kSunPaths && p.prefix == kPrefixCaustic) seen.rgb = mapBesideSun(p.direction);
   float weight = 1.0;
   if (kGi && kEnvironmentSampling && p.pdf > 0.0) {
-    weight = balanceWeight(p.pdf, frame.environmentChance * environmentPdf(seen, p.direction));
+    float samples = lightSamplesAt(countedScatterings(p) - 1);
+    weight = balanceWeight(p.pdf, samples * frame.environmentChance * environmentPdf(seen, p.direction));
   }
   return addLight(p, clampIndirect(p.throughput * (weight * seen.rgb), countedScatterings(p)));
 }
@@ -292,6 +285,12 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
     // scale ends at 1. The weight holds the whole factor, which is corrected here.
     if (!s.front) p.throughput *= before / (squared * p.etaScale);
   }
+  bool straight = kThinGlass && deltaGlass && transmitted && !m.solid && p.medium == kPrimitiveNone;
+  if (kMatchedGlass) straight = deltaGlass && transmitted && open && (!m.solid || isMatched(s.material));
+  if (kCameraRays > 1 && !straight && countedScatterings(p) == 0) {
+    if (p.earlierRays < kCameraRays - 1) return p;
+    p.throughput *= float(kCameraRays);
+  }
   p.bounce += 1;
   p.freeBounces += deltaGlass ? 1 : 0;
   // At smooth glass roulette begins by kLatestRoulette in any stage: nothing else ends a ray trapped inside.
@@ -304,8 +303,6 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
   if (roulette && drawFloat(p.sampler, rouletteDimension) >= survival) return p;
   if (roulette) p.throughput /= survival;
   p.cameraRay = false;
-  bool straight = kThinGlass && deltaGlass && transmitted && !m.solid && p.medium == kPrimitiveNone;
-  if (kMatchedGlass) straight = deltaGlass && transmitted && open && (!m.solid || isMatched(s.material));
   if (kCaustics && kLightPaths) p.prefix = lightPrefix(p.prefix, pdf == 0.0, straight);
   if (kCaustics && !kLightPaths) {
     bool caster = isCaster(materialFlags(s.material), pdf == 0.0);
@@ -347,7 +344,7 @@ float weightOfEmission(Path p, Surface s, float cosine) {
   if (!kGi || !kEmissiveTriangles || !s.emitter || p.pdf <= 0.0) return 1.0;
   int slot = kMoving ? slotInFirst(p.hitSlot, p.time) : p.hitSlot;
   float pdf = kLightTree ? treePdf(slot, p.origin, p.normal, p.hitT, cosine) : emitterPdf(s.material, p.hitT, cosine);
-  return misWeight(p.pdf, pdf);
+  return misWeight(p.pdf, lightSamplesAt(countedScatterings(p) - 1) * pdf);
 }
 
 /// Emission of the point hit, weighted against light sampling.

@@ -21,6 +21,10 @@ const bool kMedia = (kScattering || kFog || kDensityGrid) && kDrawsLight;
 /// Light may go straight through smooth glass, and shadow rays with it.
 const bool kThroughGlass = kThinGlass || kMatchedGlass;
 
+/// The light samples that global illumination takes in a sample where its paths scatter for the time with this index,
+/// from 0 on. All camera rays of a sample take one where they first scatter; the last alone goes on.
+float lightSamplesAt(int scattering) { return kCameraRays > 1 && scattering == 0 ? float(kCameraRays) : 1.0; }
+
 /// The sums of a path that draws guides (kAovGuides), and the normal of its last surface.
 struct Guide {
   vec3 albedo;
@@ -48,6 +52,8 @@ struct Path {
   int bounce;      // scatterings so far, also one whose ray roulette ends
   int freeBounces;  // the part of `bounce` at smooth glass (kTransmission) and in media, which --bounces does not limit
   int straightBounces;  // the part of `bounce` that went straight through glass (kThroughGlass)
+  int earlierRays;  // camera rays of the same sample before this path's own (kCameraRays)
+  int coveredRays;  // those of them that have met a surface
   int crossings;   // meetings with surfaces, where there is alpha; see nextCrossing
   int rays;        // traced so far
   ivec2 pixel;     // the pixel in the film (kStoresReservoirs, kNeighbours), or the index of a light path's record
@@ -92,6 +98,8 @@ Path newPath() {
   p.bounce = 0;
   p.freeBounces = 0;
   p.straightBounces = 0;
+  p.earlierRays = 0;
+  p.coveredRays = 0;
   p.crossings = 0;
   p.rays = 0;
   p.pixel = ivec2(0);

@@ -66,6 +66,18 @@ Scattering scatteringAt(Surface s, SurfaceMaterial m, vec3 normal, vec3 wo) {
   return at;
 }
 
+/// The sampler of a light sample. Where the paths of a sample scatter first, their light samples are points of one
+/// sequence: nothing else depends on these.
+Sampler samplerOfLight(Path p) {
+  Sampler s = p.sampler;
+  if (kCameraRays == 1 || !kSobol || countedScatterings(p) > 0) return s;
+  uint index = bitfieldReverse(s.reversed);
+  bool goesOn = uint(p.earlierRays) == kShortRays;
+  uint sampleIndex = goesOn ? index : (index - kFarHalf) / max(kShortRays, 1u);
+  s.reversed = bitfieldReverse(kFarHalf + sampleIndex * uint(kCameraRays) + uint(p.earlierRays));
+  return s;
+}
+
 /// The light sample of a scattering.
 LightSample lightAt(Path p, Surface s, SurfaceMaterial m) {
   uint normal = normalOfLight(s, m);
@@ -77,7 +89,7 @@ LightSample lightAt(Path p, Surface s, SurfaceMaterial m) {
     bool through = takesLightFromBehind(s, m);
     return lightOfCandidates(s.position, s.geometricNormal, through, normal, p.sampler, dimension);
   }
-  return sampleLight(0, s.position, normal, p.sampler, dimension);
+  return sampleLight(0, s.position, normal, samplerOfLight(p), dimension);
 }
 
 /// The irradiance of a light sample without the light of lamps and the sun that a glossy caster scatters: light paths
@@ -100,7 +112,7 @@ Path sampleLd(Path p, Surface s, SurfaceMaterial m, Scattering at) {
   vec3 wi = toFrame(at.around, light.direction);
   bool sameSide = (dot(light.direction, s.geometricNormal) > 0.0) == (wi.z > 0.0);
   BsdfValue value = evaluateBsdf(at.b, at.wo, wi);
-  float weight = lightWeight(light, value.pdf);
+  float weight = lightWeight(light, value.pdf / lightSamplesAt(countedScatterings(p)));
   if (kLightPart && p.bounce == 0) p.aovWeight = aovShare(at.b, at.wo, wi);
   if (kThroughGlass) p.throughGlass = passesGlass(p, s, m, light.direction);
   return spawnShadowRay(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
@@ -245,6 +257,13 @@ vec3 lightThrough(Surface s, vec3 baseColor, vec3 direction) {
   Frame3 around = frameAround(normalFacing(s, -direction));
   if (kGi) b = addLayers(b, s, around, -direction, anisotropy.z);
   return straightThrough(b, toFrame(around, -direction));
+}
+
+/// The depth of a point at a distance along the camera's ray of a path with this time, in metres.
+float depthAlong(vec3 direction, float t, float time) {
+  vec3 forward = frame.cameraForward;
+  if (kMovingCamera) forward = turnedWith(cameraAt(time), forward);
+  return (kPanorama || kFisheye ? t : t * dot(direction, forward)) * frame.metresPerUnit;
 }
 
 /// Metres along the view axis, or from a panorama or a fisheye; of a path with this time.

@@ -113,7 +113,34 @@ Path beginSample(FilmPixel film, ivec2 pixel, uint key, int steps) {
     storeRecord(record, true, vec3(0.0), vec2(0.0));
     return startLightPath(record, key, steps);
   }
-  return startPath(pixel, key, film.samples + uint(frame.firstSample), steps);
+  return startPath(pixel, key, film.samples + uint(frame.firstSample), 0, steps);
+}
+
+/// The luminance of the throughput that a path had left when --bounces ended it, as seen from outside all glass.
+float cutThroughput(Path p) {
+  if (!kScatters || p.phase != kPhaseCut) return 0.0;
+  return kPassesLight ? luminance(p.throughput) * p.etaScale : luminance(p.throughput);
+}
+
+/// Adds it to what the draw reports.
+void reportCut(float cut) {
+  if (!(cut > 0.0) || isNonfinite(cut)) return;
+  uint units = uint(min(cut * kCutUnits, float(4.0e9)));
+  uint before = atomicAdd(progress.cutLow, units);
+  if (before + units < before) atomicAdd(progress.cutHigh, 1u);
+}
+
+/// Returns true if the sample of a finished path has more camera rays.
+bool hasMoreRays(Path p) { return kCameraRays > 1 && p.earlierRays < kCameraRays - 1; }
+
+/// The next camera ray of a finished path's sample.
+Path nextCameraRay(Path p, FilmPixel film, ivec2 pixel, uint key) {
+  uint index = film.samples + uint(frame.firstSample);
+  Path next = startPath(pixel, key, index, p.earlierRays + 1, p.traversal.steps);
+  next.radiance = p.radiance;
+  next.rays = p.rays;
+  next.coveredRays = p.coveredRays + (p.covered ? 1 : 0);
+  return next;
 }
 
 /// Adds the finished path to the film.
@@ -230,10 +257,14 @@ void tracePixel(ivec2 pixel) {
     if (p.phase >= kPhaseEnd) {
       cut += cutThroughput(p);
       if (kGpu) film = loadFilm(pixel);
-      film = endSample(film, p, pixel);
-      if (kGpu) storeFilm(pixel, film);
-      tracing = false;
-      advanced = true;
+      if (hasMoreRays(p)) {
+        p = nextCameraRay(p, film, pixel, keyOfLane(pixel));
+      } else {
+        film = endSample(film, p, pixel);
+        if (kGpu) storeFilm(pixel, film);
+        tracing = false;
+        advanced = true;
+      }
     }
   }
 

@@ -191,15 +191,16 @@ Wave beginSamples(Wave v, uint left, TreeFrame tree) {
       p = meetSurroundings(p);
       p.rays += 1;
     }
-    if (p.phase != kPhaseNone) {
+    bool another = p.phase != kPhaseNone && hasMoreRays(p);
+    if (p.phase != kPhaseNone && !another) {
       film = endSample(film, p, pixel);
       p.phase = kPhaseNone;
     }
     more = false;
     uint bit = 1u << k;
     int row = rowOf(v, k);
-    if (film.samples < samplesWanted(film)) {
-      p = beginSample(film, pixel, keyOf(v, k), 0);
+    if (another || film.samples < samplesWanted(film)) {
+      p = another ? nextCameraRay(p, film, pixel, keyOf(v, k)) : beginSample(film, pixel, keyOf(v, k), 0);
       if (kDensityGrid) v.steps += p.traversal.steps;
       Traversal t = beginExtension(p, tree);
       samples += 1;

@@ -66,6 +66,7 @@ void addLighting(nlohmann::ordered_json& json, const Statistics& s) {
     json["light_selection"] = s.lightSelection;
     json["light_selection_reason"] = s.lightSelectionReason;
   }
+  json["camera_rays"] = s.cameraRays;
   if (!s.lightReuse.empty()) json["light_reuse"] = s.lightReuse;
   if (!s.lightPathReason.empty()) {
     json["caustics"] = {{"light_paths", s.film.lightPaths},

@@ -71,6 +71,7 @@ struct Statistics {
   double clampIndirect = 0.0;   ///< 0: not clamped
   std::string lightSelection;   ///< name of the choice of lights; empty: there is none to choose
   std::string lightSelectionReason;
+  int cameraRays = 1;           ///< per sample
   std::string lightReuse;       ///< value of --light-reuse
   std::string lightPathReason;  ///< why light paths are traced, or are not; empty: the stage has none
   size_t casters = 0;           ///< groups of surfaces that they are aimed at; 0: none are traced

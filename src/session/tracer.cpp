@@ -147,6 +147,9 @@ void warnOfNoEffect(const ShaderVariant& variant, const TraitSet& present, const
   if (options.light.reuse != LightReuse::None && !variant.neighbours && !variant.lightCandidates)
     warn(std::string("--light-reuse: ") +
          (global ? "no light of this scene is sampled" : "only stage gi samples one light of many"));
+  if (options.sampling.cameraRays > 1 && variant.cameraRays == 1)
+    warn(std::string("--camera-rays: one per sample: ") +
+         (global ? "media, a shadow catcher, --light-reuse and --debug-view have no more" : "only stage gi has more"));
 }
 
 /// The variants that the options ask for, as far as the scene alone decides them. Returns what all of them
@@ -170,6 +173,7 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
     stats.lightReuse = tracer.variant.neighbours        ? "spatial"
                        : tracer.variant.lightCandidates ? "candidates"
                                                         : "none";
+  stats.cameraRays = tracer.variant.cameraRays;
   if (gi) stats.lightPathReason = whyCaustics(tracer.variant, present, options);
   warnOfNoEffect(tracer.variant, present, options, stats);
   if (tracer.variant.clampIndirect) stats.clampIndirect = options.sampling.clampIndirect;

@@ -171,6 +171,7 @@ void appendConstants(std::string& text, const ShaderVariant& variant) {
   number("kPixelFilter", int(variant.pixelFilter));
   number("kAov", int(variant.aov));
   number("kStackSize", variant.stackSize);
+  number("kCameraRays", variant.cameraRays);
 }
 
 }  // namespace

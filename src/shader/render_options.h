@@ -128,6 +128,7 @@ struct CameraOptions {
   bool operator==(const CameraOptions&) const = default;
 };
 
+inline constexpr int kMostCameraRays = 8;  ///< per sample
 inline constexpr int kUnlimitedBounces = std::numeric_limits<int>::max() - 1;
 
 /// The number and the length of paths.
@@ -135,6 +136,7 @@ struct SamplingOptions {
   int spp = 64;
   int sampleOffset = 0;  ///< index of the first sample in the seed's sequence
   uint32_t seed = 0;
+  int cameraRays = 0;          ///< per sample; 0: chosen by the scene
   int bounces = 16;            ///< kUnlimitedBounces: no limit
   int rouletteDepth = 6;       ///< roulette from this scattering on, the first being 1
   double clampIndirect = 0.0;  ///< largest radiance that two scatterings or more may add; 0: no limit

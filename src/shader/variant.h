@@ -22,6 +22,7 @@ struct ShaderVariant {
   Dispatch dispatch = Dispatch::Fragment;
   PixelFilter pixelFilter = PixelFilter::Box;
   Aov aov = Aov::None;            ///< drawn in place of radiance
+  int cameraRays = 1;             ///< per sample; the last alone goes on where it scatters (path.glsl)
   bool countsVisits = false;      ///< the nodes that camera rays visit are, too
   bool uniformLights = false;     ///< the light tree chooses all lights alike
   bool lightCandidates = false;   ///< a light sample is one of several (shaders/reuse/candidates.glsl)

@@ -48,6 +48,7 @@ TEST(SamePicture, DoesNotDependOnTheSamples) {
       [](RenderOptions& o) { o.sampling.seed = 7; },
       [](RenderOptions& o) { o.sampling.sampleOffset = 64; },
       [](RenderOptions& o) { o.sampling.rouletteDepth = 1; },
+      [](RenderOptions& o) { o.sampling.cameraRays = 4; },
       [](RenderOptions& o) { o.stages.reset(size_t(Stage::Sobol)); },
       [](RenderOptions& o) { o.stages.reset(size_t(Stage::LightSampling)); },
   };
