@@ -164,7 +164,8 @@ float insetPart(float weight, float middle, uint code, float times) {
 }
 
 /// The factor of the insets of a point that a ray has reached at distance t, if its offset there is `error`, 2^-19 m:
-/// 1 + t / (4 m). Within the plane, the point is off by roundings of t (docs/design/ray-origins.md, Creases).
+/// 1 + t / (4 m), where t's factor below is 2^-21. Within the plane, the point is off by roundings of t
+/// (docs/design/ray-origins.md, Creases).
 float insetTimes(float t, float error) { return (t * float(4.76837158203125e-7) + error) / error; }
 
 /// Moves a point of a triangle, given by its weights, towards the middle until it is as far from edges and vertices as

@@ -339,7 +339,7 @@ Path proceed(Path p) {
   return p;
 }
 
-/// The MIS weight of the emission of an emissive triangle that the path's ray has hit, against light sampling.
+/// The MIS weight, against light sampling, of the emission that the path's ray has hit: 1 if no light sample finds it.
 float weightOfEmission(Path p, Surface s, float cosine) {
   if (!kGi || !kEmissiveTriangles || !s.emitter || p.pdf <= 0.0) return 1.0;
   int slot = kMoving ? slotInFirst(p.hitSlot, p.time) : p.hitSlot;
@@ -354,6 +354,7 @@ vec3 emittedAt(Path p, Surface s, uint flags) {
   bool sampled = kEmissiveTriangles && s.emitter && materialFloats(s.material, kMaterialMaps).z > 0.0;
   if (kCaustics && sampled && p.prefix == kPrefixCaustic) return vec3(0.0);
   float cosine = abs(dot(s.geometricNormal, p.direction));
+  // The weight comes first: compilers for Intel spill less.
   float weight = weightOfEmission(p, s, cosine);
   vec3 radiance = emissionAt(s.material, s.texcoords);
   if (kClearcoat) radiance *= emissionUnderCoat(s.material, s.texcoords, cosine);

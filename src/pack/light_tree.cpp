@@ -156,7 +156,8 @@ std::vector<LightNode> buildLightTree(std::span<const LightBounds> lights) {
   return std::move(builder.nodes);
 }
 
-void appendLightNodes(std::vector<uint32_t>& words, std::span<const LightNode> nodes) {
+void appendLightNodes(std::vector<uint32_t>& words, std::span<const LightNode> nodes,
+                      std::span<const uint32_t> emitters) {
   for (const LightNode& node : nodes) {
     const LightBounds& b = node.bounds;
     const double radius = radiusOf(b);
@@ -171,7 +172,7 @@ void appendLightNodes(std::vector<uint32_t>& words, std::span<const LightNode> n
     words.push_back(uint32_t(std::floor(32767.0 * (std::max(cosine, -1.0) + 1.0))) |
                     uint32_t(std::ceil(65535.0 * std::min(thick, 1.0))) << 16u);
     words.push_back(floatWord(b.everywhere ? -1.0f : float(radius)));
-    words.push_back(kind | (node.light == kMissIndex ? node.child : node.light));
+    words.push_back(kind | (node.light == kMissIndex ? node.child : emitters[node.light]));
   }
   const size_t first = words.size();
   words.resize(first + (nodes.size() + 3) / 4 * 4, 0u);

@@ -164,7 +164,7 @@ std::vector<EmitterGroup> joinNeighbours(std::span<const Emitter> emitters, cons
 /// Appends the nodes, and the leaf of each slot.
 void appendTree(Words& words, std::span<const Emitter> emitters, std::span<const EmitterGroup> groups,
                 std::span<const LightBounds> bounds, size_t slotCount) {
-  std::vector<LightNode> nodes = buildLightTree(bounds);
+  const std::vector<LightNode> nodes = buildLightTree(bounds);
   std::vector<uint32_t> leaves((slotCount + 3) / 4 * 4, layout::kNoLightNode);
   for (uint32_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].light == kMissIndex) continue;
@@ -172,10 +172,12 @@ void appendTree(Words& words, std::span<const Emitter> emitters, std::span<const
     for (const Emitter& e : emitters.subspan(first, count)) {
       if (e.triangle != kMissIndex) leaves[e.kind] = i;
     }
-    nodes[i].light = first | (count - 1) << layout::kLightMoreShift;
   }
+  std::vector<uint32_t> groupWords;
+  groupWords.reserve(groups.size());
+  for (const auto& [first, count] : groups) groupWords.push_back(first | (count - 1) << layout::kLightMoreShift);
   words.insert(words.end(), {uint32_t(nodes.size()), 0u, 0u, 0u});
-  appendLightNodes(words, nodes);
+  appendLightNodes(words, nodes, groupWords);
   words.insert(words.end(), leaves.begin(), leaves.end());
 }
 
