@@ -74,6 +74,7 @@ struct Statistics {
   int cameraRays = 1;           ///< per sample
   std::string lightReuse;       ///< value of --light-reuse
   std::string lightPathReason;  ///< why light paths are traced, or are not; empty: the stage has none
+  int pixelsPerPath = 0;        ///< as in View
   size_t casters = 0;           ///< groups of surfaces that they are aimed at; 0: none are traced
   bool complete = true;
   bool quickCompilation = false;  ///< the driver was told not to optimise
