@@ -273,9 +273,12 @@ bool isCaster(uint flags, bool delta) { return (flags & (delta ? kMaterialCaster
 Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool transmitted, SurfaceMaterial m) {
   p.throughput *= weight;
   p.after = kPhaseEnd;
+  // The last camera ray of a sample alone goes on, for all.
+  if (kCameraRays > 1 && countedScatterings(p) == 0 && !goesStraight(p.medium, s, m, atDeltaGlass(m, pdf), transmitted))
+    p.throughput *= p.earlierRays < kCameraRays - 1 ? 0.0 : float(kCameraRays);
   if (maxComponent(p.throughput) <= 0.0) return p;
-  bool deltaGlass = kTransmission && pdf == 0.0 && m.transmission * (1.0 - m.metallic) > 0.0;
-  bool open = !kMatchedGlass || isOpen(p.medium);
+  bool deltaGlass = atDeltaGlass(m, pdf);
+  uint medium = p.medium;
   if (transmitted && m.solid) {
     p.medium = mediumBehind(s);
     float squared = m.ior * m.ior;
@@ -285,12 +288,7 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
     // scale ends at 1. The weight holds the whole factor, which is corrected here.
     if (!s.front) p.throughput *= before / (squared * p.etaScale);
   }
-  bool straight = kThinGlass && deltaGlass && transmitted && !m.solid && p.medium == kPrimitiveNone;
-  if (kMatchedGlass) straight = deltaGlass && transmitted && open && (!m.solid || isMatched(s.material));
-  if (kCameraRays > 1 && !straight && countedScatterings(p) == 0) {
-    if (p.earlierRays < kCameraRays - 1) return p;
-    p.throughput *= float(kCameraRays);
-  }
+  bool straight = goesStraight(medium, s, m, deltaGlass, transmitted);
   p.bounce += 1;
   p.freeBounces += deltaGlass ? 1 : 0;
   // At smooth glass roulette begins by kLatestRoulette in any stage: nothing else ends a ray trapped inside.

@@ -32,6 +32,18 @@ uint mediumTowards(Path p, Surface s, vec3 direction) {
 /// Light gets straight into such a medium: there is none, or its boundary does not bend it.
 bool isOpen(uint medium) { return medium == kPrimitiveNone || (kMatchedGlass && isMatched(medium)); }
 
+/// Returns true if a direction that was drawn with this pdf is a delta direction at smooth glass.
+bool atDeltaGlass(SurfaceMaterial m, float pdf) {
+  return kTransmission && pdf == 0.0 && m.transmission * (1.0 - m.metallic) > 0.0;
+}
+
+/// Returns true if it goes straight on through glass, which the path has reached in this medium.
+bool goesStraight(uint medium, Surface s, SurfaceMaterial m, bool deltaGlass, bool transmitted) {
+  bool through = deltaGlass && transmitted;
+  if (kMatchedGlass) return through && isOpen(medium) && (!m.solid || isMatched(s.material));
+  return kThinGlass && through && !m.solid && medium == kPrimitiveNone;
+}
+
 /// A path whose ray has been inside of a solid without knowing it, or begins there.
 Path standInside(Path p, uint medium) {
   float ior = dispersedIor(p, medium);

@@ -58,9 +58,9 @@ class LightGroups(Case):
         self.assertTrue(self.adds_up(exr, names)[0] > 1)
 
     def test_a_group_is_the_picture_of_its_lamp_alone(self):
-        exr = self.drawn(self.scene(), ["key", "lamp"], "--studio", spp=64, size="12,8")
+        exr = self.drawn(self.scene(), ["key", "lamp"], "--studio", spp=1024, size="12,8")
         dark = ["--set", "/materials/3/emissiveFactor=0,0,0", "--set", "/materials/1/pbrMetallicRoughness/baseColorFactor=0,0,0,1", "--no-default-light"]
-        alone = self.drawn(self.scene(), [], *dark, spp=64, size="12,8")
+        alone = self.drawn(self.scene(), [], *dark, spp=1024, size="12,8")
         self.assertAlmostEqual(sum(self.values(exr, "key")) / sum(self.values(alone)), 1, delta=0.02)
 
     def test_what_the_scene_has_not_is_refused(self):

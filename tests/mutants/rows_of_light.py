@@ -32,7 +32,7 @@ ROWS = [
     F("path.emittedAt coat", "radiance *= emissionUnderCoat", "radiance *= 1.02 * emissionUnderCoat", "coated lamps that are hit are 2 % too bright"),
     F("path.weightOfEmission", "misWeight(p.pdf,", "misWeight(1.05 * p.pdf,", "the weight of lamps that are hit takes the ray's pdf 5 % too high"),
     F("path_state.lightSamplesAt", "? float(kCameraRays) : 1.0", "? float(kCameraRays) + 1.0 : 1.0", "weights count a light sample more than a sample of several camera rays takes"),
-    F("path.spawnRay rays", "p.throughput *= float(kCameraRays)", "p.throughput *= 1.02 * float(kCameraRays)", "what comes after the first scattering of a sample of several camera rays is 2 % too bright"),
+    F("path.spawnRay rays", "? 0.0 : float(kCameraRays)", "? 0.0 : 1.02 * float(kCameraRays)", "what comes after the first scattering of a sample of several camera rays is 2 % too bright"),
     F("path.startPath rays", "vec3(1.0 / float(kCameraRays))", "vec3(1.02 / float(kCameraRays))", "what several camera rays see is 2 % too bright"),
     F("trace.nextCameraRay", "next.coveredRays = p.coveredRays", "next.coveredRays = 0", "the alpha of samples of several camera rays is too small"),
     F("path.addLight", "p.aovWeight * light", "1.02 * p.aovWeight * light", "the parts of light are 2 % too bright"),
