@@ -121,7 +121,7 @@ Path meetCatcher(Path p) {
 float coverageOf(Path p) {
   if (kShadowCatcher && p.caught) return luminance(p.radiance);
   if (kAov == kAovGuides && kAlpha && !p.covered) return p.guide.share;
-  return float(p.coveredRays + (p.covered ? 1 : 0)) / float(kCameraRays);
+  return float(coveredRays(p)) / float(kCameraRays);
 }
 
 /// The finished sample of a path that was caught: the background times the share of light that arrives.

@@ -177,7 +177,6 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int earlier, int steps) 
   if (kFisheye && !withinFisheye(point)) ray = CameraRay(vec3(0.0, kAboveAll, 0.0), vec3(0.0, 1.0, 0.0));
   Path p = pathAlong(ray.origin, ray.direction, sampler, steps);
   p.pixel = pixel;
-  p.earlierRays = earlier;
   p.throughput = vec3(1.0 / float(kCameraRays));
   return p;
 }
@@ -275,7 +274,7 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
   p.after = kPhaseEnd;
   // The last camera ray of a sample alone goes on, for all.
   if (kCameraRays > 1 && countedScatterings(p) == 0 && !goesStraight(p.medium, s, m, atDeltaGlass(m, pdf), transmitted))
-    p.throughput *= p.earlierRays < kCameraRays - 1 ? 0.0 : float(kCameraRays);
+    p.throughput *= earlierRays(p) < kCameraRays - 1 ? 0.0 : float(kCameraRays);
   if (maxComponent(p.throughput) <= 0.0) return p;
   bool deltaGlass = atDeltaGlass(m, pdf);
   uint medium = p.medium;

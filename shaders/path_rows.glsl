@@ -8,7 +8,7 @@ const int kRowDirection = 1;        // direction, medium
 const int kRowHit = 2;              // the ray's hit: distance, slot, weights
 const int kRowThroughput = 3;       // throughput, pdf
 const int kRowRadiance = 4;         // radiance, flags
-const int kRowCounts = 5;           // sample, rays (raysOf), scatterings (scatteringsOf), free and straight ones (bounceCounts)
+const int kRowCounts = 5;           // sample, rays, scatterings (scatteringsOf), free and straight ones (bounceCounts)
 // kShadowRows:
 const int kRowShadow = 6;           // shadow ray's origin, limit
 const int kRowShadowDirection = 7;  // its direction, etaScale
@@ -45,18 +45,6 @@ Path withCounts(Path p, uint scatterings, uint freeBounces) {
   return p;
 }
 
-/// The rays of a sample in a word: those traced, and the camera rays (kCameraRays).
-uint raysOf(Path p) {
-  return uint(p.rays) | (kCameraRays > 1 ? uint(p.earlierRays) << 24 | uint(p.coveredRays) << 28 : 0u);
-}
-
-Path withRays(Path p, uint rays) {
-  p.rays = int(kCameraRays > 1 ? rays & 0xffffffu : rays);
-  p.earlierRays = int(kCameraRays > 1 ? rays >> 24 & 15u : 0u);
-  p.coveredRays = int(kCameraRays > 1 ? rays >> 28 : 0u);
-  return p;
-}
-
 /// The hit of a traversal as a row.
 uvec4 metBy(Traversal t) { return uvec4(floatBitsToUint(t.t), uint(t.slot), floatBitsToUint(t.weights)); }
 
@@ -70,7 +58,7 @@ void savePath(Path p, int row, bool begins) {
   if (!begins) pathStates[row + kRowThroughput] = uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.pdf));
   pathStates[row + kRowRadiance] = uvec4(floatBitsToUint(p.radiance), flags);
   uint sampleIndex = bitfieldReverse(p.sampler.reversed);
-  pathStates[row + kRowCounts] = uvec4(sampleIndex, raysOf(p), scatteringsOf(p), bounceCounts(p));
+  pathStates[row + kRowCounts] = uvec4(sampleIndex, uint(p.rays), scatteringsOf(p), bounceCounts(p));
   if (kShadowRows && !begins) {
     pathStates[row + kRowShadow] = uvec4(floatBitsToUint(p.shadowOrigin), floatBitsToUint(p.shadowLimit));
     pathStates[row + kRowShadowDirection] = uvec4(floatBitsToUint(p.shadowDirection), floatBitsToUint(p.etaScale));
@@ -111,7 +99,8 @@ Path loadPath(int row, uint key) {
   a = readPathStates(row + kRowCounts);
   p.sampler = makeSampler(key, a.x);
   if (kMovingCamera || kMoving) p.time = timeOf(p.sampler);
-  p = withCounts(withRays(p, a.y), a.z, a.w);
+  p.rays = int(a.y);
+  p = withCounts(p, a.z, a.w);
   if (kShadowRows) {
     p.etaScale = begins ? 1.0 : uintBitsToFloat(readPathStates(row + kRowShadowDirection).w);
     a = readPathStates(row + kRowContribution);

@@ -52,10 +52,8 @@ struct Path {
   int bounce;      // scatterings so far, also one whose ray roulette ends
   int freeBounces;  // the part of `bounce` at smooth glass (kTransmission) and in media, which --bounces does not limit
   int straightBounces;  // the part of `bounce` that went straight through glass (kThroughGlass)
-  int earlierRays;  // camera rays of the same sample before this path's own (kCameraRays)
-  int coveredRays;  // those of them that have met a surface
   int crossings;   // meetings with surfaces, where there is alpha; see nextCrossing
-  int rays;        // traced so far
+  int rays;        // of the sample, see tracedRays
   ivec2 pixel;     // the pixel in the film (kStoresReservoirs, kNeighbours), or the index of a light path's record
   Sampler sampler;
   float time;      // 0..1 while the shutter is open (kTimed)
@@ -98,8 +96,6 @@ Path newPath() {
   p.bounce = 0;
   p.freeBounces = 0;
   p.straightBounces = 0;
-  p.earlierRays = 0;
-  p.coveredRays = 0;
   p.crossings = 0;
   p.rays = 0;
   p.pixel = ivec2(0);
@@ -132,6 +128,15 @@ Path newPath() {
   p.traversal = startTraversal(kFarAway, frame.leafCount);
   return p;
 }
+
+/// A word holds the rays of a sample, its camera rays before this one, and how many of these have met a surface.
+const int kEarlierRay = 1 << 24;
+const int kCoveredRay = 1 << 28;
+int tracedRays(Path p) { return kCameraRays > 1 ? p.rays & (kEarlierRay - 1) : p.rays; }
+int earlierRays(Path p) { return kCameraRays > 1 ? p.rays >> 24 & 15 : 0; }
+
+/// Camera rays of the sample that have met a surface, with this one.
+int coveredRays(Path p) { return (kCameraRays > 1 ? p.rays >> 28 : 0) + (p.covered ? 1 : 0); }
 
 /// The path with the hit of its ray.
 Path withHit(Path p, Traversal hit) {

@@ -72,9 +72,9 @@ Sampler samplerOfLight(Path p) {
   Sampler s = p.sampler;
   if (kCameraRays == 1 || !kSobol || countedScatterings(p) > 0) return s;
   uint index = bitfieldReverse(s.reversed);
-  bool goesOn = uint(p.earlierRays) == kShortRays;
-  uint sampleIndex = goesOn ? index : (index - kFarHalf) / max(kShortRays, 1u);
-  s.reversed = bitfieldReverse(kFarHalf + sampleIndex * uint(kCameraRays) + uint(p.earlierRays));
+  uint earlier = uint(earlierRays(p));
+  uint sampleIndex = earlier == kShortRays ? index : (index - kFarHalf) / max(kShortRays, 1u);
+  s.reversed = bitfieldReverse(kFarHalf + sampleIndex * uint(kCameraRays) + earlier);
   return s;
 }
 

@@ -131,21 +131,20 @@ void reportCut(float cut) {
 }
 
 /// Returns true if the sample of a finished path has more camera rays.
-bool hasMoreRays(Path p) { return kCameraRays > 1 && p.earlierRays < kCameraRays - 1; }
+bool hasMoreRays(Path p) { return earlierRays(p) < kCameraRays - 1; }
 
 /// The next camera ray of a finished path's sample.
 Path nextCameraRay(Path p, FilmPixel film, ivec2 pixel, uint key) {
   uint index = film.samples + uint(frame.firstSample);
-  Path next = startPath(pixel, key, index, p.earlierRays + 1, p.traversal.steps);
+  Path next = startPath(pixel, key, index, earlierRays(p) + 1, p.traversal.steps);
   next.radiance = p.radiance;
-  next.rays = p.rays;
-  next.coveredRays = p.coveredRays + (p.covered ? 1 : 0);
+  next.rays = p.rays + kEarlierRay + (p.covered ? kCoveredRay : 0);
   return next;
 }
 
 /// Adds the finished path to the film.
 FilmPixel endSample(FilmPixel film, Path p, ivec2 pixel) {
-  film.rays += uint(p.rays);
+  film.rays += uint(tracedRays(p));
   if (kCountVisits) p.radiance = vec3(float(p.traversal.visits));
   float alpha = coverageOf(p);
   if (kShadowCatcher) p = showShadow(p);

@@ -34,7 +34,7 @@ ROWS = [
     F("path_state.lightSamplesAt", "? float(kCameraRays) : 1.0", "? float(kCameraRays) + 1.0 : 1.0", "weights count a light sample more than a sample of several camera rays takes"),
     F("path.spawnRay rays", "? 0.0 : float(kCameraRays)", "? 0.0 : 1.02 * float(kCameraRays)", "what comes after the first scattering of a sample of several camera rays is 2 % too bright"),
     F("path.startPath rays", "vec3(1.0 / float(kCameraRays))", "vec3(1.02 / float(kCameraRays))", "what several camera rays see is 2 % too bright"),
-    F("trace.nextCameraRay", "next.coveredRays = p.coveredRays", "next.coveredRays = 0", "the alpha of samples of several camera rays is too small"),
+    F("trace.nextCameraRay", "(p.covered ? kCoveredRay : 0)", "0", "the alpha of samples of several camera rays is too small"),
     F("path.addLight", "p.aovWeight * light", "1.02 * p.aovWeight * light", "the parts of light are 2 % too bright"),
     F("shade.aovShare", "vec3 share = clamp(diffuse", "vec3 share = clamp(0.98 * diffuse", "2 % of the diffuse part count as specular"),
     F("path.spawnShadowRay", "light, value)", "light, 1.02 * value)", "chosen light of surfaces is 2 % too bright"),
