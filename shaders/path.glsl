@@ -275,7 +275,7 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
   // The last camera ray of a sample alone goes on, for all.
   if (kCameraRays > 1 && countedScatterings(p) == 0 && !goesStraight(p.medium, s, m, atDeltaGlass(m, pdf), transmitted))
     p.throughput *= earlierRays(p) < kCameraRays - 1 ? 0.0 : float(kCameraRays);
-  if (maxComponent(p.throughput) <= 0.0) return p;
+  bool ends = maxComponent(p.throughput) <= 0.0;
   bool deltaGlass = atDeltaGlass(m, pdf);
   uint medium = p.medium;
   if (transmitted && m.solid) {
@@ -297,7 +297,7 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
   float carried = kGuided && p.prefix == kPrefixGuided ? 1.0 : maxComponent(p.throughput) * p.etaScale;
   float survival = min(carried, deltaGlass ? kGlassSurvival : 0.95);
   uint rouletteDimension = kBounceDimensions * uint(p.bounce) + kRouletteDimension;
-  if (roulette && drawFloat(p.sampler, rouletteDimension) >= survival) return p;
+  if (roulette && drawFloat(p.sampler, rouletteDimension) >= survival) ends = true;
   if (roulette) p.throughput /= survival;
   p.cameraRay = false;
   if (kCaustics && kLightPaths) p.prefix = lightPrefix(p.prefix, pdf == 0.0, straight);
@@ -308,11 +308,9 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
     p.prefix = cameraPrefix(p.prefix, first, narrow, straight, caster);
   }
   // Straight through a thin wall the path keeps its ray, and the pdf that light sampling shares with it.
-  if (straight) {
-    p.straightBounces += 1;
-    p.after = kPhasePass;
-    return p;
-  }
+  p.straightBounces += straight ? 1 : 0;
+  p.after = ends ? kPhaseEnd : straight ? kPhasePass : kPhaseExtend;
+  if (straight) return p;
   p.pdf = pdf;
   p.normal = normalOfLight(s, m);
   p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, direction);
@@ -320,7 +318,6 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
   // At a sharp edge, rounding decides which of two faces a ray hits first. A ray that has left a front is to meet a
   // front.
   if (kCreases) p.tie = (dot(direction, s.geometricNormal) > 0.0) == s.front ? kTie : -kTie;
-  p.after = kPhaseExtend;
   return p;
 }
 
@@ -361,7 +358,8 @@ vec3 emittedAt(Path p, Surface s, uint flags) {
 /// Sets up the shadow ray of a light sample of a point that would add `value`; without shadows it is added at once. The
 /// ray begins at `origin`, beside the point.
 Path spawnShadowRayFrom(Path p, vec3 point, vec3 origin, LightSample light, vec3 value) {
-  if (maxComponent(value) <= 0.0) return p;
+  bool lit = maxComponent(value) > 0.0;
+  if (!kShadows && !lit) return p;
   value = clampIndirect(value, countedScatterings(p) + 1);
   if (!kMedia && !kShadows) return addLight(p, value);
   p.contribution = kLightPart ? p.aovWeight * value : value;
@@ -381,7 +379,7 @@ Path spawnShadowRayFrom(Path p, vec3 point, vec3 origin, LightSample light, vec3
     // The light's own surface is kept out by a relative margin above the rounding of the point chosen on it.
     p.shadowLimit = distance * float(0.9999);
   }
-  p.phase = kPhaseShadow;
+  if (lit) p.phase = kPhaseShadow;
   return traceAnew(p, p.shadowLimit);
 }
 

@@ -132,11 +132,12 @@ std::vector<OptionRow> samplingRows() {
       number<uint32_t>("--seed", "seed of the sample points, 0 to 4294967295",
                        FRAGTRACE_MEMBER(sampling.seed), {0, std::numeric_limits<uint32_t>::max()}, kNoise),
       bouncesRow(),
-      number<int>("--camera-rays",
-                  "camera rays of each sample, which all bring the light that they see and one light sample; the "
-                  "last alone goes on: 1 to 8, or 0: 4 where lamps are chosen by place, else 1",
-                  FRAGTRACE_MEMBER(sampling.cameraRays), {0, kMostCameraRays},
-                  {.effect = Effect::Noise, .renewal = Renewal::Program, .attribute = "camera_rays"}),
+      number<int>(
+          "--camera-rays",
+          "camera rays of each sample, which all bring the light that they see and one light sample; the "
+          "last alone goes on: 1 to 8, or 0: 4 where it pays to choose among many lamps by place, else 1",
+          FRAGTRACE_MEMBER(sampling.cameraRays), {0, kMostCameraRays},
+          {.effect = Effect::Noise, .renewal = Renewal::Program, .attribute = "camera_rays"}),
       number<int>("--rr-depth", "Russian roulette may end a path from this scattering event on",
                   FRAGTRACE_MEMBER(sampling.rouletteDepth), {1, std::numeric_limits<int>::max() / 4},
                   {.effect = Effect::Noise, .attribute = "rr_depth"}),

@@ -108,17 +108,12 @@ void dropIdle(ShaderVariant& v) {
   if (!stage(Stage::Watertight)) drop(v.traits, {Trait::Slivers});
 }
 
-/// In the city, the corridor and many-lights, four rays give 0.41 to 0.60 of the variance for 1.5 to 1.85 of the
-/// time (docs/measurements/accuracy.md).
-constexpr int kRaysWithTree = 4;
-
-/// A catcher and the neighbours' light samples know one camera ray per sample, and media may scatter before any
-/// surface.
+/// A catcher and the neighbours' light samples know one camera ray per sample, and media may scatter before
+/// any surface.
 int cameraRaysOf(const ShaderVariant& v, int wanted) {
   const bool one = !has(v.stages, Stage::Gi) || v.countsVisits || v.shadowCatcher || v.lightCandidates ||
                    v.neighbours || hasMedia(v.traits);
-  if (one) return 1;
-  return wanted > 0 ? wanted : has(v.traits, Trait::LightTree) && !v.uniformLights ? kRaysWithTree : 1;
+  return one || wanted == 0 ? 1 : wanted;
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ ROWS = [
     F("shade.normalFacing", "return kGi && kSpecular ?", "normal = normalize(normal + vec3(0.05)); return kGi && kSpecular ?", "shading normals lean by 3 degrees"),
     F("shade.glassLostAt", "1.0 - glassAlbedo", "1.02 - glassAlbedo", "rough solid glass is given back 2 % too much"),
     F("shade.glassLostAt thin", "return ggxLoss", "return 1.05 * ggxLoss", "rough thin glass is given back 5 % too much of what it loses"),
-    F("path.spawnRay straight", "p.after = kPhasePass;", "p.pdf = pdf; p.after = kPhasePass;", "light behind a thin wall is found twice"),
+    F("path.spawnRay straight", "if (straight) return p;", "p.pdf = straight ? pdf : p.pdf; if (straight) return p;", "light behind a thin wall is found twice"),
     F("path.passesGlass", "limitedScatterings(p) < frame.maxBounces", "true", "shadow rays pass walls where the path could not"),
     F("lights.makeLight", "s.irradiance = irradiance", "s.irradiance = irradiance * float(1.02)", "all chosen light is 2 % too bright"),
     F("lights.punctualLight directional", "kFarAway, vec3(intensity)", "kFarAway, float(1.02) * vec3(intensity)", "directional light is 2 % too bright"),

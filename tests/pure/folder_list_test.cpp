@@ -122,6 +122,22 @@ TEST_F(FolderLists, AsksBeforeAFileIsReplaced) {
   EXPECT_STREQ(list.text.data(), "old.png");
 }
 
+TEST_F(FolderLists, KeepTheTextThatIsTypedBeforeTheyAreRead) {
+  for (const char* name : {"b10.glb", "c.glb"}) add(name);
+  FolderList list = listFor(openQuestion(folder, false));
+  type(list, "b");
+  takeContent(list, readFolder(folder));
+  EXPECT_EQ(namesOf(list), Names{"b10.glb"});
+  clearSearch(list);
+  takeContent(list, readFolder(folder));
+  EXPECT_EQ(namesOf(list), (Names{"b10.glb", "c.glb"}));
+  list = listFor(saveQuestion(folder / "new.png"));
+  type(list, "mine.png");
+  takeContent(list, readFolder(folder));
+  clearSearch(list);
+  EXPECT_EQ(accept(list).take, folder / "mine.png");
+}
+
 TEST_F(FolderLists, SayThatAModelStaysInItsFolder) {
   EXPECT_NE(saveModelQuestion(folder / "a.gltf", true).title.find("in this folder"), std::string::npos);
   EXPECT_EQ(saveModelQuestion(folder / "a.gltf", false).title, "Save the model as");

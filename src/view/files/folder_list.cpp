@@ -121,9 +121,12 @@ FolderList listFor(FileQuestion question) {
   return list;
 }
 
+void clearSearch(FolderList& list) {
+  if (!list.question.save) setListText(list, {});
+}
+
 void takeContent(FolderList& list, FolderContent content) {
   list.content = std::move(content);
-  if (!list.question.save) setListText(list, {});
   findEntries(list);
   // Enter opens what is alone.
   if (!list.question.save && list.shown.size() == 1) list.chosen = 0;

@@ -54,7 +54,10 @@ struct ListStep {
 /// An empty list for the question; its folder is to be read.
 FolderList listFor(FileQuestion question);
 
-/// Shows what was read.
+/// Empties the text to find in names, since another folder will be read. A name to save under stays.
+void clearSearch(FolderList& list);
+
+/// Shows what was read. The text stays: it may have been typed since.
 void takeContent(FolderList& list, FolderContent content);
 
 /// Must be called after a change of the text or the filter.

@@ -52,6 +52,7 @@ void FileDialog::read(const std::filesystem::path& folder) {
 void FileDialog::follow(const ListStep& step) {
   ++field_;
   scrolls_ = true;
+  if (!step.enter.empty()) clearSearch(*list_);
   if (!step.enter.empty()) read(step.enter);
   if (step.take.empty()) return;
   chosen_ = step.take;
@@ -104,7 +105,6 @@ FileDialog::News FileDialog::take(double now) {
   if (std::optional<FolderContent> content = reading_.take(); content && list_) {
     takeContent(*list_, std::move(*content));
     scrolls_ = true;
-    ++field_;
     news.changed = true;
   }
   news.file = std::exchange(chosen_, {});
