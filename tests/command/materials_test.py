@@ -147,6 +147,22 @@ class Materials(Case):
             for c in range(3):
                 self.assertAlmostEqual(sum(p[c] for p in pixels) / len(pixels), 1, delta=0.02, msg=f"material {i}")
 
+    def test_a_rough_pane_loses_no_light(self):
+        """1,024 directional lights all round a wall without thickness, seen at 60 degrees: all of their light is scattered. Light samples alone find them,
+        so the value of the lobe that energy compensation adds counts."""
+        count = 1024
+        gltf = quad({"pbrMetallicRoughness": {"metallicFactor": 0}, "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}})
+        gltf["nodes"][0]["rotation"] = [math.sin(math.pi / 6), 0, 0, math.cos(math.pi / 6)]
+        gltf["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 4 * math.pi / count}]}}
+        for i in range(count):
+            z, turn = 1 - (2 * i + 1) / count, math.pi * (3 - math.sqrt(5)) * i
+            # The shortest rotation from -z to the direction in which the light shines.
+            quaternion = [math.sqrt(1 - z * z) * math.sin(turn), -math.sqrt(1 - z * z) * math.cos(turn), 0.0, 1 - z]
+            gltf["nodes"].append({"rotation": [q / math.hypot(*quaternion) for q in quaternion], "extensions": {"KHR_lights_punctual": {"light": 0}}})
+        gltf["scenes"] = [{"nodes": list(range(len(gltf["nodes"])))}]
+        pixels = [p[0] for row in self.picture_of(gltf, "--spp", 4096, "--bounces", 0, "--light-selection", "uniform")[12:20] for p in row[12:20]]
+        self.assertAlmostEqual(sum(pixels) / len(pixels), 1, delta=0.005)
+
     def test_clearcoat_darkens_what_shines_under_it(self):
         lamp = {"emissiveFactor": [1, 1, 1], "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]},
                 "extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 0.5}}}
