@@ -149,8 +149,8 @@ Likeness likenessOf(const Context& context, uint32_t seed, Form form, Schedule s
   l.wrong = whyOther(l);
   const bool byChance = form == Form::Shared || !sameNumbers(form);
   if (l.wrong.empty() || !byChance) return l;
-  // Rare bright samples take some pictures apart by chance: one seed in 160 of scene 3861 shared, one in 100 of scene
-  // 4182 flattened. Four times as many samples double the distance of a fault, in standard errors.
+  // Rare bright samples take some pictures apart by chance: one seed in 160 of scene 3861 shared, one in 100
+  // of scene 4182 flattened. Four times as many samples double the distance of a fault, in standard errors.
   options.sampling.spp *= 4;
   options.sampling.seed += 1;
   l = compared(context, seed, form, options, goOn);

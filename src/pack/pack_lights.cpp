@@ -175,7 +175,8 @@ void appendTree(Words& words, std::span<const Emitter> emitters, std::span<const
   }
   std::vector<uint32_t> groupWords;
   groupWords.reserve(groups.size());
-  for (const auto& [first, count] : groups) groupWords.push_back(first | (count - 1) << layout::kLightMoreShift);
+  for (const auto& [first, count] : groups)
+    groupWords.push_back(first | (count - 1) << layout::kLightMoreShift);
   words.insert(words.end(), {uint32_t(nodes.size()), 0u, 0u, 0u});
   appendLightNodes(words, nodes, groupWords);
   words.insert(words.end(), leaves.begin(), leaves.end());

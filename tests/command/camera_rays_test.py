@@ -6,7 +6,7 @@ import math
 import shutil
 import statistics
 
-from support import SCENES, Case, luminances, main, run
+from support import SCENES, SHADERS, Case, luminances, main, run
 
 SIZE = ("--resolution", "32,24")
 SEEDS = range(1, 7)
@@ -51,7 +51,7 @@ class CameraRays(Case):
 
     def test_samples_that_take_many_draws_are_the_same(self):
         folder = self.folder / "shaders"
-        shutil.copytree(SCENES.parent / "shaders", folder)
+        shutil.copytree(SHADERS, folder)
         text = (folder / "trace.glsl").read_text()
         self.assertIn("int budget = frame.stepBudget;", text)
         (folder / "trace.glsl").write_text(text.replace("int budget = frame.stepBudget;", "int budget = min(frame.stepBudget, 6);"))

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from known_light_test import MATT, SPECULAR, from_lamp, over_ground
 from materials_test import data_uri, quad
-from support import SCENES, Case, luminances, main, run
+from support import SCENES, SHADERS, Case, luminances, main, run
 
 SEEDS = range(1, 7)
 WIDE = 2.5    # half of the width of the ground
@@ -338,7 +338,7 @@ class Caustics(Case):
 
     def test_light_paths_that_take_many_draws_are_the_same(self):
         folder = self.folder / "shaders"
-        shutil.copytree(SCENES.parent / "shaders", folder)
+        shutil.copytree(SHADERS, folder)
         text = (folder / "trace.glsl").read_text()
         self.assertIn("int budget = frame.stepBudget;", text)
         (folder / "trace.glsl").write_text(text.replace("int budget = frame.stepBudget;", "int budget = min(frame.stepBudget, 6);"))

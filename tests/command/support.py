@@ -5,6 +5,7 @@ A test file is run as FILE FRAGTRACE SOURCE_FOLDER [unittest arguments].
 """
 import ctypes.util
 import math
+import os
 import signal
 import statistics
 import struct
@@ -22,6 +23,8 @@ from skips import EXTENDED, at_length, main  # noqa: E402, F401
 
 FRAGTRACE = Path(sys.argv[1]).resolve()
 SCENES = Path(sys.argv[2]).resolve() / "scenes"
+# The shaders that the program draws with: tests/mutants/fragtrace has others.
+SHADERS = Path(os.environ.get("MUTANT_SHADERS", SCENES.parent / "shaders"))
 # The software back ends that are installed: Mesa 25.1 and later have no OSMesa.
 BACKENDS = ("egl", "osmesa") if ctypes.util.find_library("OSMesa") else ("egl",)
 SMALL = ["--resolution", "16,16", "--spp", "2", "--quiet"]
