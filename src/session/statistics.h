@@ -58,6 +58,8 @@ struct Statistics {
   glm::ivec2 size{0};            ///< size of the drawn part
   std::optional<Region> region;  ///< the drawn part of the picture, if one was asked for
   int parts = 1;                 ///< number of parts in which it was drawn
+  int cameraRays = 1;            ///< per sample
+  int pixelsPerPath = 0;         ///< as in View
   FilmTotals film;
   std::optional<AdaptiveStatistics> adaptive;
   double featureMs = 0.0;  ///< drawing the layers of first hits
@@ -71,10 +73,8 @@ struct Statistics {
   double clampIndirect = 0.0;   ///< 0: not clamped
   std::string lightSelection;   ///< name of the choice of lights; empty: there is none to choose
   std::string lightSelectionReason;
-  int cameraRays = 1;           ///< per sample
   std::string lightReuse;       ///< value of --light-reuse
   std::string lightPathReason;  ///< why light paths are traced, or are not; empty: the stage has none
-  int pixelsPerPath = 0;        ///< as in View
   size_t casters = 0;           ///< groups of surfaces that they are aimed at; 0: none are traced
   bool complete = true;
   bool quickCompilation = false;  ///< the driver was told not to optimise

@@ -125,7 +125,7 @@ TEST_F(FolderLists, AsksBeforeAFileIsReplaced) {
 TEST_F(FolderLists, KeepTheTextThatIsTypedBeforeTheyAreRead) {
   for (const char* name : {"b10.glb", "c.glb"}) add(name);
   FolderList list = listFor(openQuestion(folder, false));
-  type(list, "b");
+  type(list, "b1");
   takeContent(list, readFolder(folder));
   EXPECT_EQ(namesOf(list), Names{"b10.glb"});
   clearSearch(list);
