@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The part of the renderer that draws caustics: passes of light paths.
 #include <algorithm>
-#include <cmath>
 
 #include "render/renderer.h"
 
@@ -13,19 +12,12 @@ namespace {
 /// longest path of the others. A row of lanes is as wide as the tile, since llvmpipe's threads share squares
 /// of 64 pixels, and rows are even, since it draws two at a time.
 constexpr int kSoftwarePathsPerLane = 16;
+/// A pass has one light path for this many pixels of the picture: caustics are less noisy than the rest even
+/// with fewer.
+constexpr int kPixelsPerPath = 4;
 constexpr int kMargin = 4;  // pixels about the film; filters reach 2
 
-/// The small picture in which choosePixelsPerPath() measures.
-constexpr double kPilotPixels = 1024.0;
-constexpr int kPilotSamples = 16;
-constexpr uint32_t kPilotSeed = 0x70696c6fu;
-
 int partsOf(int whole, int part) { return (whole + part - 1) / part; }
-
-glm::ivec2 pilotSize(glm::ivec2 picture) {
-  const double scale = std::sqrt(kPilotPixels / (double(picture.x) * picture.y));
-  return glm::max(glm::ivec2(glm::round(glm::dvec2(picture) * std::min(scale, 1.0))), 1);
-}
 
 }  // namespace
 
@@ -52,7 +44,7 @@ bool Renderer::addLightPaths(Film& film, const View& view, int passes, const GoO
   const std::optional<ShaderVariant> light = lightPathVariant(pace_->drawn);
   if (!light) return true;
   const glm::ivec2 whole = view.placement ? view.placement->whole : film.size();
-  const glm::ivec2 paths(whole.x, partsOf(whole.y, view.pixelsPerPath));
+  const glm::ivec2 paths(whole.x, partsOf(whole.y, kPixelsPerPath));
   const std::vector<Work> tiles = tilesOf({{0, 0}, paths, 0, 1}, glm::ivec2(kRecordSide));
   const uint64_t perPass = uint64_t(paths.x) * uint64_t(paths.y);
   while (film.lightPaths() < perPass * uint64_t(passes)) {
@@ -66,27 +58,6 @@ bool Renderer::addLightPaths(Film& film, const View& view, int passes, const GoO
     }
   }
   return true;
-}
-
-int Renderer::choosePixelsPerPath(const View& view, glm::ivec2 picture, RenderTimes& times) {
-  if (!lightPathVariant(pace_->drawn)) return kPixelsPerPath;
-  const auto start = std::chrono::steady_clock::now();
-  Film film(pilotSize(picture));
-  View pilot = view;
-  pilot.placement = Placement{{0, 0}, picture};
-  trainGuiding(film, pilot, 1, times, toTheEnd);
-  pilot.placement.reset();
-  pilot.seed = kPilotSeed;
-  pilot.sampleOffset = 0;
-  pilot.pixelsPerPath = 1;
-  for (int i = 0; i < kPilotSamples; ++i)
-    drawPass({pace_->drawn, film, pilot, tilesOf({{0, 0}, film.size(), i, i + 1}, kWaveTile)}, toTheEnd);
-  const FilmPixels camera = film.read();
-  addLightPaths(film, pilot, kPilotSamples / 4, toTheEnd);
-  const FilmTotals paths = totalsOf(lightPathFilm_->read());  // those of the last tile
-  const int chosen = pixelsPerPath(camera, film.read(), double(paths.rays) / double(paths.samples));
-  times.renderMs += millisecondsBetween(start, std::chrono::steady_clock::now());
-  return chosen;
 }
 
 bool Renderer::addLightTile(const RenderPass& pass, glm::ivec2 whole, int index, const GoOn& goOn) {

@@ -18,7 +18,6 @@
 #include "pack/guiding.h"
 #include "render/draw_plan.h"
 #include "render/film.h"
-#include "render/film/path_share.h"
 #include "scene/fog.h"
 #include "scene/motion/camera_motion.h"
 #include "scene/volume/grid.h"
@@ -70,7 +69,6 @@ struct View {
   uint32_t seed = 0;
   int sampleOffset = 0;                ///< index of sample 0 of the film in the seed's sequence
   float clampIndirect = 0.0f;          ///< largest indirect radiance of a sample, when the variant clamps
-  int pixelsPerPath = kPixelsPerPath;  ///< of the picture's, for one light path of each sample
   std::optional<Placement> placement;  ///< place of the film in the picture; none: it is the whole
 };
 
@@ -146,10 +144,6 @@ class Renderer {
     const Work whole{{0, 0}, film.size(), from, to};
     return addSamples(film, view, {&whole, 1}, times, progress);
   }
-
-  /// View::pixelsPerPath for a picture of this size, from the variances in a small one (path_share.h) with
-  /// random numbers of its own: the same for all seeds and parts. compile() or use() has chosen the variant.
-  int choosePixelsPerPath(const View& view, glm::ivec2 picture, RenderTimes& times);
 
   /// The milliseconds that one sample of one pixel takes, as the latest work measured them; 0 if not yet
   /// known.

@@ -59,7 +59,6 @@ struct Statistics {
   std::optional<Region> region;  ///< the drawn part of the picture, if one was asked for
   int parts = 1;                 ///< number of parts in which it was drawn
   int cameraRays = 1;            ///< per sample
-  int pixelsPerPath = 0;         ///< as in View
   FilmTotals film;
   std::optional<AdaptiveStatistics> adaptive;
   double featureMs = 0.0;  ///< drawing the layers of first hits

@@ -3,7 +3,6 @@
 // header in JSON, and the arrays one after the other.
 #include "render/film/checkpoint.h"
 
-#include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -17,7 +16,7 @@ namespace fragtrace {
 
 namespace {
 
-constexpr std::string_view kMagic = "fragtrace checkpoint 4\n";
+constexpr std::string_view kMagic = "fragtrace checkpoint 3\n";
 
 template <typename Value>
 std::span<const uint8_t> bytesOf(const std::vector<Value>& values) {
@@ -80,7 +79,6 @@ nlohmann::json headerOf(const Checkpoint& c, uint64_t sum) {
   json["job"] = c.job;
   json["statistics"] = c.statistics;
   json["part"] = c.part;
-  json["pixels_per_path"] = c.pixelsPerPath;
   json["films"] = nlohmann::json::array();
   for (const FilmState& film : c.films)
     json["films"].push_back({{"size", sizeJson(film.size)},
@@ -109,7 +107,6 @@ Checkpoint decode(Reader reader) {
   c.job = json.at("job");
   c.statistics = json.at("statistics");
   c.part = json.at("part");
-  c.pixelsPerPath = std::clamp(json.at("pixels_per_path").get<int>(), 1, kMostPixelsPerPath);
   for (const nlohmann::json& film : json.at("films")) {
     FilmState state;
     state.size = sizeOf(film.at("size"));

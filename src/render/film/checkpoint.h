@@ -9,7 +9,6 @@
 
 #include "image/image.h"
 #include "render/film/film_pixels.h"
-#include "render/film/path_share.h"
 
 namespace fragtrace {
 
@@ -43,7 +42,6 @@ struct Checkpoint {
   std::vector<FilmState> films;   ///< films of that part: one, or the two of an adaptive picture
   std::vector<FilmPixels> looks;  ///< copies of its film on the way (for observedVariance())
   AdaptiveState adaptive;
-  int pixelsPerPath = kPixelsPerPath;  ///< chosen when the picture began (path_share.h)
 };
 
 /// The bytes have this machine's byte order and layout.

@@ -129,19 +129,11 @@ DrawingPlan planDrawing(const PictureJob& job, Statistics& stats) {
   const View view = viewOf(job.loaded, parts.front());
   std::vector<double> layerSeconds = measureAovs(job, film, view, stats);
   stats.parts = int(parts.size());
-  Renderer& renderer = *job.tracer.renderer;
-  stats.compileMs += useOrCompile(renderer, job.tracer.variant, film, view);
-  const int pixelsPerPath = renderer.choosePixelsPerPath(view, job.loaded.size, stats.times);
-  return {std::move(parts), std::move(film), std::move(layerSeconds), pixelsPerPath};
+  stats.compileMs += useOrCompile(*job.tracer.renderer, job.tracer.variant, film, view);
+  return {std::move(parts), std::move(film), std::move(layerSeconds)};
 }
 
 namespace {
-
-View viewOf(const PictureJob& job, const DrawingPlan& plan, const Region& part) {
-  View view = viewOf(job.loaded, part);
-  view.pixelsPerPath = plan.pixelsPerPath;
-  return view;
-}
 
 /// One part in progress.
 struct PartRun {
@@ -241,10 +233,8 @@ Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, C
   if (from) {
     i = size_t(from->part);
     picture = std::move(from->picture);
-    plan.pixelsPerPath = from->pixelsPerPath;
     restoreMeasured(from->statistics, stats);
   }
-  stats.pixelsPerPath = plan.pixelsPerPath;
   for (; i < plan.parts.size() && stats.complete; ++i) {
     const Region& region = plan.parts[i];
     Statistics before;
@@ -261,10 +251,9 @@ Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, C
                           const AdaptiveState& state) {
       RenderTimes now = stats.times;
       now.renderMs = timedMs + steadyMilliseconds() - begun;
-      keeper.write({text, measuredText(before, now), picture, int(i), std::move(films), looks, state,
-                    plan.pixelsPerPath});
+      keeper.write({text, measuredText(before, now), picture, int(i), std::move(films), looks, state});
     };
-    const PartRun part{job,    viewOf(job, plan, region), shares[i], stats, progress, keep,
+    const PartRun part{job,    viewOf(job.loaded, region), shares[i], stats, progress, keep,
                        keeper, from ? &*from : nullptr};
     const bool isFirst = region == plan.parts.front();
     const Drawing drawing = isAdaptive(options)
@@ -329,7 +318,7 @@ void addLightGroups(Image& picture, const PictureJob& job, const DrawingPlan& pl
   const LightGroups groups = lightGroupsOf(job.options, job.loaded.scene);
   for (size_t i = 0; i < names.size(); ++i) {
     const auto draw = [&](const Region& part, const Renderer::Progress& progress) {
-      const View view = viewOfGroup(viewOf(job, plan, part), groups, i);
+      const View view = viewOfGroup(viewOf(job.loaded, part), groups, i);
       return drawLayer(part.size, *job.tracer.renderer, job.tracer.variant, view, samples, progress);
     };
     const double after = secondsOfAovs(job, plan, job.tracer.aovs.size() + i + 1, samples);

@@ -25,9 +25,8 @@ struct PictureJob {
 /// Everything that is made and measured before the first sample that counts.
 struct DrawingPlan {
   std::vector<Region> parts;
-  Film film;                           ///< film of the first part, empty
-  std::vector<double> layerSeconds;    ///< time of one sample of each layer in all pixels
-  int pixelsPerPath = kPixelsPerPath;  ///< as in View
+  Film film;                         ///< film of the first part, empty
+  std::vector<double> layerSeconds;  ///< time of one sample of each layer in all pixels
 };
 
 /// Compiles all programs, so that none fails later, and fills in their statistics. Throws UsageError,
