@@ -120,10 +120,10 @@ RenderOptions asDrawn(const RenderOptions& options, const TraitSet& present) {
   return able;
 }
 
-/// Where lamps are chosen by place and light samples vary so much less for it, four camera rays of a sample
-/// pay: in the city, the corridor and many-lights (19, 63 and 6 times less) they take 1.5 to 1.7 of the time
-/// for 0.4 to 0.65 of the variance. In lights.gltf and water-cube.gltf (1.7 and 1.3) they take 2.2 and 1.6 of
-/// it for 0.53 and 0.94.
+/// Four camera rays of a sample pay if light samples vary so many times less where lamps are chosen by place.
+/// In the city, the corridor and many-lights (19, 63 and 6 times) they take 1.5 to 1.7 of the time for 0.4 to
+/// 0.65 of the variance. In lights.gltf and water-cube.gltf (1.7 and 1.3) they take 2.2 and 1.6 of it for
+/// 0.53 and 0.94.
 constexpr double kLeastGainOfRays = 4.0;
 constexpr int kRaysOfManyLamps = 4;
 

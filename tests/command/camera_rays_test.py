@@ -3,10 +3,9 @@
 """Samples of several camera rays (--camera-rays): all bring what they see and one light sample, the last alone goes on."""
 import json
 import math
-import shutil
 import statistics
 
-from support import SCENES, SHADERS, Case, luminances, main, run
+from support import SCENES, Case, luminances, main, run
 
 SIZE = ("--resolution", "32,24")
 SEEDS = range(1, 7)
@@ -50,11 +49,7 @@ class CameraRays(Case):
             self.assertEqual(first, self.picture(scene, "c.pfm", *size, "--schedule", "megakernel", "--dispatch", "compute"))
 
     def test_samples_that_take_many_draws_are_the_same(self):
-        folder = self.folder / "shaders"
-        shutil.copytree(SHADERS, folder)
-        text = (folder / "trace.glsl").read_text()
-        self.assertIn("int budget = frame.stepBudget;", text)
-        (folder / "trace.glsl").write_text(text.replace("int budget = frame.stepBudget;", "int budget = min(frame.stepBudget, 6);"))
+        folder = self.shaders_of_short_draws()
         size = ("--resolution", "24,18", "--spp", 2, "--camera-rays", 4, "--schedule", "megakernel", "--traversal", "front-to-back",
                 "--no-background")
         first = self.picture("many-lights", "a.exr", *size)

@@ -5,14 +5,13 @@ the mirrored lamp sends, that of a slab of glass follows from Snell and Fresnel.
 (5 degrees of freedom: one of 500 would not)."""
 import json
 import math
-import shutil
 import statistics
 import struct
 from pathlib import Path
 
 from known_light_test import MATT, SPECULAR, from_lamp, over_ground
 from materials_test import data_uri, quad
-from support import SCENES, SHADERS, Case, luminances, main, run
+from support import SCENES, Case, luminances, main, run
 
 SEEDS = range(1, 7)
 WIDE = 2.5    # half of the width of the ground
@@ -337,11 +336,7 @@ class Caustics(Case):
         self.assertLess(pixels[-1], 4 * pixels[len(pixels) // 2])
 
     def test_light_paths_that_take_many_draws_are_the_same(self):
-        folder = self.folder / "shaders"
-        shutil.copytree(SHADERS, folder)
-        text = (folder / "trace.glsl").read_text()
-        self.assertIn("int budget = frame.stepBudget;", text)
-        (folder / "trace.glsl").write_text(text.replace("int budget = frame.stepBudget;", "int budget = min(frame.stepBudget, 6);"))
+        folder = self.shaders_of_short_draws()
         options = ["--resolution", "24,18", "--spp", 2, "--traversal", "front-to-back", "--schedule", "megakernel"]
         scene = str(SCENES / "caustics")
         self.assertEqual(self.picture(scene, "a.pfm", *options), self.picture(scene, "b.pfm", *options, "--shader-folder", folder))

@@ -6,6 +6,7 @@ A test file is run as FILE FRAGTRACE SOURCE_FOLDER [unittest arguments].
 import ctypes.util
 import math
 import os
+import shutil
 import signal
 import statistics
 import struct
@@ -92,6 +93,15 @@ class Case(unittest.TestCase):
         self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
         self.assertEqual(pictures(), before)
         return result
+
+    def shaders_of_short_draws(self):
+        """Returns a copy of the shaders whose paths take many draws."""
+        folder = self.folder / "shaders"
+        shutil.copytree(SHADERS, folder)
+        text = (folder / "trace.glsl").read_text()
+        self.assertIn("int budget = frame.stepBudget;", text)
+        (folder / "trace.glsl").write_text(text.replace("int budget = frame.stepBudget;", "int budget = min(frame.stepBudget, 6);"))
+        return folder
 
     def interrupts(self, *arguments, within=10):
         """Ctrl-C after some seconds ends it within so many more, on a busy machine, with status 130 and one line; the folder holds what it held before."""

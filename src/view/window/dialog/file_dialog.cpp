@@ -52,8 +52,10 @@ void FileDialog::read(const std::filesystem::path& folder) {
 void FileDialog::follow(const ListStep& step) {
   ++field_;
   scrolls_ = true;
-  if (!step.enter.empty()) clearSearch(*list_);
-  if (!step.enter.empty()) read(step.enter);
+  if (!step.enter.empty()) {
+    clearSearch(*list_);
+    read(step.enter);
+  }
   if (step.take.empty()) return;
   chosen_ = step.take;
   close();
