@@ -61,6 +61,7 @@ void Film::clear() {
   const float zero[4] = {};
   cut_ = 0.0;
   lightPaths_ = 0;
+  pixelsPerPath_ = 0;
   if (splats_.name() != 0) glClearTexImage(splats_.name(), 0, GL_RGBA, GL_FLOAT, zero);
   const GlFramebuffer target = targetOf({&sum_, &compensation_});
   for (const GLint buffer : {0, 1}) glClearNamedFramebufferfv(target.name(), GL_COLOR, buffer, zero);
@@ -148,7 +149,8 @@ FilmState Film::save() const {
           cut_,
           lightPaths_ > 0 ? readPictureTexture<float>(splats_, GL_RGBA, 4, GL_FLOAT, size_, kReading)
                           : std::vector<float>(),
-          lightPaths_};
+          lightPaths_,
+          pixelsPerPath_};
 }
 
 void Film::load(const FilmState& state) {
@@ -162,6 +164,7 @@ void Film::load(const FilmState& state) {
   if (!state.splats.empty())
     writePictureTexture(splats(), GL_RGBA, 4, GL_FLOAT, size_, state.splats, kLoading);
   lightPaths_ = state.lightPaths;
+  pixelsPerPath_ = state.pixelsPerPath;
 }
 
 FilmPixels Film::readCounts() const {
@@ -171,6 +174,7 @@ FilmPixels Film::readCounts() const {
   film.size = size_;
   film.cut = cut_;
   film.lightPaths = lightPaths_;
+  film.pixelsPerPath = pixelsPerPath_;
   film.pixels.resize(size_t(size_.x) * size_t(size_.y));
   for (size_t p = 0; p < film.pixels.size(); ++p) {
     FilmPixel& pixel = film.pixels[p];

@@ -47,6 +47,9 @@ class Film {
   /// The number of light paths that have been added.
   uint64_t lightPaths() const { return lightPaths_; }
   void countLightPaths(uint64_t paths) { lightPaths_ += paths; }
+  /// Pixels of the picture for one light path of a sample, after the first samples; 0: not yet chosen.
+  int pixelsPerPath() const { return pixelsPerPath_; }
+  void setPixelsPerPath(int pixels) { pixelsPerPath_ = pixels; }
   /// Binds sum and compensation as two textures, the first on this unit.
   void bindTextures(GLuint first) const;
 
@@ -74,6 +77,7 @@ class Film {
   double cut_ = 0.0;
   GlTexture splats_;  ///< none where no light path has been added
   uint64_t lightPaths_ = 0;
+  int pixelsPerPath_ = 0;
 };
 
 }  // namespace fragtrace

@@ -34,7 +34,8 @@ bool Renderer::trainGuiding(const Film& film, const View& view, int sample, Rend
   for (int row = 0; row < height && photons.size() < wanted; row += rows) {
     if (!tracePhotons(view, {{0, row}, {kRecordSide, rows}, 0, 1}, height, photons, goOn)) return false;
   }
-  buffers_.writeLastLights(fitGuiding(photons, casters_));
+  lobes_ = fitGuiding(photons, casters_);
+  buffers_.writeLastLights(lobes_);
   guidingPhotons_ = wanted;
   times.guidingMs += millisecondsBetween(start, std::chrono::steady_clock::now());
   return true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The part of the renderer that draws caustics: passes of light paths.
 #include <algorithm>
+#include <cmath>
 
 #include "render/renderer.h"
 
@@ -12,12 +13,21 @@ namespace {
 /// longest path of the others. A row of lanes is as wide as the tile, since llvmpipe's threads share squares
 /// of 64 pixels, and rows are even, since it draws two at a time.
 constexpr int kSoftwarePathsPerLane = 16;
-/// A pass has one light path for this many pixels of the picture: caustics are less noisy than the rest even
-/// with fewer.
-constexpr int kPixelsPerPath = 4;
 constexpr int kMargin = 4;  // pixels about the film; filters reach 2
 
+/// Samples of a sequence that have kPixelsPerPath: a picture that moves has few more.
+constexpr int kFirstSamples = 4;
+/// The small picture in which measurePixelsPerPath() measures.
+constexpr double kPilotPixels = 1024.0;
+constexpr int kPilotSamples = 16;
+constexpr uint32_t kPilotSeed = 0x70696c6fu;
+
 int partsOf(int whole, int part) { return (whole + part - 1) / part; }
+
+glm::ivec2 pilotSize(glm::ivec2 picture) {
+  const double scale = std::sqrt(kPilotPixels / (double(picture.x) * picture.y));
+  return glm::max(glm::ivec2(glm::round(glm::dvec2(picture) * std::min(scale, 1.0))), 1);
+}
 
 }  // namespace
 
@@ -44,20 +54,47 @@ bool Renderer::addLightPaths(Film& film, const View& view, int passes, const GoO
   const std::optional<ShaderVariant> light = lightPathVariant(pace_->drawn);
   if (!light) return true;
   const glm::ivec2 whole = view.placement ? view.placement->whole : film.size();
-  const glm::ivec2 paths(whole.x, partsOf(whole.y, kPixelsPerPath));
-  const std::vector<Work> tiles = tilesOf({{0, 0}, paths, 0, 1}, glm::ivec2(kRecordSide));
-  const uint64_t perPass = uint64_t(paths.x) * uint64_t(paths.y);
-  while (film.lightPaths() < perPass * uint64_t(passes)) {
-    const uint64_t pass = film.lightPaths() / perPass;
-    uint64_t before = pass * perPass;  // paths of the tiles before this one
-    for (const Work& tile : tiles) {
+  uint64_t before = 0;  // paths of the tiles before this one
+  for (int pass = 0; pass < passes; ++pass) {
+    const bool first = view.sampleOffset + pass < kFirstSamples;
+    if (!first && film.pixelsPerPath() == 0) {
+      film.setPixelsPerPath(view.pixelsPerPath > 0 ? view.pixelsPerPath
+                                                   : measurePixelsPerPath(view, whole, goOn));
+      if (film.pixelsPerPath() == 0) return false;
+    }
+    const glm::ivec2 paths(whole.x, partsOf(whole.y, first ? kPixelsPerPath : film.pixelsPerPath()));
+    const uint64_t after = before + uint64_t(paths.x) * uint64_t(paths.y);
+    if (after <= film.lightPaths()) {
+      before = after;
+      continue;
+    }
+    for (const Work& tile : tilesOf({{0, 0}, paths, 0, 1}, glm::ivec2(kRecordSide))) {
       // Tiles of a pass that was stopped may be there already.
       const bool there = before < film.lightPaths();
-      if (!there && !addLightTile({drawn(*light), film, view, {tile}}, whole, int(pass), goOn)) return false;
+      if (!there && !addLightTile({drawn(*light), film, view, {tile}}, whole, pass, goOn)) return false;
       before += uint64_t(tile.size.x) * uint64_t(tile.size.y);
     }
   }
   return true;
+}
+
+int Renderer::measurePixelsPerPath(const View& view, glm::ivec2 picture, const GoOn& goOn) {
+  Film film(pilotSize(picture));
+  film.setPixelsPerPath(1);
+  View pilot = view;
+  pilot.placement.reset();
+  pilot.seed = kPilotSeed;
+  pilot.sampleOffset = kFirstSamples;
+  const GoOn stays = [&](double) { return goOn(0.0); };
+  for (int i = 0; i < kPilotSamples; ++i) {
+    const std::vector<Work> tiles = tilesOf({{0, 0}, film.size(), i, i + 1}, kWaveTile);
+    if (!storeReservoirs(film, pilot, i, stays)) return 0;
+    if (!drawPass({pace_->drawn, film, pilot, tiles}, stays)) return 0;
+  }
+  const FilmPixels camera = film.read();
+  if (!addLightPaths(film, pilot, kPilotSamples / 4, stays)) return 0;
+  const FilmTotals paths = totalsOf(lightPathFilm_->read());  // those of the last tile
+  return pixelsPerPath(camera, film.read(), double(paths.rays) / double(paths.samples));
 }
 
 bool Renderer::addLightTile(const RenderPass& pass, glm::ivec2 whole, int index, const GoOn& goOn) {

@@ -18,6 +18,7 @@
 #include "pack/guiding.h"
 #include "render/draw_plan.h"
 #include "render/film.h"
+#include "render/film/path_share.h"
 #include "scene/fog.h"
 #include "scene/motion/camera_motion.h"
 #include "scene/volume/grid.h"
@@ -69,6 +70,7 @@ struct View {
   uint32_t seed = 0;
   int sampleOffset = 0;                ///< index of sample 0 of the film in the seed's sequence
   float clampIndirect = 0.0f;          ///< largest indirect radiance of a sample, when the variant clamps
+  int pixelsPerPath = 0;               ///< as in Film; 0: measured
   std::optional<Placement> placement;  ///< place of the film in the picture; none: it is the whole
 };
 
@@ -109,10 +111,11 @@ class Renderer {
   /// Replaces the scene by the next one of a sequence, which is read in the same way. Programs stay.
   void replaceScene(GpuScene scene);
 
-  /// Replaces arrays by others of the same numbers of rows, except those that are unchanged.
+  /// Replaces arrays by others of the same numbers of rows, except those that are unchanged. The same samples
+  /// are drawn: guiding stays as it was trained.
   void replaceArrays(GpuScene scene) {
     buffers_.replace(scene);
-    guidingPhotons_ = 0;
+    if (guidingPhotons_ > 0) buffers_.writeLastLights(lobes_);
   }
 
   /// Replaces the surroundings alone (packSurroundings).
@@ -202,6 +205,9 @@ class Renderer {
   /// Traces light paths until the film has `passes` passes, if its picture has any. Returns false if it was
   /// stopped.
   bool addLightPaths(Film& film, const View& view, int passes, const GoOn& goOn);
+  /// Film::pixelsPerPath for a picture of this size, from the variances in a small one (path_share.h) with
+  /// random numbers of its own: the same for all seeds and parts. 0 if it was stopped.
+  int measurePixelsPerPath(const View& view, glm::ivec2 picture, const GoOn& goOn);
   void compileLightPaths(Film& film, const View& view);
   /// Fits the guiding lobes before the second sample; the first picture does not wait for it. Returns false
   /// if it was stopped.
@@ -243,6 +249,7 @@ class Renderer {
   std::vector<glm::vec4> casters_;  ///< the casters of GpuScene
   bool guides_ = false;             ///< the pass is guided
   size_t guidingPhotons_ = 0;       ///< photons that the lobes were to be fitted to; 0: there are none yet
+  Words lobes_;                     ///< the lobes of guiding, as in the last rows of the lights
   float sunChance_ = 0.0f;          ///< probability that a light path of the frame begins at the sun
   /// Light paths of a draw along each side. It is the same for every picture and driver, so that sums have
   /// the same bits.

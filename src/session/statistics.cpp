@@ -70,6 +70,7 @@ void addLighting(nlohmann::ordered_json& json, const Statistics& s) {
   if (!s.lightReuse.empty()) json["light_reuse"] = s.lightReuse;
   if (!s.lightPathReason.empty()) {
     json["caustics"] = {{"light_paths", s.film.lightPaths},
+                        {"pixels_per_path", s.film.pixelsPerPath},
                         {"casters", s.casters},
                         {"variance_share", s.film.m2 > 0.0 ? s.film.lightPathM2 / s.film.m2 : 0.0},
                         {"guiding_ms", s.times.guidingMs},

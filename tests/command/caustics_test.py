@@ -371,12 +371,15 @@ class Caustics(Case):
     def test_what_is_said(self):
         def told(scene, *options):
             path = self.folder / "stats.json"
-            self.renders(SCENES / f"{scene}.gltf", "-o", self.folder / "x.png", "--resolution", "16,16", "--spp", 3, "--stats", path, *options)
+            self.renders(SCENES / f"{scene}.gltf", "-o", self.folder / "x.png", "--resolution", "16,16", "--spp", 6, "--stats", path, *options)
             return json.loads(path.read_text())["caustics"]
         drawn = told("caustics")
-        self.assertEqual(drawn["light_paths"], 3 * 16 * 4)
+        rows = -(-16 // drawn["pixels_per_path"])
+        self.assertEqual(drawn["light_paths"], 16 * (4 * 4 + 2 * rows))
+        late = told("caustics", "--seed", 5, "--sample-offset", 7, "--region", "2,3,4,5")
+        self.assertEqual((late["light_paths"], late["pixels_per_path"]), (16 * 6 * rows, drawn["pixels_per_path"]))
         self.assertGreater(drawn["casters"], 1)
-        self.assertEqual(told("caustics", "--caustics", "off"), {"light_paths": 0, "casters": 0, "variance_share": 0, "guiding_ms": 0, "reason": "--caustics"})
+        self.assertEqual(told("caustics", "--caustics", "off"), {"light_paths": 0, "pixels_per_path": 0, "casters": 0, "variance_share": 0, "guiding_ms": 0, "reason": "--caustics"})
         self.assertIn("no lamp", told("cornell-box")["reason"])
         for other in (("--clamp-indirect", "1"), ("--shadow-catcher", "0"), ("--aov", "diffuse")):
             refused = run("render", SCENES / "caustics.gltf", "-o", self.folder / "x.exr", "--caustics", "on", *other)

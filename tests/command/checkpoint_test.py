@@ -177,7 +177,7 @@ class Checkpoints(Broken):
         good = self.checkpoint.read_bytes()
         end = good.index(b"{")
         middle = len(good) // 2
-        for bad in (b"", b"x", good[:-1], good[:middle] + bytes([good[middle] ^ 4]) + good[middle + 1:], good + b"x", good[:end + 20], good.replace(b"checkpoint 3", b"checkpoint 9"),
+        for bad in (b"", b"x", good[:-1], good[:middle] + bytes([good[middle] ^ 4]) + good[middle + 1:], good + b"x", good[:end + 20], good.replace(b"checkpoint 4", b"checkpoint 9"),
                     good.replace(b'"size":[20,10]', b'"size":[10,20]'), good.replace(b'"part":0', b'"part":7')):
             self.assertNotEqual(bad, good)
             self.checkpoint.write_bytes(bad)

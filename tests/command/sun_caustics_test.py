@@ -126,7 +126,7 @@ class SunCaustics(Case):
         even = told(scene, "--hdri-file", self.map("even.pfm", 64, (42, 10), 2.0, sky=1.0))
         self.assertEqual(even, night)
         self.assertEqual(told(scene, "--hdri-file", self.map("sun.pfm", 64, (42, 10), 3e3, sky=1.0))["reason"], day["reason"])
-        self.assertEqual(told(scene, *SKY, "--caustics", "off"), {"light_paths": 0, "casters": 0, "variance_share": 0, "guiding_ms": 0, "reason": "--caustics"})
+        self.assertEqual(told(scene, *SKY, "--caustics", "off"), {"light_paths": 0, "pixels_per_path": 0, "casters": 0, "variance_share": 0, "guiding_ms": 0, "reason": "--caustics"})
 
 
 if __name__ == "__main__":

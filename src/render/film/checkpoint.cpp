@@ -3,6 +3,7 @@
 // header in JSON, and the arrays one after the other.
 #include "render/film/checkpoint.h"
 
+#include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -11,12 +12,13 @@
 
 #include "base/hash.h"
 #include "image/limits.h"
+#include "render/film/path_share.h"
 
 namespace fragtrace {
 
 namespace {
 
-constexpr std::string_view kMagic = "fragtrace checkpoint 3\n";
+constexpr std::string_view kMagic = "fragtrace checkpoint 4\n";
 
 template <typename Value>
 std::span<const uint8_t> bytesOf(const std::vector<Value>& values) {
@@ -84,7 +86,8 @@ nlohmann::json headerOf(const Checkpoint& c, uint64_t sum) {
     json["films"].push_back({{"size", sizeJson(film.size)},
                              {"cut", film.cut},
                              {"splats", !film.splats.empty()},
-                             {"light_paths", film.lightPaths}});
+                             {"light_paths", film.lightPaths},
+                             {"pixels_per_path", film.pixelsPerPath}});
   json["looks"] = nlohmann::json::array();
   for (const FilmPixels& look : c.looks)
     json["looks"].push_back({{"size", sizeJson(look.size)}, {"cut", look.cut}});
@@ -117,6 +120,7 @@ Checkpoint decode(Reader reader) {
     state.counts = reader.takeValues<uint32_t>(count);
     if (film.at("splats")) state.splats = reader.takeValues<float>(count);
     state.lightPaths = film.at("light_paths");
+    state.pixelsPerPath = std::clamp(film.at("pixels_per_path").get<int>(), 0, kMostPixelsPerPath);
     c.films.push_back(std::move(state));
   }
   for (const nlohmann::json& look : json.at("looks")) {

@@ -22,6 +22,7 @@ struct FilmState {
   double cut = 0.0;             ///< as in FilmPixels
   std::vector<float> splats{};  ///< splats of light paths, and their squares; empty: there are none
   uint64_t lightPaths = 0;
+  int pixelsPerPath = 0;  ///< as in Film
 };
 
 /// The progress of adaptive sampling: for each block of pixels, the samples of a half before the current

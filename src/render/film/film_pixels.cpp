@@ -18,6 +18,7 @@ FilmTotals totalsOf(const FilmPixels& film) {
   FilmTotals totals;
   totals.cut = film.cut;
   totals.lightPaths = film.lightPaths;
+  totals.pixelsPerPath = film.pixelsPerPath;
   totals.lightPathM2 = film.lightPathM2;
   if (!film.pixels.empty()) totals.fewestSamples = film.pixels.front().samples;
   for (const FilmPixel& p : film.pixels) {
@@ -38,6 +39,7 @@ FilmPixels pooled(const FilmPixels& a, const FilmPixels& b) {
   FilmPixels result = a;
   result.cut += b.cut;
   result.lightPaths += b.lightPaths;
+  result.pixelsPerPath = std::max(a.pixelsPerPath, b.pixelsPerPath);
   result.lightPathM2 += b.lightPathM2;
   for (size_t i = 0; i < result.pixels.size(); ++i) {
     FilmPixel& p = result.pixels[i];

@@ -36,6 +36,7 @@ struct FilmPixels {
   std::vector<FilmPixel> pixels;
   double cut = 0.0;          ///< luminance of the throughput that --bounces cut, over all paths
   uint64_t lightPaths = 0;   ///< whose light is in the sums
+  int pixelsPerPath = 0;     ///< as in Film
   double lightPathM2 = 0.0;  ///< their part of m2, over all pixels
 };
 
@@ -48,7 +49,8 @@ struct FilmTotals {
   uint64_t nonfinitePixels = 0;
   uint64_t budgetHits = 0;  ///< pixels in which a loop was ended by the driver: the picture is wrong
   double cut = 0.0;         ///< as in FilmPixels
-  uint64_t lightPaths = 0;  ///< as in FilmPixels
+  uint64_t lightPaths = 0;  ///< this and the next as in FilmPixels
+  int pixelsPerPath = 0;
   double m2 = 0.0;
   double lightPathM2 = 0.0;  ///< as in FilmPixels
   uint32_t fewestSamples = 0;

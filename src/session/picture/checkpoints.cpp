@@ -23,7 +23,8 @@ namespace fragtrace {
 
 // The totals of a film by their names.
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FilmTotals, samples, rays, hitPixels, emptyPixels, nonfinitePixels,
-                                   budgetHits, cut, lightPaths, m2, lightPathM2, fewestSamples, mostSamples)
+                                   budgetHits, cut, lightPaths, pixelsPerPath, m2, lightPathM2, fewestSamples,
+                                   mostSamples)
 
 namespace {
 

@@ -83,6 +83,7 @@ void add(FilmTotals& totals, const FilmTotals& part, bool first) {
   totals.budgetHits += part.budgetHits;
   totals.cut += part.cut;
   totals.lightPaths += part.lightPaths;
+  totals.pixelsPerPath = std::max(totals.pixelsPerPath, part.pixelsPerPath);
   totals.m2 += part.m2;
   totals.lightPathM2 += part.lightPathM2;
 }
@@ -318,7 +319,8 @@ void addLightGroups(Image& picture, const PictureJob& job, const DrawingPlan& pl
   const LightGroups groups = lightGroupsOf(job.options, job.loaded.scene);
   for (size_t i = 0; i < names.size(); ++i) {
     const auto draw = [&](const Region& part, const Renderer::Progress& progress) {
-      const View view = viewOfGroup(viewOf(job.loaded, part), groups, i);
+      View view = viewOfGroup(viewOf(job.loaded, part), groups, i);
+      view.pixelsPerPath = stats.film.pixelsPerPath;
       return drawLayer(part.size, *job.tracer.renderer, job.tracer.variant, view, samples, progress);
     };
     const double after = secondsOfAovs(job, plan, job.tracer.aovs.size() + i + 1, samples);

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// The number of light paths beside that of camera paths.
+#pragma once
+
+#include "render/film/film_pixels.h"
+
+namespace fragtrace {
+
+/// One light path for so many pixels, before anything is measured.
+inline constexpr int kPixelsPerPath = 4;
+inline constexpr int kMostPixelsPerPath = 64;
+
+/// For how many pixels a picture has the least variance times cost with one light path per sample: a power of
+/// two, up to kMostPixelsPerPath. `camera` holds the camera paths of a small picture, `both` the same with
+/// light paths. Rays count as cost, so that the answer depends on no clock.
+///
+/// A sample per pixel has the variance V + n W and costs C + D / n, with one path of variance W and cost D
+/// for n pixels. The product is least at n^2 = V D / (W C). Variances are relative: over the squared sum of
+/// the pixel's mean and the floor (floorOf()).
+int pixelsPerPath(const FilmPixels& camera, const FilmPixels& both, double raysPerPath);
+
+}  // namespace fragtrace
