@@ -6,7 +6,7 @@ import shutil
 import math
 import time
 
-from support import SCENES, Case, main, run
+from support import SCENES, SHADERS, Case, main, run
 
 BOX = SCENES / "cornell-box.gltf"
 SIZE = ["--resolution", "16,16"]
@@ -94,7 +94,7 @@ class FramePictures(Frame):
 
     def test_a_shader_that_loses_hits_in_one_traversal_fails_without_a_reference(self):
         shaders = self.folder / "shaders"
-        shutil.copytree(SCENES.parent / "shaders", shaders)
+        shutil.copytree(SHADERS, shaders)
         text = (shaders / "shade.glsl").read_text()
         self.assertIn("Path shade(Path p) {", text)
         (shaders / "shade.glsl").write_text(

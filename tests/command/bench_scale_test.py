@@ -7,9 +7,8 @@ import shutil
 import struct
 import xml.etree.ElementTree
 
-from support import SCENES, SMALL, Case, main, run
+from support import SCENES, SHADERS, SMALL, Case, main, run
 
-SHADERS = SCENES.parent / "shaders"
 FEW = ["--from", 1000, "--to", 3000, "--per-decade", 2, "--resolution", "40,30", "--rounds", 2, "--quiet"]
 RAYS = ["--resolution", "64,48", "--rounds", 2, "--quiet"]
 ROOM = SCENES / "room-ball.gltf"

@@ -4,9 +4,8 @@
 import json
 import shutil
 
-from support import BACKENDS, SCENES, Case, main, run
+from support import BACKENDS, SCENES, SHADERS, Case, main, run
 
-SHADERS = SCENES.parent / "shaders"
 # Protections that are taken out of the shaders: file, text, what replaces it, and the rows that see it.
 MUTATIONS = {
     "an edge belongs to neither neighbour": ("intersect.glsl", ">= 0.0f && v >= 0.0f && w >= 0.0f", "> 0.0f && v > 0.0f && w > 0.0f", "rims-from-inside"),

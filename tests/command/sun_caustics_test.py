@@ -10,7 +10,7 @@ import statistics
 import struct
 import sys
 
-from support import SCENES, Case, main, mean
+from support import SCENES, SHADERS, Case, main, mean
 
 sys.path.insert(0, str(SCENES))
 from gltf_writer import GltfWriter  # noqa: E402
@@ -41,7 +41,7 @@ class SunCaustics(Case):
     def shaders(self, *edits):
         folder = self.folder / f"shaders{len(edits)}"
         if not folder.exists():
-            shutil.copytree(SCENES.parent / "shaders", folder)
+            shutil.copytree(SHADERS, folder)
             for name, old, new in edits:
                 text = (folder / name).read_text()
                 self.assertEqual(text.count(old), 1, name)
