@@ -60,7 +60,7 @@ Film::Film(glm::ivec2 size) : size_(size), room_(size) {
 void Film::clear() {
   const float zero[4] = {};
   cut_ = 0.0;
-  lightPaths_ = 0;
+  lightPaths_ = {};
   pixelsPerPath_ = 0;
   if (splats_.name() != 0) glClearTexImage(splats_.name(), 0, GL_RGBA, GL_FLOAT, zero);
   const GlFramebuffer target = targetOf({&sum_, &compensation_});
@@ -105,19 +105,26 @@ const GlTexture& Film::splats() {
   return splats_;
 }
 
+void Film::countLightPaths(uint64_t paths, double weight) {
+  lightPaths_.count += paths;
+  lightPaths_.weight += double(paths) * weight;
+  lightPaths_.squared += double(paths) * weight * weight;
+}
+
 /// Every pixel gets the mean of all light paths, as if each of its samples had brought it.
 void Film::addSplats(FilmPixels& film) const {
-  if (lightPaths_ == 0) return;
+  if (lightPaths_.count == 0) return;
   const auto splats = readPictureTexture<float>(splats_, GL_RGBA, 4, GL_FLOAT, size_, kReading);
-  const double paths = double(lightPaths_);
+  const double weight = lightPaths_.weight;
+  const double paths = weight * weight / lightPaths_.squared;  // so many of one weight vary as much
   for (size_t p = 0; p < film.pixels.size(); ++p) {
     FilmPixel& pixel = film.pixels[p];
     const double samples = pixel.samples;
-    const glm::dvec3 mean = glm::dvec3(splats[p * 4], splats[p * 4 + 1], splats[p * 4 + 2]) / paths;
+    const glm::dvec3 mean = glm::dvec3(splats[p * 4], splats[p * 4 + 1], splats[p * 4 + 2]) / weight;
     const double value = luminance(mean);
     // The variance of the mean of independent paths, most of which bring no light.
     const double variance =
-        std::max(0.0, splats[p * 4 + 3] / paths - value * value) / std::max(paths - 1.0, 1.0);
+        std::max(0.0, splats[p * 4 + 3] / lightPaths_.squared - value * value) / std::max(paths - 1.0, 1.0);
     pixel.sum += samples * mean;
     const double m2 = variance * samples * std::max(samples - 1.0, 0.0);
     pixel.m2 += m2;
@@ -147,8 +154,8 @@ FilmState Film::save() const {
           readPictureTexture<float>(compensation_, GL_RGBA, 4, GL_FLOAT, size_, kReading),
           readPictureTexture<uint32_t>(counts_, GL_RGBA_INTEGER, 4, GL_UNSIGNED_INT, size_, kReading),
           cut_,
-          lightPaths_ > 0 ? readPictureTexture<float>(splats_, GL_RGBA, 4, GL_FLOAT, size_, kReading)
-                          : std::vector<float>(),
+          lightPaths_.count > 0 ? readPictureTexture<float>(splats_, GL_RGBA, 4, GL_FLOAT, size_, kReading)
+                                : std::vector<float>(),
           lightPaths_,
           pixelsPerPath_};
 }
@@ -173,7 +180,7 @@ FilmPixels Film::readCounts() const {
   FilmPixels film;
   film.size = size_;
   film.cut = cut_;
-  film.lightPaths = lightPaths_;
+  film.lightPaths = lightPaths_.count;
   film.pixelsPerPath = pixelsPerPath_;
   film.pixels.resize(size_t(size_.x) * size_t(size_.y));
   for (size_t p = 0; p < film.pixels.size(); ++p) {

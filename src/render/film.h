@@ -44,9 +44,9 @@ class Film {
 
   /// The texture to which light paths add their light and its square; makes room for it.
   const GlTexture& splats();
-  /// The number of light paths that have been added.
-  uint64_t lightPaths() const { return lightPaths_; }
-  void countLightPaths(uint64_t paths) { lightPaths_ += paths; }
+  /// The light paths that have been added.
+  const LightPaths& lightPaths() const { return lightPaths_; }
+  void countLightPaths(uint64_t paths, double weight);
   /// Pixels of the picture for one light path of a sample, after the first samples; 0: not yet chosen.
   int pixelsPerPath() const { return pixelsPerPath_; }
   void setPixelsPerPath(int pixels) { pixelsPerPath_ = pixels; }
@@ -55,7 +55,7 @@ class Film {
 
   /// Sum, compensation, counts, and the light of light paths, which is null if there is none.
   std::array<const GlTexture*, 4> textures() const {
-    return {&sum_, &compensation_, &counts_, lightPaths_ > 0 ? &splats_ : nullptr};
+    return {&sum_, &compensation_, &counts_, lightPaths_.count > 0 ? &splats_ : nullptr};
   }
 
   /// Adds to FilmPixels::cut, which is kept on the host.
@@ -76,7 +76,7 @@ class Film {
   GlTexture counts_;
   double cut_ = 0.0;
   GlTexture splats_;  ///< none where no light path has been added
-  uint64_t lightPaths_ = 0;
+  LightPaths lightPaths_;
   int pixelsPerPath_ = 0;
 };
 

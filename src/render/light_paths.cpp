@@ -47,7 +47,7 @@ void Renderer::compileLightPaths(Film& film, const View& view) {
   const Work tiny{{0, 0}, glm::ivec2(8), 0, 1};
   ShaderVariant& variant = drawn(*light);
   drawPass({variant, *lightPathFilm_, view, {tiny}}, toTheEnd);
-  splat({variant, film, view, {}}, glm::ivec2(1));
+  splat({variant, film, view, {}}, glm::ivec2(1), 1.0f);
 }
 
 bool Renderer::addLightPaths(Film& film, const View& view, int passes, const GoOn& goOn) {
@@ -63,15 +63,17 @@ bool Renderer::addLightPaths(Film& film, const View& view, int passes, const GoO
       if (film.pixelsPerPath() == 0) return false;
     }
     const glm::ivec2 paths(whole.x, partsOf(whole.y, first ? kPixelsPerPath : film.pixelsPerPath()));
+    const float weight = float(partsOf(whole.y, kPixelsPerPath)) / float(paths.y);
     const uint64_t after = before + uint64_t(paths.x) * uint64_t(paths.y);
-    if (after <= film.lightPaths()) {
+    if (after <= film.lightPaths().count) {
       before = after;
       continue;
     }
     for (const Work& tile : tilesOf({{0, 0}, paths, 0, 1}, glm::ivec2(kRecordSide))) {
       // Tiles of a pass that was stopped may be there already.
-      const bool there = before < film.lightPaths();
-      if (!there && !addLightTile({drawn(*light), film, view, {tile}}, whole, pass, goOn)) return false;
+      const bool there = before < film.lightPaths().count;
+      const RenderPass drawing{drawn(*light), film, view, {tile}};
+      if (!there && !addLightTile(drawing, {whole, pass, weight}, goOn)) return false;
       before += uint64_t(tile.size.x) * uint64_t(tile.size.y);
     }
   }
@@ -97,16 +99,16 @@ int Renderer::measurePixelsPerPath(const View& view, glm::ivec2 picture, const G
   return pixelsPerPath(camera, film.read(), double(paths.rays) / double(paths.samples));
 }
 
-bool Renderer::addLightTile(const RenderPass& pass, glm::ivec2 whole, int index, const GoOn& goOn) {
+bool Renderer::addLightTile(const RenderPass& pass, const LightPass& of, const GoOn& goOn) {
   const Work& tile = pass.work.front();
   View seen = pass.view;
-  seen.sampleOffset += index;
+  seen.sampleOffset += of.index;
   // The film of records holds the part of the paths that begins at the tile.
-  seen.placement = Placement{{tile.corner.x, whole.y - tile.corner.y - 2 * kRecordSide}, whole};
+  seen.placement = Placement{{tile.corner.x, of.whole.y - tile.corner.y - 2 * kRecordSide}, of.whole};
   lightPathFilm_->clearCounts();
   if (!drawPass({pass.variant, *lightPathFilm_, seen, {rowsOfPaths(tile.size)}}, goOn)) return false;
-  splat(pass, tile.size);
-  pass.film.countLightPaths(uint64_t(tile.size.x) * uint64_t(tile.size.y));
+  splat(pass, tile.size, of.weight);
+  pass.film.countLightPaths(uint64_t(tile.size.x) * uint64_t(tile.size.y), of.weight);
   return true;
 }
 
@@ -115,7 +117,7 @@ Work Renderer::rowsOfPaths(glm::ivec2 paths) const {
   return {{0, 0}, {paths.x, rows}, 0, partsOf(paths.y, rows)};
 }
 
-void Renderer::splat(const RenderPass& pass, glm::ivec2 tile) {
+void Renderer::splat(const RenderPass& pass, glm::ivec2 tile, float weight) {
   Film& film = pass.film;
   const glm::ivec2 size = film.size();
   const Placement placed = pass.view.placement.value_or(Placement{{0, 0}, size});
@@ -131,6 +133,7 @@ void Renderer::splat(const RenderPass& pass, glm::ivec2 tile) {
   glProgramUniform2f(program, 1, float(viewport.x), float(viewport.y));
   glProgramUniform1f(program, 2, float(margin));
   glProgramUniform2i(program, 3, tile.x, tile.y);
+  glProgramUniform1f(program, 4, weight);
   lightPathFilm_->bindTextures(0);
   glUseProgram(program);
   glEnable(GL_PROGRAM_POINT_SIZE);

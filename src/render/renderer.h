@@ -218,13 +218,19 @@ class Renderer {
                     const GoOn& goOn);
   /// The rows of lanes that draw so many light paths.
   Work rowsOfPaths(glm::ivec2 paths) const;
-  /// Draws a tile of light paths of the pass with this index. `pass` has the film to which they are added.
-  bool addLightTile(const RenderPass& pass, glm::ivec2 whole, int index, const GoOn& goOn);
+  /// The light paths of one sample.
+  struct LightPass {
+    glm::ivec2 whole;  ///< pixels of the picture
+    int index = 0;     ///< that of the sample
+    float weight = 1.0f;
+  };
+  /// Draws a tile of these light paths. `pass` has the film to which they are added.
+  bool addLightTile(const RenderPass& pass, const LightPass& of, const GoOn& goOn);
   /// Stores the light samples of all pixels in their sample `index`, if the picture's pixels take those of
   /// others; false if it was stopped.
   bool storeReservoirs(const Film& film, const View& view, int index, const GoOn& goOn);
   /// Draws the records of a tile into the film of splats, through the pixel filter.
-  void splat(const RenderPass& pass, glm::ivec2 tile);
+  void splat(const RenderPass& pass, glm::ivec2 tile, float weight);
   /// Allows more samples per draw as long as they fit into the step budget.
   void adaptPace(int samples);
 

@@ -34,7 +34,7 @@ void SeenPasses::read(const Film& film, const Film& guides, const GlTexture& raw
                       const NoisyTextures& surfaces, PicturePasses& passes) {
   const auto from = film.textures();
   const auto beside = guides.textures();
-  glProgramUniform1f(film_.name(), 1, float(film.lightPaths()));
+  glProgramUniform2f(film_.name(), 1, float(film.lightPaths().weight), float(film.lightPaths().squared));
   passes.draw(film_, film.size(), {from[0], from[1], from[2], from[3], beside[0], beside[1], beside[2]},
               {&raw, &fresh.radiance, &fresh.counts, &surfaces.albedo, &surfaces.normal});
 }
@@ -70,7 +70,7 @@ void SeenPasses::show(const GlTexture& raw, const GlTexture& filtered, double sh
 
 void SeenPasses::show(const Film& film, bool background, const GlTexture& shown, PicturePasses& passes) {
   const auto from = film.textures();
-  glProgramUniform1f(showFilm_.name(), 1, float(film.lightPaths()));
+  glProgramUniform2f(showFilm_.name(), 1, float(film.lightPaths().weight), float(film.lightPaths().squared));
   glProgramUniform1i(showFilm_.name(), 2, background ? 1 : 0);
   passes.draw(showFilm_, film.size(), {from[0], from[1], from[2], from[3]}, {&shown});
 }

@@ -57,6 +57,16 @@ class Merging(Parts):
                 first, second = Exr(one).luminances(), Exr(two).luminances()
                 self.assertGreater(max(abs(a - b) for a, b in zip(first, second)), 0.01)
 
+    def test_samples_with_more_or_fewer_light_paths_count_the_same(self):
+        """The first four have one light path for four pixels, the others one for more or fewer."""
+        stats, size = self.folder / "stats.json", "64,48"
+        for name in ("caustics", "caustic-ground"):
+            scene = SCENES / f"{name}.gltf"
+            whole = Exr(self.part("whole.exr", 0, 16, "--stats", stats, scene=scene, size=size))
+            self.assertNotIn(json.loads(stats.read_text())["caustics"]["pixels_per_path"], (0, 4))
+            parts = [self.part(f"{first}.exr", first, samples, scene=scene, size=size) for first, samples in ((0, 6), (6, 10))]
+            self.compare(whole, Exr(self.merged("m.exr", *parts)), {"": 2e-5})
+
     def test_the_order_of_the_parts_changes_no_byte(self):
         a, b, c = (self.part(f"{n}.exr", 8 * n, 8, *LAYERS) for n in range(3))
         expected = self.merged("m.exr", a, b, c).read_bytes()

@@ -12,7 +12,6 @@
 
 #include "base/hash.h"
 #include "image/limits.h"
-#include "render/film/path_share.h"
 
 namespace fragtrace {
 
@@ -83,11 +82,12 @@ nlohmann::json headerOf(const Checkpoint& c, uint64_t sum) {
   json["part"] = c.part;
   json["films"] = nlohmann::json::array();
   for (const FilmState& film : c.films)
-    json["films"].push_back({{"size", sizeJson(film.size)},
-                             {"cut", film.cut},
-                             {"splats", !film.splats.empty()},
-                             {"light_paths", film.lightPaths},
-                             {"pixels_per_path", film.pixelsPerPath}});
+    json["films"].push_back(
+        {{"size", sizeJson(film.size)},
+         {"cut", film.cut},
+         {"splats", !film.splats.empty()},
+         {"light_paths", {film.lightPaths.count, film.lightPaths.weight, film.lightPaths.squared}},
+         {"pixels_per_path", film.pixelsPerPath}});
   json["looks"] = nlohmann::json::array();
   for (const FilmPixels& look : c.looks)
     json["looks"].push_back({{"size", sizeJson(look.size)}, {"cut", look.cut}});
@@ -119,7 +119,8 @@ Checkpoint decode(Reader reader) {
     state.compensation = reader.takeValues<float>(count);
     state.counts = reader.takeValues<uint32_t>(count);
     if (film.at("splats")) state.splats = reader.takeValues<float>(count);
-    state.lightPaths = film.at("light_paths");
+    const nlohmann::json& paths = film.at("light_paths");
+    state.lightPaths = {paths.at(0), paths.at(1), paths.at(2)};
     state.pixelsPerPath = std::clamp(film.at("pixels_per_path").get<int>(), 0, kMostPixelsPerPath);
     c.films.push_back(std::move(state));
   }

@@ -9,6 +9,7 @@
 
 #include "image/image.h"
 #include "render/film/film_pixels.h"
+#include "render/film/path_share.h"
 
 namespace fragtrace {
 
@@ -21,7 +22,7 @@ struct FilmState {
   std::vector<uint32_t> counts;
   double cut = 0.0;             ///< as in FilmPixels
   std::vector<float> splats{};  ///< splats of light paths, and their squares; empty: there are none
-  uint64_t lightPaths = 0;
+  LightPaths lightPaths;
   int pixelsPerPath = 0;  ///< as in Film
 };
 

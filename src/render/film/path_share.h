@@ -2,6 +2,8 @@
 // The number of light paths beside that of camera paths.
 #pragma once
 
+#include <cstdint>
+
 #include "render/film/film_pixels.h"
 
 namespace fragtrace {
@@ -9,6 +11,14 @@ namespace fragtrace {
 /// One light path for so many pixels, before anything is measured.
 inline constexpr int kPixelsPerPath = 4;
 inline constexpr int kMostPixelsPerPath = 64;
+
+/// Sums over the light paths of a film. All samples have one weight, however many light paths they have: so
+/// parts of a picture add up to the whole. A path of a sample that has kPixelsPerPath weighs 1.
+struct LightPaths {
+  uint64_t count = 0;
+  double weight = 0.0;
+  double squared = 0.0;  ///< of the squared weights
+};
 
 /// For how many pixels a picture has the least variance times cost with one light path per sample: a power of
 /// two, up to kMostPixelsPerPath. `camera` holds the camera paths of a small picture, `both` the same with

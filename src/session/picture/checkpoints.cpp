@@ -79,7 +79,7 @@ void checkShape(const Checkpoint& c, const PictureJob& job, const DrawingPlan& p
   check(c.films.size() == (adaptive ? 2u : 1u) && c.looks.size() <= 2u);
   for (const FilmState& film : c.films) {
     check(film.size == size);
-    check(film.splats.empty() == (film.lightPaths == 0));
+    check(film.splats.empty() == (film.lightPaths.count == 0));
   }
   for (const FilmPixels& look : c.looks) check(look.size == size);
   check(c.adaptive.samples.size() == (adaptive ? AdaptiveRun::blocksOf(size) : 0u));
