@@ -52,7 +52,7 @@ void Renderer::compileLightPaths(Film& film, const View& view) {
 
 bool Renderer::addLightPaths(Film& film, const View& view, int passes, const GoOn& goOn) {
   const std::optional<ShaderVariant> light = lightPathVariant(pace_->drawn);
-  if (!light) return true;
+  if (!light || view.bounces == 0) return true;  // what they bring takes a bounce
   const glm::ivec2 whole = view.placement ? view.placement->whole : film.size();
   uint64_t before = 0;  // paths of the tiles before this one
   for (int pass = 0; pass < passes; ++pass) {

@@ -100,6 +100,7 @@ void describeLightSelection(const ShaderVariant& variant, const LoadedScene& loa
 /// Why light paths are traced for the picture, or are not.
 std::string whyCaustics(const ShaderVariant& variant, const TraitSet& present, const RenderOptions& options) {
   if (has(variant.traits, Trait::Caustics)) {
+    if (options.sampling.bounces == 0) return "--bounces";
     return options.light.caustics == Caustics::On
                ? "--caustics"
                : "there are lamps or a sun, and glass or metal that is smooth enough";
@@ -151,7 +152,8 @@ void warnOfNoEffect(const ShaderVariant& variant, const TraitSet& present, const
     say(options, "warning: " + text);
   };
   const bool global = has(variant.stages, Stage::Gi);
-  if (options.light.caustics == Caustics::On && !has(variant.traits, Trait::Caustics))
+  const bool lightPaths = has(variant.traits, Trait::Caustics) && options.sampling.bounces > 0;
+  if (options.light.caustics == Caustics::On && !lightPaths)
     warn("--caustics on: no light paths: " + (global ? stats.lightPathReason : "only stage gi has them"));
   // A scene that is lit by default has lamps too dim to be missed.
   if (!stats.defaultLight && lightPathsGiveWay(variant, present, options))

@@ -380,6 +380,7 @@ class Caustics(Case):
         self.assertEqual((late["light_paths"], late["pixels_per_path"]), (16 * 6 * rows, drawn["pixels_per_path"]))
         self.assertGreater(drawn["casters"], 1)
         self.assertEqual(told("caustics", "--caustics", "off"), {"light_paths": 0, "pixels_per_path": 0, "casters": 0, "variance_share": 0, "guiding_ms": 0, "reason": "--caustics"})
+        self.assertEqual(told("caustics", "--bounces", 0), {"light_paths": 0, "pixels_per_path": 0, "casters": 3, "variance_share": 0, "guiding_ms": 0, "reason": "--bounces"})
         self.assertIn("no lamp", told("cornell-box")["reason"])
         for other in (("--clamp-indirect", "1"), ("--shadow-catcher", "0"), ("--aov", "diffuse")):
             refused = run("render", SCENES / "caustics.gltf", "-o", self.folder / "x.exr", "--caustics", "on", *other)
