@@ -116,8 +116,9 @@ FileDialog::News FileDialog::take(double now) {
 void FileDialog::drawField(Places& places) {
   FolderList& list = *list_;
   ImGui::PushID(field_);
-  // Whatever was clicked on, keys are for the field.
-  if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();
+  // Whatever was clicked on, keys are for the field. While a button is held it would take the click from what
+  // lies below the mouse (Dear ImGui 1.90).
+  if (!ImGui::IsAnyItemActive() && !ImGui::IsAnyMouseDown()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1.0f);
   if (ImGui::InputTextWithHint("##name", list.question.save ? "Name" : "Search, or a path", list.text.data(),
                                list.text.size())) {
