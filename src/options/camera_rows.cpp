@@ -87,7 +87,7 @@ glm::dvec2 lensShiftOf(const std::vector<double>& values) {
 
 }  // namespace
 
-std::vector<OptionRow> cameraRows() {
+std::vector<OptionRow> cameraRows() {  // NOLINT(readability-function-size): a table
   constexpr OptionTraits kView{.effect = Effect::View};
   constexpr OptionTraits kProjection{.effect = Effect::View, .renewal = Renewal::Program};
   constexpr OptionTraits kLens{.effect = Effect::Picture, .renewal = Renewal::Program};
