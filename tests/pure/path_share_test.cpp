@@ -58,10 +58,10 @@ TEST(PathShare, NoOtherPowerOfTwoHasLessVarianceTimesCost) {
 }
 
 TEST(PathShare, TheUnitOfLightDoesNotMatter) {
-  const Pilot pilot{5.0, 0.1, 4.0, 3.0};
-  EXPECT_EQ(chosenFor(pilot), 8);
-  EXPECT_EQ(chosenFor(pilot, 1e-4), 8);
-  EXPECT_EQ(chosenFor(pilot, 1e4), 8);
+  const Pilot pilot{0.4, 0.1, 4.0, 3.0};
+  EXPECT_EQ(chosenFor(pilot), 2);
+  EXPECT_EQ(chosenFor(pilot, 1e-4), 2);
+  EXPECT_EQ(chosenFor(pilot, 1e4), 2);
 }
 
 TEST(PathShare, WithoutAnyLightOfLightPathsTheirNumberStays) {

@@ -10,7 +10,8 @@ namespace fragtrace {
 
 /// One light path for so many pixels, before anything is measured.
 inline constexpr int kPixelsPerPath = 4;
-inline constexpr int kMostPixelsPerPath = 64;
+/// Fewer light paths leave grain in caustics, where the few bright dots of camera paths weigh most.
+inline constexpr int kMostPixelsPerPath = 8;
 
 /// Sums over the light paths of a film. All samples have one weight, however many light paths they have: so
 /// parts of a picture add up to the whole. A path of a sample that has kPixelsPerPath weighs 1.
