@@ -22,7 +22,7 @@ Checkpoint someCheckpoint() {
   film.counts = {1, 2, 3, 4, 5, 6, 7, 0xffffffffu};
   film.cut = 0.1;
   film.lightPaths = {9, 0.1, 0.7};
-  film.pixelsPerPath = 16;
+  film.pixelsPerPath = 2;
   c.films = {film, film};
   FilmPixels look{{1, 1}, {}, 0.25};
   look.pixels.resize(1);
@@ -47,7 +47,7 @@ TEST(Checkpoints, ComeBackAsTheyWere) {
   EXPECT_EQ(back.films[1].counts, c.films[1].counts);
   EXPECT_EQ(back.films[1].cut, 0.1);
   EXPECT_EQ(back.films[1].lightPaths.squared, 0.7);
-  EXPECT_EQ(back.films[1].pixelsPerPath, 16);
+  EXPECT_EQ(back.films[1].pixelsPerPath, 2);
   ASSERT_EQ(back.looks.size(), 1u);
   EXPECT_EQ(back.looks[0].pixels[0].sum, c.looks[0].pixels[0].sum);
   EXPECT_EQ(back.looks[0].pixels[0].samples, 9u);
