@@ -12,9 +12,16 @@ if(NOT EXISTS ${basisu}/transcoder/basisu_transcoder.cpp)
 endif()
 # Where the sources are removed, the build is configured once more.
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${basisu}/transcoder/basisu_transcoder.cpp)
-add_library(basisu STATIC EXCLUDE_FROM_ALL ${basisu}/transcoder/basisu_transcoder.cpp ${basisu}/zstd/zstddeclib.c)
+# Both children of a node of a Huffman tree get a place: with a code of one long symbol, the transcoder reads beyond its tree.
+set(mended ${CMAKE_BINARY_DIR}/basisu)
+set(huffman transcoder/basisu_transcoder_internal.h)
+file(COPY ${basisu}/transcoder ${basisu}/zstd DESTINATION ${mended} PATTERN basisu_transcoder_internal.h EXCLUDE)
+file(READ ${basisu}/${huffman} text)
+string(REPLACE "m_tree.resize(idx + 1);" "m_tree.resize(idx + 2);  // changed by fragtrace: both children" text "${text}")
+file(GENERATE OUTPUT ${mended}/${huffman} CONTENT "${text}")
+add_library(basisu STATIC EXCLUDE_FROM_ALL ${mended}/transcoder/basisu_transcoder.cpp ${mended}/zstd/zstddeclib.c)
 set_target_properties(basisu PROPERTIES UNITY_BUILD OFF)
-target_include_directories(basisu SYSTEM INTERFACE ${basisu}/transcoder)
+target_include_directories(basisu SYSTEM INTERFACE ${mended}/transcoder)
 # Its headers ask for no strict aliasing. Its assertions stop at broken files, which it refuses without them. Texels alone are wanted, and few formats of GPUs may be left out.
 target_compile_options(basisu PRIVATE -w -fvisibility=hidden PUBLIC -fno-strict-aliasing)
 if(FRAGTRACE_SANITIZE)

@@ -145,6 +145,16 @@ TEST_F(Ktx2Codec, BrokenFilesAreRefusedOrDecodedWithinTheirLimits) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
 }
 
+/// The unchanged transcoder reads beyond its tree, as AddressSanitizer sees.
+TEST_F(Ktx2Codec, ACodeOfOneLongSymbolStaysWithinItsTree) {
+  try {
+    decodeTexels(fileOf("one_long_code.ktx2"), "file");
+    ADD_FAILURE() << "the file is taken";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "cannot read the picture file: its level 0 is broken");
+  }
+}
+
 TEST(Ktx2Header, TheSizeIsReadWithoutTheCodec) {
   for (const Sample& sample : kSamples) {
     const ImageHeader header = readImageHeader(fileOf(sample.name + std::string(".ktx2")));
