@@ -337,7 +337,7 @@ BsdfSample sampleSmoothGlass(Bsdf b, vec3 wo, float choice) {
 
 /// The pdf of a sample whose direction is drawn, but not weighed yet.
 const float kUnweighed = float(-1.0);
-const float kLowBits = float(4096.0);  // times this, a uniform number leaves a fraction that is one of its own
+const float kLowBits = float(4096.0);  // times this, a uniform number's fraction is another uniform number
 
 /// Draws from scatteredGlass().
 BsdfSample drawScattered(Bsdf b, float u, float v) {

@@ -40,7 +40,7 @@ float visibleGgxPdf(vec3 wo, vec3 h, float alpha) {
          max(wo.z, float(1e-12));
 }
 
-/// The direction in the space where facets are isotropic of width alpha, for masking.
+/// The direction in the space where facets are isotropic, alpha wide, for masking.
 vec3 alongMicrofacets(vec3 v, float stretch) { return kAnisotropy ? vec3(v.x * stretch, v.y / stretch, v.z) : v; }
 
 /// The half vector in the space where facets are isotropic, for their pdf.

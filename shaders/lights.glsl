@@ -254,7 +254,7 @@ LightChoice chooseLight(LightNumbers n, vec3 point, uint normal) {
   LightChoice c = makeChoice(kFromEnvironment, chance, n.bits, 0.0f, 0.0f);
   bool environment = kEnvironmentSampling;
   if (kEnvironmentSampling && emitters) {
-    // The choice takes its part of the number, so that each side gets points that are stratified together.
+    // The choice uses up part of the number; the rest is stretched, so each side stays stratified.
     uint border = uint(chance * 4294967040.0f);
     environment = c.bits.x < border;
     c.bits.x = environment ? stretchBits(c.bits.x, 0u, 1.0f / chance)

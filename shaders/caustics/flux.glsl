@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Light paths carry flux, which shading normals weigh in another way than radiance (Veach, Robust Monte Carlo Methods
+// Light paths carry flux, which shading normals weight differently from radiance (Veach, Robust Monte Carlo Methods
 // for Light Transport Simulation, 1997, section 5.3).
 
 /// Smaller cosines count as this. Their quotients are rounding errors, of any size, and hardly any flux is so flat.

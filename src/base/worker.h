@@ -21,7 +21,7 @@ namespace fragtrace {
 /// Each kind of work has a process of its own, so that a missing library stops no other kind.
 struct WorkerKind {
   const char* module;   ///< the file that the worker opens, which links the libraries
-  const char* library;  ///< their name in messages
+  const char* library;  ///< the libraries' name in messages
   const char* advice;   ///< a command that installs them
   const char* instead;  ///< ends messages: what works without them
 };

@@ -31,7 +31,7 @@ enum class Renewal : uint8_t {
 /// The commands that have an option.
 enum class OptionGroup : uint8_t {
   File,      ///< the scene and the picture, which each command declares by itself
-  Tracing,   ///< all that trace
+  Tracing,   ///< all that draw
   Encoding,  ///< commands that write pictures
   Output,    ///< commands that write one picture at a time
   Sequence,  ///< commands that write numbered pictures

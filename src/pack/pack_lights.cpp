@@ -136,8 +136,8 @@ bool areTogether(const LightBounds& a, const LightBounds& both, double along) {
          radiusOf(both) <= 4.0 * radiusOf(a);
 }
 
-/// Joins neighbours in the order of the emitters, as the triangles of a window are, and their bounds. So the
-/// tree has fewer levels, which would hardly choose better between the two halves of a square.
+/// Joins emitters that follow one another, such as the two triangles of a window, and their bounds. The tree
+/// loses levels that would hardly choose better between two halves of a square.
 std::vector<EmitterGroup> joinNeighbours(std::span<const Emitter> emitters, const Scene& scene,
                                          std::vector<LightBounds>& bounds) {
   std::vector<EmitterGroup> groups;

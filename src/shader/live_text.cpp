@@ -252,7 +252,7 @@ void dropSettled(std::vector<Token>& tokens, const ShaderConstants& constants) {
 
 using Names = std::unordered_set<std::string_view>;
 
-/// A function; indices of tokens, the last one behind its end.
+/// A function, and its tokens: [first, last).
 struct Definition {
   std::string_view name;
   size_t first = 0;

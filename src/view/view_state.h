@@ -145,8 +145,8 @@ double animationLength(const ViewState& state);
 /// Shows that animation at that time, in seconds; kept between 0 and its end.
 void showAnimation(ViewState& state, int animation, double seconds);
 
-/// Goes on with what plays, at a time in seconds: by what has passed since the last call, so that slow
-/// pictures are left out. At the end it begins again, or stops.
+/// Advances what plays by the time since the last call (`now` is in seconds), so slow drawing skips frames.
+/// At its end it loops or stops.
 void play(ViewState& state, double now);
 
 /// Returns true if the user hides the scene's node (an index into ViewedScene::nodes) itself.

@@ -197,7 +197,7 @@ bool isOwn(const void* caller, bool through = true) {
   return false;
 }
 
-/// Counts a call of own code; true: it has to fail, and errno says how.
+/// Counts a call by fragtrace; true: it must fail, and errno is set.
 bool fails(Kind kind) {
   if (!plan.counts) return false;
   const uint64_t number = ++counts[kind];

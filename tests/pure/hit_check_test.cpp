@@ -55,7 +55,7 @@ TEST(ExactTracer, MeetsWhatIsThere) {
   EXPECT_EQ(sphere.primitive, 4u);
   EXPECT_DOUBLE_EQ(sphere.t, 1.0);
   EXPECT_EQ(nearest({{0.5f, 0.5f, -4.0f}, {0, 0, 1}, 2.0f}).primitive, kMissIndex);  // from inside
-  // A limit ends the ray; none at all is no ray.
+  // A limit ends the ray; a limit of 0 means no ray.
   EXPECT_EQ(nearest({{0.75f, 0.25f, 2.0f}, {0, 0, -1}, 1.99f}).primitive, kMissIndex);
   EXPECT_EQ(nearest({{0.75f, 0.25f, 2.0f}, {0, 0, -1}, 0.0f}).primitive, kMissIndex);
   EXPECT_EQ(tracer.normal(0, {}), glm::dvec3(0, 0, 1));

@@ -59,7 +59,7 @@ Words companionsOf(const std::string& name) {
   return found == needed.end() ? Words{"a.gltf"} : Words{"a.gltf", found->second.front()};
 }
 
-/// The option with each of its examples, as words beside its companions.
+/// The option with each of its examples: a word each.
 std::vector<std::string> uses(const OptionRow& row) {
   if (row.examples.empty()) return {row.name};
   std::vector<std::string> words;

@@ -97,7 +97,7 @@ TEST(ViewState, EveryControlChangesTheStateOrIsAnErrand) {
                          state.treeLevel != before.treeLevel || state.split != before.split ||
                          state.comparison != before.comparison || state.flySpeed != before.flySpeed ||
                          !(state.magnifier == before.magnifier);
-    // Cameras that the scene does not have, and what stands as it is asked for.
+    // Some do nothing: no such camera, or the state is already the one wanted.
     const bool maybeNot = control.action == Action::SceneCamera || control.action == Action::ResetCamera ||
                           control.action == Action::StagesUpTo || control.action == Action::StandardView ||
                           control.action == Action::FrameAll;

@@ -179,8 +179,7 @@ class PrimitiveReader {
       diagnostics_.warn(place_ + "/indices", "holds the primitive restart value, which is taken as an index");
   }
 
-  /// Returns the triangle's normal. It is not a unit vector: its length is proportional to the triangle's
-  /// area.
+  /// Returns the triangle's unit normal; zero for a triangle without area.
   glm::vec3 geometricNormal(const Triangle& triangle) const {
     const auto& position = result_.vertices.position;
     const glm::dvec3 a(position[triangle.vertex.x]);

@@ -47,7 +47,7 @@ std::vector<std::string> warningsOf(std::span<const SetNumber> set);
 /// it.
 bool setsEmission(std::span<const SetNumber> set);
 
-/// The shortest number in decimal digits that is this one as a float, so that the same is read from a file.
+/// The number of fewest decimal digits that rounds to the same float, so a file gives it back.
 double shortest(float value);
 
 /// Sets those numbers that are factors of the material, within the range that the loader takes.

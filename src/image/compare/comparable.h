@@ -18,7 +18,7 @@ struct ColorReader {
   }
 };
 
-/// Throws RenderError, which calls the picture `which`, when it has no colour (findColorChannels).
+/// Throws RenderError if the picture, named `which` in it, has no colour (findColorChannels).
 ColorReader colorReader(const Image& image, const char* which);
 
 /// The number of pixels, which must be the same in both. Throws RenderError when the sizes differ.

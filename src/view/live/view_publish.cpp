@@ -221,7 +221,7 @@ void ViewTracer::save(const SaveRequest& request) {
     const FilmTotals totals = totalsOf(pixels);
     const bool exr = formatOfName(options.output.file) == ImageFormat::OpenExr;
     const Layers layers{!options.light.background, options.output.aovSamples, options.output.aovVariance};
-    // A file of radiance is what its samples say, one for a display what is seen.
+    // An .exr holds the unfiltered samples, other files the picture as shown.
     Image image = exr ? shownPicture(options, pixels, layers) : seenOf(side);
     loaded_->camera = side.view.camera;
     loaded_->size = pixels.size;

@@ -311,7 +311,7 @@ bool ViewTracer::relight(const TraceRequest& request) {
   };
   const bool shone = shines();
   std::vector<std::string> repeated;
-  const SaidHere silence(repeated);  // said above, and not at each step of a drag
+  const SaidHere silence(repeated);  // no messages: relight() has said them
   programs_->settle();
   loaded_->environment = skyOf(loadedOptions_, repeated);
   // When the sun rises or sets, programs change: light paths begin at it (Trait::Caustics).

@@ -20,7 +20,7 @@ struct PixelArea {
 /// The values of an area of a picture.
 struct PictureValues {
   uint64_t picture = 0;  ///< number of the picture
-  glm::ivec2 whole{0};   ///< pixels of it
+  glm::ivec2 whole{0};   ///< its size
   PixelArea area;
   Image image;  ///< values of the area: R, G, B and more
 };

@@ -37,8 +37,8 @@ void endWithDisplay(const std::filesystem::path& statusFile);
 /// Throws std::runtime_error.
 WindowHandle openWindow(glm::ivec2 size, const std::string& title);
 
-/// A context that shares its objects with that of a window, without a window that is seen: for a thread of
-/// its own. Throws std::runtime_error.
+/// The context of a new hidden window, which shares objects with that of `window`: for another thread. Throws
+/// std::runtime_error.
 WindowHandle openSharing(GLFWwindow* window);
 OutsideContext outsideContext(GLFWwindow* sharing);
 

@@ -13,7 +13,7 @@ namespace fragtrace {
 
 namespace {
 
-/// An error that ends the program is in the status file, too, if that can be written.
+/// Writes an error to the status file; says on stderr why if that fails.
 template <typename Write>
 void writeFailure(const Write& write) {
   try {
