@@ -275,6 +275,16 @@ Scene readScene(const RenderOptions& options, const LoadProgress& progress, cons
   return scene;
 }
 
+/// Reads the environment's map in another thread, which sets `reading` at its end.
+std::future<LinearImage> startMap(const RenderOptions& options, Phase& reading) {
+  return std::async(kThreadIfGranted, [&options, &reading] {
+    PhaseTimer timer("environment", "second");
+    LinearImage image = readMap(options);
+    reading = timer.end();
+    return image;
+  });
+}
+
 }  // namespace
 
 FittedPoints pointsToFit(const Scene& scene, const Environment& environment, const RenderOptions& options,
@@ -322,14 +332,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   Phase reading;  // outlives the thread that sets it
   std::future<LinearImage> map;
   const bool readsMap = !options.light.hdriFile.empty() && !before.environment;
-  if (readsMap) {
-    map = std::async(kThreadIfGranted, [&] {
-      PhaseTimer timer("environment", "second");
-      LinearImage image = readMap(options);
-      reading = timer.end();
-      return image;
-    });
-  }
+  if (readsMap) map = startMap(options, reading);
   const bool opens = shutterSeconds(options) > 0.0;
   std::shared_ptr<KeptDocument> posed;  // read once for all poses of the shutter
   if (opens && before.document == nullptr) before.document = &posed;

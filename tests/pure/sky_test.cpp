@@ -91,7 +91,8 @@ class BruteForce {
     Spectrum twice{};
     Spectrum again{};
     for (int i = 0; i < kHeights * kTurns; ++i) {
-      const double cosine = 2.0 * (i / kTurns + 0.5) / kHeights - 1.0;
+      const int height = i / kTurns;
+      const double cosine = 2.0 * (height + 0.5) / kHeights - 1.0;
       const double turn = M_PI * (i % kTurns + 0.5) / kTurns;
       const double sine = std::sqrt(1.0 - cosine * cosine);
       const dvec3 direction =
