@@ -3,10 +3,14 @@
 """Tests of the viewer's claims of time: it sleeps when done, answers soon, and loading blocks nothing. Figures are
 printed."""
 import json
+import os
+import re
 import struct
+import threading
 import time
 
 from support import Case, main
+from xdnd import drop
 
 MOST_CORE_AT_REST = 0.02
 MOST_ANSWER_MS = 100.0  # limit of the event loop's answer
@@ -68,6 +72,39 @@ class Answers(Case):
 
 
 class Loading(Case):
+    def stalled(self, name):
+        """A .glb that gives two thirds of what it holds, and waits."""
+        pipe = self.folder / name
+        os.mkfifo(pipe)
+
+        def give():
+            left = b"glTF" + struct.pack("<III", 2, 60_000_020, 60_000_000) + b"JSON{" + bytes(40_000_000)
+            end = os.open(pipe, os.O_RDWR)
+            while left:
+                left = left[os.write(end, left):]  # a pipe may take a part alone
+        threading.Thread(target=give, daemon=True).start()
+        return pipe
+
+    def test_a_load_says_how_far_it_is_and_can_be_cancelled(self):
+        def far(status):
+            return re.fullmatch("reading the scene, 3[0-9] MB", status.get("load_step", ""))
+
+        def lasts():
+            return time.monotonic() - began
+
+        viewer = self.view(self.stalled("one.glb"), "--resolution", "320,240", wait=False)
+        viewer.window()
+        viewer.until(far, "how far it is")
+        viewer.key("Escape")
+        began = time.monotonic()
+        viewer.until(lambda s: s["state"] == "empty" and "welcome" in s["places"], "the welcome")
+        self.assertLess(lasts(), 1)  # half a second, and what Xvfb takes
+        drop(self.screen, viewer.id, self.stalled("two.glb"))
+        viewer.until(lambda s: s["state"] == "loading" and far(s), "another load")
+        began = time.monotonic()
+        self.ends_well(viewer, viewer.close())
+        self.assertLess(lasts(), 1)
+
     def test_a_million_triangles_block_nothing_and_can_be_cancelled(self):
         scene = self.folder / "grid.glb"
         grid(scene, 708)

@@ -3,13 +3,10 @@
 """The window's life: opening, size, minimising, files dropped and changed, errors, ends."""
 import json
 import os
-import re
 import shutil
 import signal
-import struct
 import subprocess
 import sys
-import threading
 import time
 from pathlib import Path
 
@@ -241,39 +238,6 @@ class Empty(Case):
         drop(self.screen, viewer.id, SCENES / "furnace.gltf")
         self.assertTrue(viewer.rest(lambda s: s["scene"].endswith("furnace.gltf"), "a model")["environment"].endswith("sky.pfm"))
         self.ends_well(viewer, viewer.close())
-
-    def stalled(self, name):
-        """A .glb that gives two thirds of what it holds, and waits."""
-        pipe = self.folder / name
-        os.mkfifo(pipe)
-
-        def give():
-            left = b"glTF" + struct.pack("<III", 2, 60_000_020, 60_000_000) + b"JSON{" + bytes(40_000_000)
-            end = os.open(pipe, os.O_RDWR)
-            while left:
-                left = left[os.write(end, left):]  # a pipe may take a part alone
-        threading.Thread(target=give, daemon=True).start()
-        return pipe
-
-    def test_a_load_says_how_far_it_is_and_can_be_cancelled(self):
-        def far(status):
-            return re.fullmatch("reading the scene, 3[0-9] MB", status.get("load_step", ""))
-
-        def lasts():
-            return time.monotonic() - began
-
-        viewer = self.view(self.stalled("one.glb"), *FEW, wait=False)
-        viewer.window()
-        viewer.until(far, "how far it is")
-        viewer.key("Escape")
-        began = time.monotonic()
-        viewer.until(lambda s: s["state"] == "empty" and "welcome" in s["places"], "the welcome")
-        self.assertLess(lasts(), 1)  # half a second, and what Xvfb takes
-        drop(self.screen, viewer.id, self.stalled("two.glb"))
-        viewer.until(lambda s: s["state"] == "loading" and far(s), "another load")
-        began = time.monotonic()
-        self.ends_well(viewer, viewer.close())
-        self.assertLess(lasts(), 1)
 
     def test_what_is_remembered_and_cannot_be_read_is_said_and_stays(self):
         file = self.folder / "state/fragtrace/viewer.json"
