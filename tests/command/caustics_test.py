@@ -273,7 +273,7 @@ class Caustics(Case):
         def flux(seed, side):
             camera = [0.7 * n for n in side]
             up = (1, 0, 0) if side[1] else (0, 1, 0)
-            picture = self.picture(path, "x.pfm", "--resolution", "24,24", "--spp", 16, "--seed", seed, "--bounces", 1, "--camera-parallel-scale", half,
+            picture = self.picture(path, "x.pfm", "--resolution", "24,24", "--spp", 64, "--seed", seed, "--bounces", 1, "--camera-parallel-scale", half,
                                    *(f"--camera-{name}={','.join(map(str, place))}" for name, place in
                                      (("position", camera), ("focal-point", [half * n for n in side]), ("view-up", up))))
             return statistics.fmean(luminances(picture)) * math.pi / albedo * (2 * half)**2

@@ -62,7 +62,7 @@ class SunCaustics(Case):
         """The sun stands behind the metal, which a sample may choose all the same."""
         scene = self.scene("glossy", roughness=0.3)
         behind = ("--sky", "--sun-elevation", "3", "--sun-azimuth", "270")
-        one, several = (self.seen(scene, *behind, "--light-reuse", reuse, spp=32) for reuse in ("none", "candidates"))
+        one, several = (self.seen(scene, *behind, "--light-reuse", reuse, spp=128) for reuse in ("none", "candidates"))
         self.assert_mean(several, statistics.fmean(one), "candidates")
 
     def test_a_mirror_shows_the_ground_a_second_sun(self):
