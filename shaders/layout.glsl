@@ -97,9 +97,11 @@ const uint kInstanceRows = 8u;
 const float kAlbedoFloor = 0.04f;  // part of white in the albedo by which denoising divides light
 const float kMeshReach = 1.75f;  // a shared mesh lies within this distance of its origin: coordinates are at most 1
 
-// Primitive words in a leaf: index and flags.
+// Primitive words in a leaf: flags, and the reach of coincidence as the exponent of a float, 0 where it has none
+// (src/scene/coincidence.h).
 const uint kPrimitiveNone = 0xffffffffu;
-const uint kPrimitiveIndexMask = 0x0fffffffu;
+const uint kPrimitiveReachMask = 0xffu;
+const uint kPrimitiveEmits = 0x08000000u;
 const uint kPrimitiveCull = 0x80000000u;    // the back is not there
 const uint kPrimitiveAlpha = 0x40000000u;   // alpha MASK or BLEND decides whether it is there
 const uint kPrimitiveSphere = 0x20000000u;  // v0 is the centre, v1.x the radius

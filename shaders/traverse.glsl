@@ -72,6 +72,14 @@ struct PrimitiveHit {
   vec2 weights;
 };
 
+/// The distance of a hit, less what puts it before surfaces that coincide with it: lamps before all others, and fronts
+/// before backs. The reach covers rounding of the triangles, and 2^-19 of the distance that of the ray.
+float beforeCoincident(float t, bool front, uint word) {
+  float reach = uintBitsToFloat((word & kPrimitiveReachMask) << 23);
+  float rank = ((word & kPrimitiveEmits) != 0u ? 2.0f : 0.0f) + (front ? 1.0f : 0.0f);
+  return reach > 0.0f ? max(t - rank * (reach + 1.9073486328125e-6f * t), 0.5f * t) : t;
+}
+
 PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear shear, vec3 v0, vec3 v1, vec3 v2,
                            uint word, int slot) {
   PrimitiveHit r;
@@ -92,6 +100,7 @@ PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear sh
     }
     bool there = !kCulling || h.front || (kLightPaths && s.both) || (word & kPrimitiveCull) == 0u;
     r.t = h.hit && there ? h.t : -1.0f;
+    if (kCoincident && r.t > 0.0f) r.t = beforeCoincident(r.t, h.front, word);
     if (kCreases) r.t -= r.t * (h.front ? s.tie : -s.tie);
     if (kWeights) r.weights = vec2(h.weight1, h.weight2);
   }
@@ -231,8 +240,8 @@ Traversal stepNode(Traversal s, TreeRay ray, float rayLimit, TreeFrame tree, boo
   if (kMoving) n = loadMovingNode(there ? s.node : 0, s.part);
   if (!kMoving) n = loadNode(there ? s.node : 0);
   float limit = kFrontToBack ? s.t : rayLimit;
-  // A surface that was passed must not end the ray before others at its distance.
-  if (kPassing) limit += roundingOf(limit, tree);
+  // A surface must not end the ray before others at its distance.
+  if (kPassing || kCoincident) limit += roundingOf(limit, tree);
   if (kInstances) limit -= ray.start;
   vec3 a0 = n.low0 * ray.scale + ray.bias;
   vec3 b0 = n.high0 * ray.scale + ray.bias;

@@ -25,7 +25,7 @@ RenderOptions optionsOf(const StressSetting& setting, Stage stage) {
 
 SceneDrawing drawingOf(const StressSetting& setting, Scene scene, const Environment& environment,
                        RenderOptions options) {
-  scene.insets = creaseInsets(scene);
+  settleCreases(scene);
   options.device.shaderFolder = setting.shaderFolder;
   return {setting.context, scene, options, environment};
 }

@@ -25,6 +25,10 @@ struct BoxOf {
     maximum = glm::max(maximum, box.maximum);
   }
   bool empty() const { return !(minimum.x <= maximum.x); }
+  bool overlaps(const BoxOf& box) const {
+    return glm::all(glm::lessThanEqual(minimum, box.maximum)) &&
+           glm::all(glm::lessThanEqual(box.minimum, maximum));
+  }
   Vector center() const { return minimum + (maximum - minimum) * Scalar(0.5); }
   Vector extent() const { return empty() ? Vector(Scalar(0)) : maximum - minimum; }
   /// Surface area; 0 when empty.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bvh/bvh.h"
+#include "scene/coincidence.h"
 #include "scene/hit_error.h"
 
 namespace fragtrace {
@@ -30,14 +31,18 @@ struct Face {
   double error = 0.0;
 };
 
-Face faceOf(const Scene& scene, uint32_t triangle) {
-  const Triangle& t = scene.triangles[triangle];
-  Face face{cornersOf<dvec3>(scene, t), {}, hitPointError(cornersOf(scene, t))};
+Face faceOf(const std::array<dvec3, 3>& corners) {
+  Face face{
+      corners, {}, hitPointError({glm::vec3(corners[0]), glm::vec3(corners[1]), glm::vec3(corners[2])})};
   const auto& [a, b, c] = face.corners;
   const dvec3 across = glm::cross(b - a, c - a);
   const double length = glm::length(across);
   if (length > 0.0) face.normal = across / length;
   return face;
+}
+
+Face faceOf(const Scene& scene, uint32_t triangle) {
+  return faceOf(cornersOf<dvec3>(scene, scene.triangles[triangle]));
 }
 
 /// Returns true if the two overlap as seen along their common normal: no edge separates them by more than
@@ -92,10 +97,6 @@ Move moveOff(const Face& glass, bool solid, const Face& opaque) {
 /// Calls `meet` for each primitive of a tree whose box overlaps the box.
 template <typename Meet>
 void meetAll(const Bvh& bvh, const Bounds& box, const Meet& meet) {
-  const auto meets = [&](const Bounds& b) {
-    return glm::all(glm::lessThanEqual(b.minimum, box.maximum)) &&
-           glm::all(glm::lessThanEqual(box.minimum, b.maximum));
-  };
   std::vector<uint32_t> open{0};
   while (!open.empty()) {
     const BvhNode& node = bvh.nodes[open.back()];
@@ -103,7 +104,7 @@ void meetAll(const Bvh& bvh, const Bounds& box, const Meet& meet) {
     // A root with one leaf has it as both children.
     const size_t sides = node.child[0] == node.child[1] ? 1 : 2;
     for (size_t side = 0; side < sides; ++side) {
-      if (!meets(node.bounds[side])) continue;
+      if (!box.overlaps(node.bounds[side])) continue;
       if ((node.child[side] & kBvhLeafBit) == 0) {
         open.push_back(node.child[side]);
         continue;
@@ -134,24 +135,49 @@ class Moves {
   std::map<Key, dvec3> moves_;
 };
 
-std::vector<uint32_t> trianglesOf(const Scene& scene, bool glass) {
-  std::vector<uint32_t> found;
+/// Triangles of local space whose materials are of a kind, and of all others.
+template <typename IsOfKind>
+std::array<std::vector<uint32_t>, 2> parted(const Scene& scene, const IsOfKind& isOfKind) {
+  std::array<std::vector<uint32_t>, 2> found;
   for (uint32_t i = 0; i < flatTriangleCount(scene); ++i)
-    if (scene.materials[scene.triangles[i].material].passesLight() == glass) found.push_back(i);
+    found[isOfKind(scene.materials[scene.triangles[i].material]) ? 0 : 1].push_back(i);
   return found;
+}
+
+Bvh treeOf(const Scene& scene, const std::vector<uint32_t>& triangles) {
+  std::vector<Bounds> boxes;
+  boxes.reserve(triangles.size());
+  for (const uint32_t i : triangles) boxes.push_back(triangleBounds(scene, i));
+  return buildBvh(std::move(boxes), uint32_t(triangles.size()));
+}
+
+/// Returns true if the faces lie in one plane within rounding, and overlap.
+bool doCoincide(const Face& a, const Face& b) {
+  if (!(std::abs(glm::dot(a.normal, b.normal)) > kParallel)) return false;
+  const double gap = kCoincident * std::max(a.error, b.error);
+  return (apart(a, b) <= gap || apart(b, a) <= gap) && overlap(a, b, gap);
+}
+
+/// Marks the lamps with which a face coincides.
+void markAround(Scene& scene, const Bvh& bvh, const std::vector<uint32_t>& lamps, const Face& face) {
+  Bounds around;
+  for (const dvec3& c : face.corners) around.include(glm::vec3(c));
+  const auto reach = float(kCoincident * face.error);
+  around.minimum -= reach;
+  around.maximum += reach;
+  meetAll(bvh, around, [&](uint32_t primitive) {
+    const Face lamp = faceOf(scene, lamps[primitive]);
+    if (doCoincide(lamp, face)) coincide(scene.triangles[lamps[primitive]], std::max(lamp.error, face.error));
+  });
 }
 
 }  // namespace
 
 size_t partFromGlass(Scene& scene) {
   if (std::ranges::none_of(scene.materials, &Material::passesLight)) return 0;
-  const std::vector<uint32_t> glass = trianglesOf(scene, true);
-  const std::vector<uint32_t> opaque = trianglesOf(scene, false);
+  const auto [glass, opaque] = parted(scene, [](const Material& m) { return m.passesLight(); });
   if (glass.empty() || opaque.empty()) return 0;
-  std::vector<Bounds> boxes;
-  boxes.reserve(glass.size());
-  for (const uint32_t i : glass) boxes.push_back(triangleBounds(scene, i));
-  const Bvh bvh = buildBvh(std::move(boxes), uint32_t(glass.size()));
+  const Bvh bvh = treeOf(scene, glass);
   Moves moves;
   size_t count = 0;
   for (const uint32_t i : opaque) {
@@ -183,6 +209,21 @@ size_t partFromGlass(Scene& scene) {
     }
   }
   return count;
+}
+
+void markLampsInSurfaces(Scene& scene) {
+  const auto [lamps, others] = parted(scene, [](const Material& m) { return m.emissive(); });
+  if (lamps.empty()) return;
+  const Bvh bvh = treeOf(scene, lamps);
+  for (const uint32_t i : others) markAround(scene, bvh, lamps, faceOf(scene, i));
+  for (const Instance& instance : scene.instances) {
+    const SharedMesh& mesh = scene.sharedMeshes[instance.mesh];
+    for (uint32_t i = mesh.firstTriangle; i < mesh.firstTriangle + mesh.triangleCount; ++i) {
+      auto corners = cornersOf<dvec3>(scene, scene.triangles[i]);
+      for (dvec3& c : corners) c = dvec3(instance.toLocal * glm::dvec4(c, 1.0));
+      markAround(scene, bvh, lamps, faceOf(corners));
+    }
+  }
 }
 
 }  // namespace fragtrace

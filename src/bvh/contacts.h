@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Opaque faces that lie on glass.
+// Opaque faces that lie on glass, and lamps that lie in surfaces.
 #pragma once
 
 #include <cstddef>
@@ -14,5 +14,8 @@ namespace fragtrace {
 /// solid glass, and back from their own front where the glass is thin. Instances of shared meshes and spheres
 /// stay where they are. Returns the number of triangles that lay on glass.
 size_t partFromGlass(Scene& scene);
+
+/// Marks emissive triangles with which another surface coincides (scene/coincidence.h).
+void markLampsInSurfaces(Scene& scene);
 
 }  // namespace fragtrace

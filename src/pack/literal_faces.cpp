@@ -93,7 +93,7 @@ LiteralMesh literalMesh(const Scene& scene, const Bvh& bvh, uint32_t firstLeaf, 
       LiteralFace face;
       for (int i = 0; i < 3; ++i)
         face.corner[size_t(i)] = pointIndex(mesh.points, scene.vertices.position[t.vertex[i]]);
-      face.culled = !m.doubleSided && !m.passesLight();
+      face.culled = m.culled();
       face.slot = leaf * 2 + side;
       const bool alone = joining == Joining::None || (emissiveApart && m.emissive());
       bool taken = false;

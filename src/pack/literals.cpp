@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pack/literals.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "base/text.h"
@@ -99,6 +100,8 @@ std::string whyNoLiterals(const Scene& scene, const GpuScene& packed) {
   if (!scene.spheres.empty()) return "the scene has spheres";
   if (scene.triangles.empty()) return "the scene has no triangle";
   if (!scene.instances.empty()) return "the scene shares meshes";
+  if (std::ranges::any_of(scene.triangles, [](const Triangle& t) { return t.reach > 0; }))
+    return "surfaces of the scene coincide";
   std::string reason = tooMany(scene.triangles.size(), kMostTriangles, "triangles");
   if (reason.empty()) reason = tooMany(scene.materials.size(), kMostMaterials, "materials");
   if (reason.empty()) reason = tooMany(packed.emitterCount, kMostEmitters, "emitters");

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "pack/words.h"
+#include "scene/coincidence.h"
 #include "scene/hit_error.h"
 #include "scene/motion/moving_scene.h"
 
@@ -49,9 +50,10 @@ void appendNode(const BvhNode& node, const BoxGrid& grid, uint32_t firstInstance
   }
 }
 
-uint32_t triangleFlags(const Material& m) {
+uint32_t primitiveFlags(const Material& m) {
   uint32_t flags = 0;
-  if (!m.doubleSided && !m.passesLight()) flags |= layout::kPrimitiveCull;
+  if (m.culled()) flags |= layout::kPrimitiveCull;
+  if (m.emissive()) flags |= layout::kPrimitiveEmits;
   if (m.alphaMode != AlphaMode::Opaque) flags |= layout::kPrimitiveAlpha;
   return flags;
 }
@@ -69,14 +71,14 @@ LeafSide leafSide(const Scene& scene, uint32_t primitive, bool ends = false) {
   if (primitive < triangles) {
     const Triangle& t = scene.triangles[primitive];
     side.points = cornersOf(scene, ends ? atEnd(scene, t) : t);
-    side.word = primitive | triangleFlags(scene.materials[t.material]);
+    side.word = t.reach | primitiveFlags(scene.materials[t.material]);
     if (isSliver(cornersOf(scene, t)) || isSliver(cornersOf(scene, atEnd(scene, t))))
       side.word |= layout::kPrimitiveSliver;
   } else {
     const uint32_t sphere = primitive - triangles;
     const Sphere& s = ends ? atEnd(scene, sphere) : scene.spheres[sphere];
     side.points = {s.center, glm::vec3(s.radius), glm::vec3(0.0f)};
-    side.word = primitive | triangleFlags(scene.materials[s.material]) | layout::kPrimitiveSphere;
+    side.word = primitiveFlags(scene.materials[s.material]) | layout::kPrimitiveSphere;
   }
   return side;
 }

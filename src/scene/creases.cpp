@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "base/parallel.h"
+#include "scene/coincidence.h"
 #include "scene/hit_error.h"
 
 namespace fragtrace {
@@ -67,7 +68,8 @@ std::vector<uint32_t> spacesOf(const Scene& scene) {
   return spaces;
 }
 
-/// Returns, for each vertex, the first vertex at the same place of the same space.
+}  // namespace
+
 std::vector<uint32_t> placesOf(const Scene& scene) {
   const std::vector<glm::vec3>& positions = scene.vertices.position;
   const std::vector<uint32_t> spaces = spacesOf(scene);
@@ -86,6 +88,8 @@ std::vector<uint32_t> placesOf(const Scene& scene) {
   }
   return places;
 }
+
+namespace {
 
 Fans fansOf(const Scene& scene) {
   Fans fans;
@@ -257,8 +261,24 @@ bool isGentle(const Fans& fans, uint32_t place, const std::vector<glm::vec3>& no
   return true;
 }
 
+/// Returns true if the triangles lie back to back, within rounding, and overlap near their corner.
+bool areTwins(const Sector& a, const Sector& b) {
+  if (glm::dot(a.normal, b.normal) > -0.9999) return false;
+  const double gap = kCoincident / kPackedOffset * std::max(a.offset, b.offset);
+  const auto liesIn = [&](const Sector& plane, const Sector& s) {
+    return std::abs(glm::dot(plane.normal, s.toSecond)) * s.length[0] <= gap &&
+           std::abs(glm::dot(plane.normal, s.toThird)) * s.length[1] <= gap;
+  };
+  const auto holdsMiddle = [](const Sector& s, const Sector& of) {
+    const glm::dvec3 middle = of.toSecond + of.toThird;
+    return glm::dot(glm::cross(s.toSecond, middle), s.normal) > 0.0 &&
+           glm::dot(glm::cross(middle, s.toThird), s.normal) > 0.0;
+  };
+  return (liesIn(a, b) || liesIn(b, a)) && (holdsMiddle(a, b) || holdsMiddle(b, a));
+}
+
 void askAround(const Scene& scene, const Fans& fans, uint32_t place, bool woundAlike,
-               std::vector<Sector>& sectors, Codes& codes) {
+               std::vector<Sector>& sectors, Codes& codes, std::vector<uint32_t>& twins) {
   sectors.clear();
   for (uint32_t i = fans.first[place]; i < fans.first[place + 1]; ++i) {
     sectors.push_back(sectorAt(scene, fans, fans.corner[i]));
@@ -267,6 +287,7 @@ void askAround(const Scene& scene, const Fans& fans, uint32_t place, bool woundA
   for (const Sector& face : sectors) {
     for (const Sector& other : sectors) {
       if (&face == &other) continue;
+      if (&face < &other && areTwins(face, other)) twins.insert(twins.end(), {face.triangle, other.triangle});
       if (!woundAlike || glm::dot(face.normal, other.normal) < double(kGentle))
         askBeside(face, other, place, codes);
     }
@@ -286,7 +307,7 @@ std::vector<glm::vec3> normalsOf(const Scene& scene) {
 
 }  // namespace
 
-std::vector<uint32_t> creaseInsets(const Scene& scene) {
+std::vector<uint32_t> creaseInsets(const Scene& scene, std::vector<uint32_t>* twins) {
   if (scene.triangles.empty()) return {};
   const Fans fans = fansOf(scene);
   const std::vector<glm::vec3> normals = normalsOf(scene);
@@ -296,6 +317,7 @@ std::vector<uint32_t> creaseInsets(const Scene& scene) {
   const auto places = uint32_t(fans.first.size() - 1);
   const uint32_t threads =
       std::clamp(places / kWorthAThread, 1u, std::max(std::thread::hardware_concurrency(), 1u));
+  std::vector<std::vector<uint32_t>> found(threads);
   runOnThreads(threads, [&](uint32_t thread) {
     std::vector<Sector> sectors;
     for (uint32_t place = thread; place < places; place += threads) {
@@ -303,15 +325,29 @@ std::vector<uint32_t> creaseInsets(const Scene& scene) {
       if (faces < 2 || faces > kMostFaces) continue;
       const bool woundAlike = areWoundAlike(fans, place);
       if (woundAlike && isGentle(fans, place, normals)) continue;
-      askAround(scene, fans, place, woundAlike, sectors, codes);
+      askAround(scene, fans, place, woundAlike, sectors, codes, found[thread]);
     }
   });
+  for (const std::vector<uint32_t>& some : found)
+    if (twins != nullptr) twins->insert(twins->end(), some.begin(), some.end());
   if (!codes.any) return {};
   std::vector<uint32_t> insets(scene.triangles.size(), 0u);
   for (size_t i = 0; i < insets.size(); ++i) {
     for (uint32_t c = 0; c < 6; ++c) insets[i] |= uint32_t(codes.of[i][c]) << (5 * c);
   }
   return insets;
+}
+
+void settleCreases(Scene& scene) {
+  std::vector<uint32_t> twins;
+  scene.insets = creaseInsets(scene, &twins);
+  for (size_t i = 0; i < twins.size(); i += 2) {
+    Triangle& a = scene.triangles[twins[i]];
+    Triangle& b = scene.triangles[twins[i + 1]];
+    if (scene.materials[a.material].culled() && scene.materials[b.material].culled()) continue;
+    const double error = std::max(hitPointError(cornersOf(scene, a)), hitPointError(cornersOf(scene, b)));
+    for (Triangle* t : {&a, &b}) coincide(*t, error);
+  }
 }
 
 }  // namespace fragtrace

@@ -15,6 +15,16 @@ namespace fragtrace {
 /// less than 133 degrees, or if there is no triangle. Words of shared meshes are those of the mesh's own
 /// space; they are multiplied by the factor by which an instance enlarges offsets. Vertices that more than
 /// 512 triangles share need no inset.
-std::vector<uint32_t> creaseInsets(const Scene& scene);
+///
+/// twins, if given, gets the triangles that lie back to back at one place and share a corner, in pairs.
+std::vector<uint32_t> creaseInsets(const Scene& scene, std::vector<uint32_t>* twins = nullptr);
+
+/// Sets the scene's insets, and the reach of triangles that lie back to back where a ray can see one of the
+/// two from behind.
+void settleCreases(Scene& scene);
+
+/// Returns, for each vertex, the first vertex at the same place of the same space: local space, or that of a
+/// shared mesh.
+std::vector<uint32_t> placesOf(const Scene& scene);
 
 }  // namespace fragtrace

@@ -164,6 +164,8 @@ struct Material {
   /// scatters light in single directions (kMirrorAlpha of shaders/bsdf.glsl).
   bool mirrorLike() const { return roughnessFactor * roughnessFactor < 0.001f; }
   bool clearcoated() const { return clearcoatFactor > 0.0f; }
+  /// No ray sees the back.
+  bool culled() const { return !doubleSided && !passesLight(); }
   bool hasSheen() const { return sheenColorFactor != glm::vec3(0.0f); }
   /// Returns true if clearcoat or sheen lies over the base.
   bool layered() const { return clearcoated() || hasSheen(); }
@@ -230,6 +232,8 @@ struct Triangle {
   uint32_t material = 0;
   bool flat = false;  ///< no vertex normals were given: the geometric normal shades
 };
+  /// Exponent, as in the bits of a float, of the reach of coincidence (scene/coincidence.h); 0: it has none.
+  uint8_t reach = 0;
 
 /// A KHR_implicit_shapes sphere, placed by a node; rotation turns its texture coordinates.
 struct Sphere {

@@ -250,7 +250,7 @@ void addStrokes(Scene& scene, const Camera& camera, glm::ivec2 pictureSize, doub
   StrokeBuilder builder(scene, size);
   for (const Strokes& strokes : scene.strokes) builder.add(strokes);
   builder.finish();
-  scene.insets = creaseInsets(scene);
+  settleCreases(scene);
 }
 
 }  // namespace fragtrace

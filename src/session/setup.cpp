@@ -128,6 +128,8 @@ Bvh buildTree(const Scene& scene, const RenderOptions& options) {
   const uint32_t triangles = uint32_t(scene.triangles.size());
   std::vector<uint32_t> large;
   if (besideAllowed(options) && bounds.size() >= kLeastBesideLarge) large = largeTriangles(bounds, triangles);
+  // Literals do not know of coincidence.
+  std::erase_if(large, [&](uint32_t i) { return scene.triangles[i].reach > 0; });
   if (large.empty()) return buildBvh(std::move(bounds), triangles);
   Bvh bvh = buildBvh(bounds, triangles);
   Bvh beside = buildBvhBeside(bounds, triangles, large);

@@ -69,6 +69,7 @@ enum class Trait : uint8_t {
   Instances,
   Creases,
   Slivers,
+  Coincident,
   SmoothSurfaces,
   ObjectNumbers,
   MovingCamera,

@@ -190,6 +190,8 @@ std::string whyNoLightPaths(const RenderOptions& options, const TraitSet& presen
   // Limits, catchers and parts know paths from the camera alone.
   if (options.sampling.clampIndirect > 0.0) return "--clamp-indirect";
   if (options.light.shadowCatcher) return "--shadow-catcher";
+  mark(Trait::Coincident,
+       std::ranges::any_of(scene.triangles, [](const Triangle& t) { return t.reach > 0; }));
   // A filter does not reach across the seam of a panorama.
   if (options.camera.overrides.type == CameraType::Panorama && options.camera.pixelFilter != PixelFilter::Box)
     return "--pixel-filter of a panorama";

@@ -42,6 +42,7 @@ inline bool kVertexNormals = false;
 inline bool kInstances = false;
 inline bool kCreases = false;
 inline bool kSlivers = false;
+inline bool kCoincident = false;
 inline bool kPassing = false;
 inline bool kMatchedGlass = false;
 inline bool kThinScattering = false;

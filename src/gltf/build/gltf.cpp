@@ -173,7 +173,8 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
   recentre(options, document.diagnostics, scene);
   flatten(meshes.flat, meshes.shared, scene);
   partFromGlass(scene);
-  if (scene.strokes.empty()) scene.insets = creaseInsets(scene);  // else addStrokes() does it
+  markLampsInSurfaces(scene);
+  if (scene.strokes.empty()) settleCreases(scene);  // else addStrokes() does it
   for (const PlacedSphere& sphere : spheres) {
     scene.spheres.push_back({glm::vec3(scene.space.localOf(sphere.center)),
                              float(sphere.radius / scene.space.unit), glm::quat(sphere.rotation),
