@@ -173,6 +173,8 @@ const uint kMaterialSpecularGlossiness = 16u;
 const uint kMaterialScatters = 64u;  // a solid inside of which light is scattered
 const uint kMaterialCaster = 32u;  // its delta lobes make caustics that light paths draw (src/scene/casters.h)
 const uint kMaterialGlossyCaster = 128u;  // its one lobe, which is none, does
+const uint kMaterialClosed = 256u;      // a solid each part of which is closed
+const uint kMaterialHoldsLamps = 512u;  // a solid inside of which punctual lights stand
 
 const int kMostCasters = 16;  // balls round what makes caustics
 
@@ -258,7 +260,7 @@ struct Frame {
   vec3 cameraRight;     // half of the view's width: at distance 1, local space (orthographic), radians (round)
   float firstInMiddle;  // 1 when the first sample is in the middle of its pixel
   vec3 cameraUp;        // half of the view's height
-  float cameraMedium;   // 1 + the material of the scattering solid that the camera stands in, or 0
+  uint cameraSolids;    // the solids that the camera stands in, or kPrimitiveNone (media/solids.glsl)
   vec3 cameraForward;   // size of the unit of local space
   float metresPerUnit;  // of local space
   vec4 gridOrigin;      // origin of the grid of the quantised boxes, local space

@@ -28,12 +28,12 @@ const uint kFlightDimension = 13u;
 const uint kFlightDimensions = 0x80000000u;  // hashed; 4,096 per bounce
 const uint kShadowFlights = 0x40000000u;      // shadow rays add this to kFlightDimensions
 
-/// The most that roulette lets a path at smooth glass survive by, and the scattering from which on it always decides.
-/// Paths through glass that absorbs nothing get fewer by a factor from each scattering to the next; were that factor
-/// above the survival, their variance would be infinite.
+/// The largest probabilities to survive roulette. Paths through smooth glass that absorbs nothing get fewer by a factor
+/// from each scattering to the next; were that factor above the survival, their variance would be infinite.
 const float kGlassSurvival = 0.99;
-const int kLatestRoulette = 1000;
-const float kMediumSurvival = 0.999;  // largest probability to survive from kLatestRoulette on
+const float kGuidedSurvival = 0.95;
+const float kLateSurvival = 0.999;  // of all paths from kLatestRoulette on: light may lose nothing in a closed box
+const int kLatestRoulette = 1000;   // the scattering from which on roulette decides at smooth glass in any stage
 
 /// Dimensions of light paths; their bounces have the dimensions of camera paths.
 const uint kAimDimensions = 0u;     // these are 0 and 1
@@ -109,15 +109,16 @@ uint keyOfPixel(ivec2 pixel) {
   return pixelKey(uint(place.x), uint(frame.pictureSize.y - 1 - place.y), uint(frame.seed));
 }
 
-/// A path that begins with a ray.
-Path pathAlong(vec3 origin, vec3 direction, Sampler sampler, int steps) {
+/// A path that begins with a ray inside of solids.
+Path pathAlong(vec3 origin, vec3 direction, Sampler sampler, int steps, uint solids) {
   Path p = newPath();
   p.sampler = sampler;
   p.origin = origin;
   p.direction = direction;
   p.traversal.steps = steps;
   if (kTimed) p.time = kIdAov ? 0.5 : timeOf(sampler);
-  if (kScattering && kMedia && frame.cameraMedium > 0.0) p = standInside(p, uint(frame.cameraMedium) - 1u);
+  if (kNestedSolids && solids >> 16 != kNoSolid) p = standInside(p, solids >> 16);
+  if (kPassesLight && solids != kPrimitiveNone) p = standInside(p, innermost(solids));
   return extend(p);
 }
 
@@ -175,7 +176,7 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int earlier, int steps) 
   if (kMovingCamera && !kIdAov) ray = carried(cameraAt(timeOf(sampler)), ray);
   // Outside of the fisheye's circle the ray goes up from above all, and meetSurroundings() gives it no light.
   if (kFisheye && !withinFisheye(point)) ray = CameraRay(vec3(0.0, kAboveAll, 0.0), vec3(0.0, 1.0, 0.0));
-  Path p = pathAlong(ray.origin, ray.direction, sampler, steps);
+  Path p = pathAlong(ray.origin, ray.direction, sampler, steps, frame.cameraSolids);
   p.pixel = pixel;
   p.throughput = vec3(1.0 / float(kCameraRays));
   return p;
@@ -202,11 +203,8 @@ int countedScatterings(Path p) { return kThroughGlass ? p.bounce - p.straightBou
 
 /// Returns true if the shadow ray of a light sample passes smooth glass that does not bend it. It does where the path
 /// itself could go there, and continue behind it. Inside of a solid it does not: paths there lose light at each wall.
-bool passesGlass(Path p, Surface s, SurfaceMaterial m, vec3 direction) {
-  bool crosses = m.solid && dot(direction, s.geometricNormal) < 0.0;
-  bool inside = crosses ? s.front : p.medium != kPrimitiveNone;
-  if (kMatchedGlass) inside = !isOpen(mediumTowards(p, s, direction));
-  return !inside && limitedScatterings(p) < frame.maxBounces;
+bool passesGlass(Path p, Surface s, vec3 direction) {
+  return isOpen(solidsTowards(p, s, direction)) && limitedScatterings(p) < frame.maxBounces;
 }
 
 /// The radiance that the camera sees where its ray meets nothing.
@@ -267,6 +265,12 @@ uint normalOfLight(Surface s, SurfaceMaterial m) {
 /// Returns true if a lobe of a material with these flags makes caustics.
 bool isCaster(uint flags, bool delta) { return (flags & (delta ? kMaterialCaster : kMaterialGlossyCaster)) != 0u; }
 
+/// The probability to survive roulette: the throughput as seen from outside of all solids, at most `most`.
+float survivalOf(Path p, float most) {
+  float late = p.bounce >= kLatestRoulette ? min(most, kLateSurvival) : most;
+  return min(maxComponent(p.throughput) * p.etaScale, late);
+}
+
 /// Sets where the path goes on from the surface. `after` keeps it until the shadow ray is traced. weight multiplies the
 /// throughput, and zero ends the path.
 Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool transmitted, SurfaceMaterial m) {
@@ -279,7 +283,7 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
   bool deltaGlass = atDeltaGlass(m, pdf);
   uint medium = p.medium;
   if (transmitted && m.solid) {
-    p.medium = mediumBehind(s);
+    p.medium = behindBoundary(p.medium, s);
     float squared = m.ior * m.ior;
     float before = p.etaScale;
     p.etaScale = s.front ? before * squared : max(before / squared, 1.0);
@@ -294,8 +298,9 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
   bool roulette = (kGi || deltaGlass) && kDrawsLight &&
                   p.bounce >= (deltaGlass ? min(frame.rouletteDepth, kLatestRoulette) : frame.rouletteDepth);
   // A path that guiding has aimed carries little, but goes where light comes from.
-  float carried = kGuided && p.prefix == kPrefixGuided ? 1.0 : maxComponent(p.throughput) * p.etaScale;
-  float survival = min(carried, deltaGlass ? kGlassSurvival : 0.95);
+  bool isGuided = kGuided && p.prefix == kPrefixGuided;
+  float most = deltaGlass ? kGlassSurvival : isGuided ? kGuidedSurvival : 1.0;
+  float survival = isGuided ? most : survivalOf(p, most);
   uint rouletteDimension = kBounceDimensions * uint(p.bounce) + kRouletteDimension;
   if (roulette && drawFloat(p.sampler, rouletteDimension) >= survival) ends = true;
   if (roulette) p.throughput /= survival;
@@ -361,13 +366,13 @@ Path spawnShadowRayFrom(Path p, vec3 point, vec3 origin, LightSample light, vec3
   bool lit = maxComponent(value) > 0.0;
   if (!kShadows && !lit) return p;
   value = clampIndirect(value, countedScatterings(p) + 1);
-  if (!kMedia && !kShadows) return addLight(p, value);
+  if (!kDims && !kShadows) return addLight(p, value);
   p.contribution = kLightPart ? p.aovWeight * value : value;
   p.shadowOrigin = origin;
   p.shadowDirection = light.direction;
   p.shadowLimit = kShadows ? kFarAway : light.distance;
   if (!kShadows) {
-    p = dimShadow(p, p.shadowMedium, light.distance);
+    if (kDims) p = dimShadow(p, innermost(p.shadowMedium), 0.0, light.distance);
     p.radiance += p.contribution;
     return p;
   }
@@ -379,13 +384,14 @@ Path spawnShadowRayFrom(Path p, vec3 point, vec3 origin, LightSample light, vec3
     // The light's own surface is kept out by a relative margin above the rounding of the point chosen on it.
     p.shadowLimit = distance * float(0.9999);
   }
+  if (kDims && !kDimsLate) p = dimShadow(p, innermost(p.shadowMedium), 0.0, p.shadowLimit);
   if (lit) p.phase = kPhaseShadow;
   return traceAnew(p, p.shadowLimit);
 }
 
 /// Returns the same of a point of a surface.
 Path spawnShadowRay(Path p, Surface s, LightSample light, vec3 value) {
-  if (kMedia) p.shadowMedium = mediumTowards(p, s, light.direction);
+  if (kDims) p.shadowMedium = solidsTowards(p, s, light.direction);
   vec3 origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, light.direction);
   return spawnShadowRayFrom(p, s.position, origin, light, value);
 }

@@ -48,10 +48,11 @@ Path withCounts(Path p, uint scatterings, uint freeBounces) {
 /// The hit of a traversal as a row.
 uvec4 metBy(Traversal t) { return uvec4(floatBitsToUint(t.t), uint(t.slot), floatBitsToUint(t.weights)); }
 
-/// begins: nothing has changed yet what a camera ray carries. The wavefront keeps fewer rows of such a path.
+/// begins: nothing has changed yet what a camera ray carries, and it is outside of all solids. The wavefront keeps
+/// fewer rows of such a path.
 void savePath(Path p, int row, bool begins) {
-  uint flags = uint(p.phase) | (p.cameraRay ? 16u : 0u) | (p.oneChannel ? 32u : 0u) | (p.covered ? 64u : 0u) |
-               (p.throughGlass ? 128u : 0u) | (kLightTree ? p.normal << 8 : 0u);
+  uint flags = uint(p.phase) | (begins ? 8u : 0u) | (p.cameraRay ? 16u : 0u) | (p.oneChannel ? 32u : 0u) |
+               (p.covered ? 64u : 0u) | (p.throughGlass ? 128u : 0u) | (kLightTree ? p.normal << 8 : 0u);
   pathStates[row + kRowRay] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.tie));
   pathStates[row + kRowDirection] = uvec4(floatBitsToUint(p.direction), p.medium);
   pathStates[row + kRowHit] = uvec4(floatBitsToUint(p.hitT), uint(p.hitSlot), floatBitsToUint(p.hitWeights));
@@ -86,13 +87,13 @@ Path loadPath(int row, uint key) {
   p.hitWeights = uintBitsToFloat(a.zw);
   a = readPathStates(row + kRowRadiance);
   p.radiance = uintBitsToFloat(a.xyz);
-  p.phase = int(a.w & 15u);
+  p.phase = int(a.w & 7u);
   p.cameraRay = (a.w & 16u) != 0u;
   p.oneChannel = (a.w & 32u) != 0u;
   p.covered = (a.w & 64u) != 0u;
   p.throughGlass = (a.w & 128u) != 0u;
   p.normal = kLightTree ? a.w >> 8 : kNoNormal;
-  bool begins = !kResumable && p.cameraRay;
+  bool begins = !kResumable && (a.w & 8u) != 0u;
   f = uintBitsToFloat(readPathStates(row + kRowThroughput));
   p.throughput = begins ? vec3(1.0 / float(kCameraRays)) : f.xyz;
   p.pdf = begins ? 0.0 : f.w;
@@ -108,7 +109,7 @@ Path loadPath(int row, uint key) {
     p.hitInstance = int(a.w);
   }
   if (kPassingRows) p.crossings = int(readPathStates(row + kRowCrossings).x);
-  if (kMedia) {
+  if (kDimsLate) {
     p.shadowMedium = readPathStates(row + kRowCrossings).w;
     p.traversal.tMin = uintBitsToFloat(readPathStates(row + kRowTMin).x);
   }

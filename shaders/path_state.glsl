@@ -18,6 +18,12 @@ const bool kDrawsLight = kAov == kAovNone || kLightPart;
 /// Light may be scattered between surfaces (media/).
 const bool kMedia = (kScattering || kFog || kDensityGrid) && kDrawsLight;
 
+/// Light may be lost between surfaces.
+const bool kDims = (kAbsorption || kMedia) && kDrawsLight;
+
+/// What dims a shadow ray is known only once it is traced.
+const bool kDimsLate = kMedia || (kDims && kPassing && !kLightPaths);
+
 /// Light may go straight through smooth glass, and shadow rays with it.
 const bool kThroughGlass = kThinGlass || kMatchedGlass;
 
@@ -68,14 +74,14 @@ struct Path {
   float etaScale;       // the product of squared indices by which refraction has scaled radiance down
   float pdf;            // pdf of the last scattering over solid angle; 0: a delta lobe or the camera
   uint normal;          // normal of the surface that the ray left, as light sampling used it (kLightTree)
-  uint medium;          // material of the solid the ray is inside of, or kPrimitiveNone
+  uint medium;          // the solids that the ray is inside of, or kPrimitiveNone (media/solids.glsl)
   vec3 origin;
   vec3 direction;
   float tie;          // part by which hits on fronts count as nearer: 0, kTie or -kTie (kCreases)
   vec3 shadowOrigin;
   vec3 shadowDirection;
   float shadowLimit;
-  uint shadowMedium;  // material of the solid that the shadow ray is inside of, as `medium` (kMedia)
+  uint shadowMedium;  // the solids that the shadow ray is inside of, as `medium` (kDims)
   vec3 aovWeight;       // the share of the light still to come that belongs to the AOV (kLightPart)
   Guide guide;
   LightPath fromLight;

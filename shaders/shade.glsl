@@ -114,7 +114,7 @@ Path sampleLd(Path p, Surface s, SurfaceMaterial m, Scattering at) {
   BsdfValue value = evaluateBsdf(at.b, at.wo, wi);
   float weight = lightWeight(light, value.pdf / lightSamplesAt(countedScatterings(p)));
   if (kLightPart && p.bounce == 0) p.aovWeight = aovShare(at.b, at.wo, wi);
-  if (kThroughGlass) p.throughGlass = passesGlass(p, s, m, light.direction);
+  if (kThroughGlass) p.throughGlass = passesGlass(p, s, light.direction);
   return spawnShadowRay(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
 }
 
@@ -230,7 +230,7 @@ Path shadeLocal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
     if (kVertexNormals) diffuse *= terminatorFade(s.geometricNormal, s.shadingNormal, light.direction);
     vec3 value = phongValue(diffuse, f0, exponent, normal, wo, light.direction);
     bool above = dot(light.direction, s.geometricNormal) > 0.0;
-    if (kThinGlass) p.throughGlass = passesGlass(p, s, m, light.direction);
+    if (kThinGlass) p.throughGlass = passesGlass(p, s, light.direction);
     p = spawnShadowRay(p, s, light, above ? p.throughput * light.irradiance * value : vec3(0.0));
   }
   p.lightSampleIndex += 1;
@@ -311,7 +311,7 @@ Path shade(Path p) {
   vec4 base = baseColorAt(s.material, s.texcoords, s.color);
   bool first = p.lightSampleIndex == 0;
   if (kAov == kAovGuides) return guideAt(p, s, flags, base);
-  if (kMedia && first) p = flyTo(p, s);
+  if (kPassesLight && kDrawsLight && first) p = flyTo(p, s);
   if (kMedia && p.hitSlot < 0) return scatterInMedium(p);
   if (kAlpha && first && passesThrough(flags, alphaAt(s.material, flags, base.a), p.sampler, nextCrossing(p))) {
     p.phase = kPhaseExtend;
@@ -322,17 +322,6 @@ Path shade(Path p) {
     p.radiance = aovAt(s, p.hitSlot, p.hitInstance, base.rgb, -p.direction, p.time);
     p.phase = kPhaseEnd;
     return p;
-  }
-  // A camera that sees the back of a solid first stands inside.
-  if (kPassesLight && first && p.cameraRay && !s.front && materialFloats(s.material, kMaterialVolume).w > 0.0) {
-    float ior = dispersedIor(p, s.material);
-    p.etaScale = ior * ior;
-  }
-  if (kAbsorption && !kMedia && first) {
-    // A back face of a solid says what the segment went through even if the camera stands inside.
-    bool leaving = !s.front && materialFloats(s.material, kMaterialVolume).w > 0.0;
-    uint medium = leaving ? s.material : p.medium;
-    if (medium != kPrimitiveNone) p.throughput *= exp(-p.hitT * materialFloats(medium, kMaterialVolume).rgb);
   }
   if (kLightPaths) return lightPathAt(p, s, flags, base.rgb);
   if (!kPhong || (kUnlit && (flags & kMaterialUnlit) != 0u)) {
@@ -373,13 +362,13 @@ Path settleShadow(Path p) {
       p.contribution *= lightThrough(s, base.rgb, p.shadowDirection);
       passes = maxComponent(p.contribution) > 0.0;
     }
-    if (kMedia && passes) {
-      p = dimShadow(p, mediumBefore(s, p.shadowMedium), p.traversal.t);
-      if (!holes && isSolid(s.material)) p.shadowMedium = mediumBehind(s);
+    if (kDimsLate && passes) {
+      p = dimShadow(p, solidBefore(p.shadowMedium, s, false), passedBefore(p), p.traversal.t);
+      if (!holes && isSolid(s.material)) p.shadowMedium = behindBoundary(p.shadowMedium, s);
     }
   }
   if (kPassing && passes) return tracePast(p, p.shadowLimit, p.traversal.t, slot);
-  if (kMedia && slot < 0) p = dimShadow(p, p.shadowMedium, p.shadowLimit);
+  if (kDimsLate && slot < 0) p = dimShadow(p, innermost(p.shadowMedium), passedBefore(p), p.shadowLimit);
   if (kLightPaths && slot < 0) storeSplat(p);
   if (!kLightPaths && slot < 0) p.radiance += p.contribution;
   return proceed(p);

@@ -47,9 +47,9 @@ Path takeUp(inout Wave v, int k) {
   bool waited = (v.waiting & bit) != 0u;
   bool arrives = waited && (v.blocked & bit) == 0u;
   vec3 light = p.contribution;
-  if (kMedia && arrives) {
+  if (kDimsLate && arrives) {
     Path dimmed = loadShadowPast(loadShadow(p, rowOf(v, k)), rowOf(v, k));
-    dimmed = dimShadow(dimmed, p.shadowMedium, dimmed.shadowLimit);
+    dimmed = dimShadow(dimmed, innermost(p.shadowMedium), passedBefore(dimmed), dimmed.shadowLimit);
     light = dimmed.contribution;
     p.traversal.steps += dimmed.traversal.steps;
   }
@@ -119,12 +119,12 @@ Wave passShadows(Wave v, uint left, TreeFrame tree) {
     int row = rowOf(v, k);
     v.steps += 1;
     Path p = loadShadow(loadPath(row, keyOf(v, k)), row);
-    if (kMedia) p = loadShadowPast(p, row);
+    if (kDimsLate) p = loadShadowPast(p, row);
     p.phase = kPhaseShadow;
     p = settleShadow(p);
     pathStates[row + kRowCrossings].x = uint(p.crossings);
-    if (kThroughGlass || kMedia) pathStates[row + kRowContribution].xyz = floatBitsToUint(p.contribution);
-    if (kMedia) pathStates[row + kRowCrossings].w = p.shadowMedium;
+    if (kThroughGlass || kDimsLate) pathStates[row + kRowContribution].xyz = floatBitsToUint(p.contribution);
+    if (kDimsLate) pathStates[row + kRowCrossings].w = p.shadowMedium;
     if (p.phase == kPhaseShadow) {
       uint bit = 1u << k;
       pathStates[row + kRowCounts].y += 1u;
@@ -207,7 +207,7 @@ Wave beginSamples(Wave v, uint left, TreeFrame tree) {
       more = t.node == kTraversalDone && !isMeeting(t) && samples < kWaveSamples;
       if (!more) {
         p.traversal = t;
-        savePath(withHit(p, t), row, true);
+        savePath(withHit(p, t), row, !(kPassesLight && frame.cameraSolids != kPrimitiveNone));
         v = sendRay(v, bit, t);
       }
     }

@@ -134,7 +134,7 @@ Path startLightPath(ivec2 record, uint key, int steps) {
   uint index = uint(place.y * frame.pictureSize.x + place.x);
   Sampler sampler = makeSampler(key, index);
   Emission e = drawEmission(sampler);
-  Path p = pathAlong(e.origin, e.direction, sampler, steps);
+  Path p = pathAlong(e.origin, e.direction, sampler, steps, kPrimitiveNone);
   p.pixel = record;
   p.cameraRay = false;
   p.fromLight.flux = e.flux;

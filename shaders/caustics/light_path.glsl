@@ -114,13 +114,12 @@ Path spawnSplatRay(Path p, Surface s, SurfaceMaterial m, bool first) {
   }
   SeenFrom camera = cameraFrom(s.position, lens);
   if (camera.importance <= 0.0 || !withinBounces(p)) return p;
-  bool through = dot(camera.direction, s.geometricNormal) < 0.0;
-  uint medium = through && m.solid ? mediumBehind(s) : p.medium;
   BsdfValue value = scatteredTowards(p, s, m, camera.direction);
   if (value.pdf > kNarrow) return p;
   vec3 light = p.fromLight.flux * p.throughput * value.value * (p.etaScale * camera.importance);
-  if (kAbsorption && medium != kPrimitiveNone) {
-    light *= exp(-camera.distance * materialFloats(medium, kMaterialVolume).rgb);
+  uint solid = innermost(solidsTowards(p, s, camera.direction));
+  if (kAbsorption && solid != kPrimitiveNone) {
+    light *= exp(-camera.distance * materialFloats(solid, kMaterialVolume).rgb);
   }
   float size = maxComponent(light);
   if (!(size > 0.0) || isNonfinite(size)) return p;

@@ -2,6 +2,7 @@
 // Paths in participating media. A path's ray ends where its flight does (flightLimit), unless it meets a surface
 // before: a ray that has met nothing, but has an end, is scattered there. Shadow rays are dimmed by what lies between
 // the surfaces that they pass.
+#include "media/solids.glsl"
 
 Medium mediumOf(uint material) {
   vec4 scatter = materialFloats(material, kMaterialScatter);
@@ -14,23 +15,8 @@ bool isMatched(uint material) {
   return abs(surface.z - 1.0) < kEqualIndices && surface.w > 0.0;
 }
 
-bool isSolid(uint material) { return materialFloats(material, kMaterialVolume).w > 0.0; }
-
-/// The medium in front of a point that the path's ray has hit: a back face of a solid says what the way led through,
-/// even if the camera stands inside.
-uint mediumBefore(Surface s, uint known) { return !s.front && isSolid(s.material) ? s.material : known; }
-
-/// The medium on the far side of a solid's boundary.
-uint mediumBehind(Surface s) { return s.front ? s.material : kPrimitiveNone; }
-
-/// The medium of a ray that leaves a surface.
-uint mediumTowards(Path p, Surface s, vec3 direction) {
-  bool crosses = dot(direction, s.geometricNormal) < 0.0 && isSolid(s.material);
-  return crosses ? mediumBehind(s) : p.medium;
-}
-
-/// Light gets straight into such a medium: there is none, or its boundary does not bend it.
-bool isOpen(uint medium) { return medium == kPrimitiveNone || (kMatchedGlass && isMatched(medium)); }
+/// Light gets straight into the innermost of these solids: there is none, or its boundary does not bend it.
+bool isOpen(uint solids) { return solids == kPrimitiveNone || (kMatchedGlass && isMatched(innermost(solids))); }
 
 /// Returns true if a direction that was drawn with this pdf is a delta direction at smooth glass.
 bool atDeltaGlass(SurfaceMaterial m, float pdf) {
@@ -44,21 +30,13 @@ bool goesStraight(uint medium, Surface s, SurfaceMaterial m, bool deltaGlass, bo
   return kThinGlass && through && !m.solid && medium == kPrimitiveNone;
 }
 
-/// A path whose ray has been inside of a solid without knowing it, or begins there.
-Path standInside(Path p, uint medium) {
-  float ior = dispersedIor(p, medium);
-  if (p.cameraRay) p.etaScale = ior * ior;
-  p.medium = medium;
-  return p;
-}
-
 /// Samples the distance along the path's ray of the next scattering after `from`; kFarAway without a medium
 /// that scatters.
 float flightEnd(Path p, float from, float u) {
   float end = kFarAway;
   if (kFog && p.medium == kPrimitiveNone) end = fogFlight(fog, p.origin, p.direction, from, u);
   if (kScattering && p.medium != kPrimitiveNone) {
-    Medium m = mediumOf(p.medium);
+    Medium m = mediumOf(innermost(p.medium));
     if (scattersLight(m)) end = from + flightDistance(m, channelChances(p.throughput), u);
   }
   return end;
@@ -90,19 +68,22 @@ float passedBefore(Path p) { return kPassing ? p.traversal.tMin : 0.0; }
 
 /// A flight has come to a surface.
 Path passMedium(Path p) {
-  if (!kScattering || p.medium == kPrimitiveNone) return p;
-  p.throughput *= passWeight(mediumOf(p.medium), channelChances(p.throughput), p.hitT - passedBefore(p));
+  if (!kAbsorption || p.medium == kPrimitiveNone) return p;
+  uint solid = innermost(p.medium);
+  float passed = p.hitT - passedBefore(p);
+  if (kScattering) p.throughput *= passWeight(mediumOf(solid), channelChances(p.throughput), passed);
+  if (!kScattering) p.throughput *= exp(-passed * materialFloats(solid, kMaterialVolume).rgb);
   return p;
 }
 
-/// The flight has come to a surface, or so it seemed: where it has not known of its medium, it is drawn once more. A
+/// The flight has come to a surface, or so it seemed: where it has not known of its solid, it is drawn once more. A
 /// flight that ends before the surface leaves no hit.
 Path flyTo(Path p, Surface s) {
-  uint medium = mediumBefore(s, p.medium);
-  bool unknown = kScattering && medium != p.medium;
-  if (unknown) p = standInside(p, medium);
+  uint solid = solidBefore(p.medium, s, p.cameraRay);
+  bool unknown = solid != innermost(p.medium);
+  if (unknown) p = standInside(p, solid);
   float end = kFarAway;
-  if (unknown) end = flightEnd(p, passedBefore(p), hashFloat(p.sampler, kFlightDimensions + 0xfffu));
+  if (kScattering && unknown) end = flightEnd(p, passedBefore(p), hashFloat(p.sampler, kFlightDimensions + 0xfffu));
   bool ends = end < p.hitT;
   if (ends) p.hitT = end;
   if (ends) p.hitSlot = -1;
@@ -110,10 +91,11 @@ Path flyTo(Path p, Surface s) {
   return p;
 }
 
-/// Dims the light sample by the medium that the shadow ray passes, from what it has met last up to a distance.
-Path dimShadow(Path p, uint medium, float to) {
-  float from = passedBefore(p);
-  bool outside = medium == kPrimitiveNone;
+/// Dims the light sample by what lies on its shadow ray between two distances: a solid of this material, or what is
+/// outside of all solids (kPrimitiveNone). Surroundings are outside: a ray to them from a solid that only absorbs has
+/// missed a face, as that of a path has (meetSurroundings).
+Path dimShadow(Path p, uint solid, float from, float to) {
+  bool outside = solid == kPrimitiveNone;
   if (kFog && outside) p.contribution *= exp(-fogDepth(fog, p.shadowOrigin, p.shadowDirection, from, to));
   if (kDensityGrid && outside) {
     uint seed = hashBits(p.sampler, flightNumber(p) + kShadowFlights) ^ floatBitsToUint(from);
@@ -121,6 +103,9 @@ Path dimShadow(Path p, uint medium, float to) {
     p.contribution *= walk.transmittance;
     p.traversal.steps += walk.steps;
   }
-  if (kAbsorption && !outside) p.contribution *= exp(-(to - from) * materialFloats(medium, kMaterialVolume).rgb);
+  bool ends = to < kFarAway || (kScattering && !outside && (materialFlags(solid) & kMaterialScatters) != 0u);
+  if (kAbsorption && !outside && ends) {
+    p.contribution *= exp(-(to - from) * materialFloats(solid, kMaterialVolume).rgb);
+  }
   return p;
 }

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
 // A medium scatters a path: it takes one light sample, and draws one direction from the phase function.
 
-/// The light sample of a point in a medium that light gets into.
+/// The light sample of a point in a medium that light gets into, or that holds lamps.
 Path sampleLdInMedium(Path p, vec3 point, float g) {
   uint dimension = kBounceDimensions * uint(p.bounce + 1) + kLightDimension;
   LightSample light = sampleLight(0, point, kNoNormal, p.sampler, dimension);
   float value = phasePdf(g, dot(p.direction, light.direction));
   float weight = lightWeight(light, value);
-  if (kThroughGlass) p.throughGlass = true;
+  if (kThroughGlass) p.throughGlass = isOpen(p.medium);
   p.shadowMedium = p.medium;
   return spawnShadowRayFrom(p, point, point, light, p.throughput * light.irradiance * (value * weight));
 }
+
+/// Returns true if a lamp stands inside of a solid of the innermost one's material.
+bool holdsLamps(uint solids) { return (materialFlags(innermost(solids)) & kMaterialHoldsLamps) != 0u; }
 
 /// Decides by roulette if a path continues after a scattering in a medium. --bounces does not limit these
 /// scatterings, because paths in a white, dense medium are long.
@@ -18,8 +21,7 @@ Path decideInMedium(Path p) {
   p.after = kPhaseEnd;
   if (maxComponent(p.throughput) <= 0.0) return p;
   bool decides = p.bounce >= frame.rouletteDepth;
-  float most = p.bounce >= kLatestRoulette ? kMediumSurvival : 1.0;
-  float survival = min(maxComponent(p.throughput) * p.etaScale, most);
+  float survival = survivalOf(p, 1.0);
   if (decides && drawFloat(p.sampler, kBounceDimensions * uint(p.bounce) + kRouletteDimension) >= survival) return p;
   if (decides) p.throughput /= survival;
   p.after = kPhaseExtend;
@@ -42,7 +44,7 @@ Path scatterInMedium(Path p) {
   if (kFog && outside) scatter = fog.medium;
   if (kDensityGrid && inGrid) scatter = volume.medium;
   if (kScattering && !outside) {
-    Medium m = mediumOf(p.medium);
+    Medium m = mediumOf(innermost(p.medium));
     scatter = vec4(scatterWeight(m, channelChances(p.throughput), p.hitT - passedBefore(p)), m.g);
   }
   if (kDensityGrid && inGrid && volume.extinction.y > 0.0) {
@@ -56,7 +58,7 @@ Path scatterInMedium(Path p) {
   if (kAov == kAovEmission) return p;
   if (kLightPart && p.bounce == 0) p.aovWeight = vec3(kAov == kAovDiffuse ? 1.0 : 0.0);
   vec2 uv = drawPair(p.sampler, kBounceDimensions * uint(p.bounce + 1) + kDirectionDimension);
-  bool open = isOpen(p.medium);
+  bool open = isOpen(p.medium) || (kScattering && holdsLamps(p.medium));
   if (open && lightSampleCount() > 0) p = sampleLdInMedium(p, point, scatter.w);
   vec3 before = p.direction;
   p.direction = samplePhase(scatter.w, before, uv.x, uv.y);

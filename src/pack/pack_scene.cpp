@@ -63,9 +63,8 @@ void packAttributes(const Vertices& v, const TraitSet& traits, GpuScene& packed)
 /// black channel absorbs all.
 glm::vec3 absorption(const Material& m, double unit) {
   if (!std::isfinite(m.attenuationDistance) || m.attenuationDistance <= 0.0f) return glm::vec3(0.0f);
-  const glm::vec3 color = glm::max(m.attenuationColor, glm::vec3(1e-20f));
   constexpr double kMost = 1e30;  // finite, so that no distance of zero makes it a NaN
-  const glm::dvec3 lost = -glm::log(glm::dvec3(color)) * (unit / double(m.attenuationDistance));
+  const glm::dvec3 lost = -glm::log(glm::dvec3(m.attenuationColor)) * (unit / double(m.attenuationDistance));
   return glm::vec3(glm::clamp(lost, glm::dvec3(0.0), glm::dvec3(kMost)));
 }
 
@@ -91,6 +90,19 @@ uint32_t materialFlags(const Material& m) {
   if (m.unlit) flags |= layout::kMaterialUnlit;
   if (m.scattersInside()) flags |= layout::kMaterialScatters;
   if (m.specularGlossiness) flags |= layout::kMaterialSpecularGlossiness;
+  return flags;
+}
+
+/// Flags of materials that follow from where their solids are.
+std::vector<uint32_t> solidFlags(const Scene& scene) {
+  std::vector<uint32_t> flags(scene.materials.size(), 0);
+  for (size_t i = 0; i < scene.solids.closed.size(); ++i)
+    if (scene.solids.closed[i]) flags[i] = layout::kMaterialClosed;
+  for (const Light& light : scene.lights) {
+    if (light.type == LightType::Directional) continue;
+    for (const uint32_t material : solidsAround(scene.solids, glm::dvec3(light.position)))
+      flags[material] |= layout::kMaterialHoldsLamps;
+  }
   return flags;
 }
 
@@ -120,7 +132,7 @@ void appendLayers(Words& words, const Material& m, TexturePacker& textures) {
   appendRow(words, glm::vec4(m.scattersThinly() ? m.scatterStrength : 0.0f, 0.0f, 0.0f, 0.0f));
 }
 
-void appendMaterial(Words& words, const Material& m, double unit, double emitterPdf, Caster caster,
+void appendMaterial(Words& words, const Material& m, double unit, double emitterPdf, uint32_t flags,
                     size_t glassTable, const TraitSet& traits, TexturePacker& textures) {
   const size_t first = words.size();
   appendRow(words, m.baseColorFactor);
@@ -129,7 +141,7 @@ void appendMaterial(Words& words, const Material& m, double unit, double emitter
   appendRow(words, m.specularColorFactor, m.specularFactor);
   appendRow(words, absorption(m, unit), m.thicknessFactor > 0.0f ? 1.0f + float(glassTable) : 0.0f);
   appendRow(words, glm::vec3(m.normalScale, m.occlusionStrength, float(emitterPdf)), 0.0f);
-  words.back() = materialFlags(m) | kCasterFlags[size_t(caster)];
+  words.back() = materialFlags(m) | flags;
   appendRow(words, glm::vec4(m.perlinNormal.frequency, m.perlinNormal.amplitude,
                              float(m.perlinNormal.octaves), float(m.number)));
   for (uint32_t slot = 0; slot < layout::kSlotCount; ++slot) {
@@ -289,10 +301,12 @@ void packMaterials(const Scene& scene, const Bvh& bvh, const ShaderVariant& vari
                    TexturePacker& textures, GpuScene& packed) {
   using namespace layout;
   const std::vector<float> glass = indicesOfRoughGlass(scene, variant);
+  const std::vector<uint32_t> ofSolids = solidFlags(scene);
   Words& materials = packed.buffers[kMaterialsBinding];
   for (size_t i = 0; i < scene.materials.size(); ++i) {
-    appendMaterial(materials, scene.materials[i], scene.space.unit, materialPdf[i], casters[i],
-                   tableOf(glass, scene.materials[i]), variant.traits, textures);
+    appendMaterial(materials, scene.materials[i], scene.space.unit, materialPdf[i],
+                   kCasterFlags[size_t(casters[i])] | ofSolids[i], tableOf(glass, scene.materials[i]),
+                   variant.traits, textures);
   }
   textures.appendTransforms(materials);
   if (has(variant.traits, Trait::Sheen)) appendCells(materials, sheenAlbedoTable());

@@ -146,7 +146,7 @@ void Renderer::setFrame(const Film& film, const View& view) {
   frame_.cameraRight = right * half.x;
   frame_.firstInMiddle = view.firstInMiddle ? 1.0f : 0.0f;
   frame_.cameraUp = up * half.y;
-  frame_.cameraMedium = view.cameraMedium ? float(*view.cameraMedium + 1) : 0.0f;
+  frame_.cameraSolids = view.cameraSolids;
   frame_.cameraForward = camera.forward;
   frame_.metresPerUnit = float(view.space.unit);
   frame_.background = view.background * view.surroundings;

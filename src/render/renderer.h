@@ -62,7 +62,7 @@ struct View {
   bool seesNothing = false;     ///< they see nothing: the picture is to be laid over another one
   Fog fog;                      ///< the fog, if the variant has one
   Volume volume;                ///< the volume, if the variant has one; its grid is packed
-  std::optional<uint32_t> cameraMedium{};  ///< material of the scattering solid that the camera stands in
+  uint32_t cameraSolids = layout::kPrimitiveNone;  ///< as Frame::cameraSolids
   double catcherHeight = 0.0;  ///< Y of the shadow catcher in world space, when the variant has one
   bool firstInMiddle = false;  ///< the first sample of each pixel is in its middle, for edges without chance
   int bounces = 16;

@@ -16,6 +16,7 @@
 #include "base/bounds.h"
 #include "scene/local_space.h"
 #include "scene/shutter_motion.h"
+#include "scene/solids.h"
 #include "scene/volume/grid.h"
 
 namespace fragtrace {
@@ -163,9 +164,9 @@ struct Material {
   /// Returns true if the surface, judged by its roughness factor without the texture, is so smooth that it
   /// scatters light in single directions (kMirrorAlpha of shaders/bsdf.glsl).
   bool mirrorLike() const { return roughnessFactor * roughnessFactor < 0.001f; }
-  bool clearcoated() const { return clearcoatFactor > 0.0f; }
   /// No ray sees the back.
   bool culled() const { return !doubleSided && !passesLight(); }
+  bool clearcoated() const { return clearcoatFactor > 0.0f; }
   bool hasSheen() const { return sheenColorFactor != glm::vec3(0.0f); }
   /// Returns true if clearcoat or sheen lies over the base.
   bool layered() const { return clearcoated() || hasSheen(); }
@@ -231,9 +232,9 @@ struct Triangle {
   glm::uvec3 vertex;
   uint32_t material = 0;
   bool flat = false;  ///< no vertex normals were given: the geometric normal shades
-};
   /// Exponent, as in the bits of a float, of the reach of coincidence (scene/coincidence.h); 0: it has none.
   uint8_t reach = 0;
+};
 
 /// A KHR_implicit_shapes sphere, placed by a node; rotation turns its texture coordinates.
 struct Sphere {
@@ -387,6 +388,7 @@ struct Scene {
   Volume volume;                      ///< its grid is read after the scene's file
   BoundsDouble bounds;                ///< world space
   ShutterMotion motion;
+  Solids solids;
 };
 
 /// A triangle's vertices, in local space or that of its shared mesh.

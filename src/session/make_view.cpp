@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <limits>
-#include <map>
-#include <optional>
+#include <vector>
 
-#include "bvh/bvh.h"
-#include "bvh/exact_tracer.h"
 #include "scene/scene.h"
 #include "session/setup.h"
 
@@ -13,39 +9,12 @@ namespace fragtrace {
 
 namespace {
 
-constexpr int kMostHits = 256;
-
-uint32_t materialOf(const Scene& scene, uint32_t primitive) {
-  const size_t triangles = scene.triangles.size();
-  return primitive < triangles ? scene.triangles[primitive].material
-                               : scene.spheres[primitive - triangles].material;
-}
-
-/// The material of the solid that a point of local space lies in: of the first whose boundary a ray leaves
-/// without having entered. None where it lies in no solid, or the scene has no tree.
-std::optional<uint32_t> solidAround(const Scene& scene, const Bvh& bvh, const glm::dvec3& point) {
-  if (bvh.leaves.empty()) return std::nullopt;
-  const ExactTracer tracer(scene, bvh);
-  // The direction is along no axis, so that it runs along no wall.
-  const glm::dvec3 direction = glm::normalize(glm::dvec3(0.2113, 0.9371, 0.2776));
-  std::map<uint32_t, int> entered;
-  glm::dvec3 origin = point;
-  for (int hits = 0; hits < kMostHits; ++hits) {
-    const Ray ray{glm::vec3(origin), glm::vec3(direction), std::numeric_limits<float>::max()};
-    // Without nodes there is no tree, but a list (listLeaves).
-    const ExactHit hit = bvh.nodes.empty() ? tracer.nearestOfAll(ray) : tracer.nearest(ray);
-    if (hit.primitive == kMissIndex) return std::nullopt;
-    const glm::dvec3 there = origin + hit.t * direction;
-    const uint32_t index = materialOf(scene, hit.primitive);
-    const Material& material = scene.materials[index];
-    if (material.solid() && material.passesLight()) {
-      const bool leaves = glm::dot(tracer.normal(hit.primitive, there, hit.instance), direction) > 0.0;
-      if (leaves && entered[index] == 0) return index;
-      entered[index] += leaves ? -1 : 1;
-    }
-    origin = there + direction * (4.0 * tracer.pointError(hit.primitive));
-  }
-  return std::nullopt;
+/// Frame::cameraSolids of a camera at this point of local space.
+uint32_t cameraSolids(const Solids& solids, const glm::dvec3& point) {
+  const std::vector<uint32_t> around = solidsAround(solids, point);
+  if (around.empty()) return layout::kPrimitiveNone;
+  constexpr uint32_t kNoOuter = 0xffff;
+  return solids.nested ? around[0] | (around.size() > 1 ? around[1] : kNoOuter) << 16 : around[0];
 }
 
 Lens lensOf(const RenderOptions& options, const Camera& camera, const BoundsDouble& bounds,
@@ -91,8 +60,7 @@ View makeView(const RenderOptions& options, const LoadedScene& loaded, const Cam
   const bool map = loaded.environment.kind == Surroundings::Map;
   view.showEnvironment = map && options.light.background && !options.light.backgroundColor;
   view.seesNothing = !options.light.background;
-  if (std::ranges::any_of(scene.materials, &Material::scattersInside))
-    view.cameraMedium = solidAround(scene, loaded.bvh, scene.space.localOf(camera.position));
+  view.cameraSolids = cameraSolids(scene.solids, scene.space.localOf(camera.position));
   view.volume = scene.volume;
   view.volume.grid.reset();
   view.fog = fogOf(options.fog, scene.bounds);

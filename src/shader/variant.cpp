@@ -71,7 +71,7 @@ void dropTraits(const StageSet& stages, bool countsVisits, Surroundings surround
   if (!has(traits, Trait::Specular) && !has(traits, Trait::SpecularGlossiness))
     drop(traits, {Trait::SpecularTexture});
   if (!has(traits, Trait::Transmission) && !has(traits, Trait::DiffuseTransmission))
-    drop(traits, {Trait::Absorption, Trait::Scattering, Trait::MatchedGlass});
+    drop(traits, {Trait::Absorption, Trait::Scattering, Trait::NestedSolids, Trait::MatchedGlass});
   if (!hasNormalMaps(traits) && !has(traits, Trait::Anisotropy)) drop(traits, {Trait::Tangents});
   if (gi && !has(stages, Stage::LightSampling))
     drop(traits, {Trait::EmissiveTriangles, Trait::EnvironmentSampling, Trait::MapSun});
@@ -114,6 +114,26 @@ int cameraRaysOf(const ShaderVariant& v, int wanted) {
   const bool one = !has(v.stages, Stage::Gi) || v.countsVisits || v.shadowCatcher || v.lightCandidates ||
                    v.neighbours || hasMedia(v.traits);
   return one || wanted == 0 ? 1 : wanted;
+}
+
+/// Returns true if a lamp lies in the box of solids that absorb. A light path does not know which solids its
+/// lamp stands in until it leaves one, and where solids are nested it may meet another one before.
+bool lampsMayBeInside(const Scene& scene) {
+  const auto isInside = [&](const Bounds& lamp) {
+    for (size_t i = 0; i < scene.solids.boxes.size(); ++i)
+      if (scene.materials[i].attenuates() && scene.solids.boxes[i].overlaps(lamp)) return true;
+    return false;
+  };
+  const auto emitsInside = [&](const Triangle& t) {
+    if (!scene.materials[t.material].emissive()) return false;
+    Bounds box;
+    for (const glm::vec3& corner : cornersOf(scene, t)) box.include(corner);
+    return isInside(box);
+  };
+  const auto shinesInside = [&](const Light& light) {
+    return light.type != LightType::Directional && isInside({light.position, light.position});
+  };
+  return std::ranges::any_of(scene.lights, shinesInside) || std::ranges::any_of(scene.triangles, emitsInside);
 }
 
 }  // namespace
@@ -159,15 +179,19 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop, 
   const bool lamps =
       surroundings != Surroundings::DefaultLight && (emissiveTriangles || !scene.lights.empty());
   mark(Trait::LightTree, lamps && gainByPlace(scene) >= kLeastGainByPlace);
-  mark(Trait::Caustics, (lamps || sun == SunLight::Shines || sun == SunLight::InMap) && anyCaster);
+  const bool begins = lamps || sun == SunLight::Shines || sun == SunLight::InMap;
+  mark(Trait::Caustics, begins && anyCaster && !(scene.solids.nested && lampsMayBeInside(scene)));
   mark(Trait::Environment, surroundings != Surroundings::None);
   mark(Trait::EnvironmentSampling, surroundings != Surroundings::None);
   mark(Trait::Backdrop, backdrop);
   mark(Trait::Sun, sun == SunLight::Set || sun == SunLight::Shines);
   mark(Trait::MapSun, sun == SunLight::InMap && anyCaster);
+  mark(Trait::NestedSolids, scene.solids.nested);
   mark(Trait::Instances, !scene.instances.empty());
   mark(Trait::Creases, !scene.insets.empty());
   mark(Trait::Slivers, hasSlivers(scene));
+  mark(Trait::Coincident,
+       std::ranges::any_of(scene.triangles, [](const Triangle& t) { return t.reach > 0; }));
   mark(Trait::DensityGrid, scene.volume.grid != nullptr);
   mark(Trait::MovingCamera, scene.motion.camera);
   mark(Trait::MovingSurfaces, scene.motion.segments > 0);
@@ -190,8 +214,6 @@ std::string whyNoLightPaths(const RenderOptions& options, const TraitSet& presen
   // Limits, catchers and parts know paths from the camera alone.
   if (options.sampling.clampIndirect > 0.0) return "--clamp-indirect";
   if (options.light.shadowCatcher) return "--shadow-catcher";
-  mark(Trait::Coincident,
-       std::ranges::any_of(scene.triangles, [](const Triangle& t) { return t.reach > 0; }));
   // A filter does not reach across the seam of a panorama.
   if (options.camera.overrides.type == CameraType::Panorama && options.camera.pixelFilter != PixelFilter::Box)
     return "--pixel-filter of a panorama";

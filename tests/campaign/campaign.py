@@ -23,7 +23,7 @@ import time
 import traceback
 from pathlib import Path
 
-NAMES = ("kills", "faults", "hangs", "inputs", "forms", "rays", "driver", "long", "races")
+NAMES = ("kills", "faults", "hangs", "inputs", "forms", "solids", "rays", "driver", "long", "races")
 LEFT = 120  # seconds that the cases have that run when the time is over
 HERE = Path(__file__).resolve().parent
 

@@ -9,7 +9,7 @@ ROWS = rows_of_light.ROWS + rows_of_media.ROWS + rows_of_surfaces.ROWS
 
 COVERED = ("path", "shade", "lights", "lights/light_tree", "shutter/camera", "environment", "environment_light", "material", "material_layers", "texture", "layers", "surface", "film", "film_pixel", "camera", "bsdf",
            "ggx", "iridescence", "fresnel", "phong", "sampling", "pixel_filter", "energy", "caustics/aim", "caustics/emit", "caustics/form", "caustics/guiding", "caustics/light_path",
-           "media/phase", "media/flight", "media/fog", "media/medium", "media/volume", "media/scatter")
+           "media/phase", "media/flight", "media/fog", "media/medium", "media/solids", "media/volume", "media/scatter")
 # Types that hold none of these.
 PLAIN = ("void", "bool", "int", "uint", "uvec4")
 # Functions that only pass on what others return, or say nothing of light.

@@ -28,7 +28,7 @@ const std::vector<Member> kFrameMembers = {MEMBER(Frame, "frameBlock", cameraPos
                                            MEMBER(Frame, "frameBlock", cameraRight),
                                            MEMBER(Frame, "frameBlock", firstInMiddle),
                                            MEMBER(Frame, "frameBlock", cameraUp),
-                                           MEMBER(Frame, "frameBlock", cameraMedium),
+                                           MEMBER(Frame, "frameBlock", cameraSolids),
                                            MEMBER(Frame, "frameBlock", cameraForward),
                                            MEMBER(Frame, "frameBlock", metresPerUnit),
                                            MEMBER(Frame, "frameBlock", gridOrigin),

@@ -180,6 +180,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
                              float(sphere.radius / scene.space.unit), glm::quat(sphere.rotation),
                              sphere.material, sphere.node, sphere.nodeIndex});
   }
+  scene.solids = solidsOf(scene);
   for (const PlacedNode& node : nodes) {
     if (node.hidden) continue;
     if (const auto light = lightAt(document, node, scene.space)) scene.lights.push_back(*light);

@@ -1,0 +1,256 @@
+# SPDX-License-Identifier: MIT
+"""Light in, through and beside solids: each cell of a matrix of cameras, lamps and receivers is drawn in ways that must agree, and compared with its closed form
+where there is one. A tank of water holds what is inside; a box of glass in the tank holds a lamp in another solid. A case is one cell."""
+import base64
+import json
+import math
+import struct
+from pathlib import Path
+
+from common import Finding, run
+
+CAMERAS = ("outside", "glass", "absorbing", "scattering", "fog")
+# Places of lamps, and the kinds that may stand there.
+LAMPS = {"outside": ("point", "spot", "sun", "quad", "environment"), "tank": ("point", "spot", "quad"), "other": ("point", "spot", "quad")}
+RECEIVERS = ("inside", "outside", "alpha", "thin")
+CELLS = [(camera, place, kind, receiver) for camera in CAMERAS for place, kinds in LAMPS.items() for kind in kinds for receiver in RECEIVERS]
+ASKED = {"cells": len(CELLS)}
+
+IOR = 1.33
+SIZE = 2.0  # half an edge of the tank
+COLOR, DISTANCE = (0.5, 0.25, 0.1), 2.0
+POWER = {"point": 5.0, "spot": 5.0, "sun": 2.0, "quad": 20.0}
+SAMPLES, PIXELS = 64, 24
+
+
+class Model:
+    """A glTF file in the making."""
+
+    def __init__(self):
+        self.root = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}], "nodes": [], "meshes": [], "materials": [], "accessors": [], "bufferViews": []}
+        self.data = b""
+
+    def accessor(self, layout, values, component, kind, **more):
+        packed = struct.pack(f"<{len(values)}{layout}", *values)
+        self.root["bufferViews"].append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(packed)})
+        self.root["accessors"].append({"bufferView": len(self.root["bufferViews"]) - 1, "componentType": component, "type": kind,
+                                       "count": len(values) // {"SCALAR": 1, "VEC3": 3}[kind], **more})
+        self.data += packed
+        return len(self.root["accessors"]) - 1
+
+    def node(self, **node):
+        self.root["nodes"].append(node)
+        self.root["scenes"][0]["nodes"].append(len(self.root["nodes"]) - 1)
+
+    def mesh(self, points, triangles, material, at=(0, 0, 0)):
+        flat = [c for p in points for c in p]
+        bounds = {"min": [min(p[i] for p in points) for i in range(3)], "max": [max(p[i] for p in points) for i in range(3)]}
+        position = self.accessor("f", flat, 5126, "VEC3", **bounds)
+        indices = self.accessor("I", [i for t in triangles for i in t], 5125, "SCALAR")
+        self.root["materials"].append(material)
+        self.root["meshes"].append({"primitives": [{"attributes": {"POSITION": position}, "indices": indices, "material": len(self.root["materials"]) - 1}]})
+        self.node(mesh=len(self.root["meshes"]) - 1, translation=list(at))
+
+    def box(self, half, material, at=(0, 0, 0)):
+        points = [(half * (1 if i & 1 else -1), half * (1 if i & 2 else -1), half * (1 if i & 4 else -1)) for i in range(8)]
+        quads = ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6))
+        self.mesh(points, [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))], material, at)
+
+    def plate(self, half, material, at):
+        """A level square that faces up."""
+        self.mesh([(-half, 0, half), (half, 0, half), (half, 0, -half), (-half, 0, -half)], [(0, 1, 2), (0, 2, 3)], material, at)
+
+    def light(self, kind, at):
+        lamp = {"type": {"sun": "directional"}.get(kind, kind), "intensity": POWER[kind]}
+        if kind == "spot":
+            lamp["spot"] = {"innerConeAngle": 1.2, "outerConeAngle": 1.4}
+        self.root["extensions"] = {"KHR_lights_punctual": {"lights": [lamp]}}
+        # It shines down.
+        self.node(extensions={"KHR_lights_punctual": {"light": 0}}, translation=list(at), rotation=[-math.sqrt(0.5), 0, 0, math.sqrt(0.5)])
+
+    def write(self, path):
+        used = {name for m in self.root["materials"] for name in m.get("extensions", {})} | set(self.root.get("extensions", {}))
+        if used:
+            self.root["extensionsUsed"] = sorted(used)
+        self.root["buffers"] = [{"byteLength": len(self.data), "uri": "data:application/octet-stream;base64," + base64.b64encode(self.data).decode()}]
+        path.write_text(json.dumps(self.root))
+
+
+def matt(color, alpha=1.0, **more):
+    return {"pbrMetallicRoughness": {"baseColorFactor": [*color, alpha], "metallicFactor": 0, "roughnessFactor": 1},
+            "extensions": {"KHR_materials_specular": {"specularFactor": 0}}, **more}
+
+
+def glass(thickness=1.0, volume=None, **extensions):
+    names = {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": IOR}}
+    if thickness:
+        names["KHR_materials_volume"] = {"thicknessFactor": thickness, **(volume or {})}
+    names.update({"KHR_materials_" + name: value for name, value in extensions.items()})
+    return {"pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 1], "metallicFactor": 0, "roughnessFactor": 0}, "extensions": names}
+
+
+def water(camera):
+    if camera == "glass":
+        return glass()
+    volume = {"attenuationColor": list(COLOR), "attenuationDistance": DISTANCE}
+    if camera == "scattering":
+        return glass(volume=volume, scatter={"scatterStrengthFactor": 1, "multiscatterColorFactor": [0.6, 0.4, 0.2]})
+    return glass(volume=volume)
+
+
+FLOOR = {"inside": -1.5, "outside": -3.0, "alpha": -1.5, "thin": -1.5}
+EYE = {True: 0.5, False: 3.5}  # of a camera inside of the tank, or outside
+
+
+def lamp_place(place, receiver):
+    if place == "outside":
+        return (0.5, -2.5, 0) if receiver == "outside" else (0.5, 3.0, 0)
+    return (0.9, -0.3, 0)
+
+
+def scene(cell, folder):
+    camera, place, kind, receiver = cell
+    model = Model()
+    model.box(SIZE, water(camera))
+    model.plate(1.5, matt((0.8, 0.8, 0.8), doubleSided=True), (0, FLOOR[receiver], 0))
+    if receiver == "alpha":
+        model.plate(1.7, matt((0, 0, 0), 0.5, alphaMode="BLEND", doubleSided=True), (0, -1.0, 0))
+    if receiver == "thin":
+        model.plate(1.7, glass(0), (0, -1.0, 0))
+    at = lamp_place(place, receiver)
+    if place == "other":
+        model.box(0.3, glass(volume={"attenuationColor": [0.3, 0.6, 0.8], "attenuationDistance": 0.5}), at)
+    if kind == "quad":
+        lamp = matt((0, 0, 0), doubleSided=True, emissiveFactor=[1, 1, 1])
+        lamp["extensions"]["KHR_materials_emissive_strength"] = {"emissiveStrength": POWER[kind]}
+        model.plate(0.15, lamp, at)
+    elif kind != "environment":
+        model.light(kind, at)
+    path = folder / "cell.gltf"
+    model.write(path)
+    return path
+
+
+def options(cell, way):
+    camera, _, kind, receiver = cell
+    inside = camera not in ("outside", "fog")
+    eye = EYE[inside]
+    words = ["--resolution", f"{PIXELS},{PIXELS}", "--camera-position", f"0,{eye},0", "--camera-focal-point", f"0,{FLOOR[receiver]},0", "--camera-view-up", "0,0,-1", "--no-default-light"]
+    for option, usual in (("--bounces", 6), ("--camera-view-angle", 1)):
+        if option not in way:
+            words += [option, usual]
+    if camera == "fog":
+        words += ["--fog-density", 0.1, "--fog-distance", 6]
+    if kind == "environment":
+        words += ["--hdri-file", Path("sky.pfm")]
+    return words
+
+
+def write_sky(folder):
+    """A map that is brighter above than below, without a sun."""
+    rows = [b"".join(struct.pack("<3f", *(0.2 + 0.2 * y + 0.1 * (x % 3) for _ in range(3))) for x in range(8)) for y in range(4)]
+    (folder / "sky.pfm").write_bytes(b"PF\n8 4\n-1.0\n" + b"".join(rows))
+
+
+def pixels(path):
+    body = path.read_bytes().split(b"\n", 3)[3]
+    values = struct.unpack(f"<{len(body) // 4}f", body)
+    return [values[i:i + 3] for i in range(0, len(values), 3)]
+
+
+def mean_and_error(colors):
+    """The mean of each channel, and its standard error."""
+    result = []
+    for values in zip(*colors):
+        mean = math.fsum(values) / len(values)
+        result.append((mean, math.sqrt(math.fsum((v - mean) ** 2 for v in values) / (len(values) - 1) / len(values))))
+    return result
+
+
+def closed_form(cell):
+    """The radiance that a point or spot lamp makes at the middle of the receiver as the camera sees it, without light that has bounced; none where that is no product."""
+    camera, place, kind, receiver = cell
+    if kind not in ("point", "spot", "sun") or camera in ("scattering", "fog"):
+        return None
+    inside, within = camera != "outside", receiver != "outside"
+    lost = [-math.log(c) / DISTANCE if camera != "glass" else 0.0 for c in COLOR]
+    passes = 1 - ((IOR - 1) / (IOR + 1)) ** 2
+    way = (EYE[True] if inside else SIZE) - (FLOOR[receiver] if within else -SIZE)
+    factor = passes ** (2 if not within and not inside else int(inside != within)) * IOR ** (2 * (int(inside) - int(within)))
+    if receiver == "thin":
+        factor *= (1 - (1 - passes)) ** 2 / (1 - (1 - passes) ** 2)
+    if receiver == "alpha":
+        factor *= 0.5
+    lit = place == ("tank" if within else "outside") and receiver != "thin"
+    x, y, _ = lamp_place(place, receiver)
+    y -= FLOOR[receiver]
+    squared = x * x + y * y
+    cosine = y / math.sqrt(squared)
+    irradiance = POWER[kind] * (1 if kind == "sun" else cosine / squared)
+    if kind == "spot" and math.acos(cosine) > 1.2:
+        return None
+    if kind == "sun":
+        lit = False  # it comes from above the tank
+    if receiver == "alpha":
+        irradiance *= 0.5
+    dims = [math.exp(-a * (way + (math.sqrt(squared) if within else 0))) for a in lost]
+    return [factor * 0.8 / math.pi * irradiance * d if lit else 0.0 for d in dims]
+
+
+def forms(cell):
+    """Pairs of ways to draw the cell that must have one mean."""
+    camera, _, kind, _ = cell
+    plain = ("--caustics", "off")
+    pairs = [(plain + ("--schedule", "megakernel"), plain + ("--schedule", "wavefront"))]
+    if kind in ("quad", "environment"):
+        pairs.append((plain, plain + ("--disable", "light-sampling")))
+        pairs.append((plain + ("--bounces", 0), plain + ("--bounces", 0, "--disable", "light-sampling")))
+    if kind == "quad" and camera not in ("scattering", "fog"):
+        wide = ("--camera-view-angle", 50)  # light paths land anywhere
+        pairs.append((plain + wide, ("--caustics", "on") + wide))
+    return pairs
+
+
+def faults(cell, draw):
+    """What is wrong with a cell, a line each. draw(options, samples, seed) returns the colours of a picture."""
+    found = []
+    for pair in forms(cell):
+        for samples, limit in ((SAMPLES, 4.0), (4 * SAMPLES, 5.0)):  # what looks wrong is drawn again
+            a, b = (mean_and_error(draw(way, samples, seed)) for seed, way in enumerate(pair, 7))
+            apart = [(x, y) for (x, dx), (y, dy) in zip(a, b) if abs(x - y) > limit * math.hypot(dx, dy) + 2e-3 * max(x, y) + 1e-6]
+            if not apart:
+                break
+        else:
+            found.append(f"{' '.join(map(str, pair[0]))} gives {[round(x, 6) for x, _ in a]}, {' '.join(map(str, pair[1]))} {[round(x, 6) for x, _ in b]}")
+    right = closed_form(cell)
+    if right is not None:
+        seen = mean_and_error(draw(("--caustics", "off", "--bounces", 0), 16, 7))
+        if any(abs(x - r) > 5 * dx + 0.01 * r + 1e-6 for (x, dx), r in zip(seen, right)):
+            found.append(f"direct light is {[round(x, 6) for x, _ in seen]}, the closed form {[round(r, 6) for r in right]}")
+    return found
+
+
+def prepare(ground):
+    return None
+
+
+def last(_):
+    return len(CELLS)
+
+
+def case(ground, _, number, folder):
+    cell = CELLS[number]
+    path = scene(cell, folder)
+    write_sky(folder)
+
+    def draw(way, samples, seed):
+        output = folder / "cell.pfm"
+        result = run(ground, ["render", path.name, "-o", output.name, "--quiet", "--spp", samples, "--seed", seed, *options(cell, way), *way], folder)
+        if result.status != 0:
+            raise Finding(f"{cell}: status {result.status}: {result.error.strip()}")
+        return pixels(output)
+
+    wrong = faults(cell, draw)
+    if wrong:
+        raise Finding(f"{', '.join(cell)}: {'; '.join(wrong)}")
+    return {"cells": 1}
