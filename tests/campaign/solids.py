@@ -167,10 +167,23 @@ def mean_and_error(colors):
     return result
 
 
+def irradiance(kind, place, height, lost):
+    """What a lamp brings to the middle of a plate that lies so much below it, through a medium that loses so much light per metre."""
+    x, _, z = place
+    if kind == "quad":
+        points = [(x + 0.15 * (2 * i - 15) / 16, z + 0.15 * (2 * j - 15) / 16) for i in range(16) for j in range(16)]
+        each = POWER[kind] * (0.3 / 16) ** 2 * height * height
+        return math.fsum(each / r ** 4 * math.exp(-lost * r) for r in (math.sqrt(a * a + b * b + height * height) for a, b in points))
+    distance = math.hypot(x, height)
+    if kind == "spot" and math.acos(height / distance) > 1.2:
+        return 0.0
+    return POWER[kind] * height / distance ** 3 * math.exp(-lost * distance)
+
+
 def closed_form(cell):
-    """The radiance that a point or spot lamp makes at the middle of the receiver as the camera sees it, without light that has bounced; none where that is no product."""
+    """The radiance that a lamp makes at the middle of the receiver as the camera sees it, without light that has bounced; none where that is no product."""
     camera, place, kind, receiver = cell
-    if kind not in ("point", "spot", "sun") or camera in ("scattering", "fog"):
+    if kind == "environment" or camera in ("scattering", "fog") or (kind == "quad" and receiver == "thin"):
         return None
     inside, within = camera != "outside", receiver != "outside"
     lost = [-math.log(c) / DISTANCE if camera != "glass" else 0.0 for c in COLOR]
@@ -181,20 +194,13 @@ def closed_form(cell):
         factor *= (1 - (1 - passes)) ** 2 / (1 - (1 - passes) ** 2)
     if receiver == "alpha":
         factor *= 0.5
-    lit = place == ("tank" if within else "outside") and receiver != "thin"
-    x, y, _ = lamp_place(place, receiver)
-    y -= FLOOR[receiver]
-    squared = x * x + y * y
-    cosine = y / math.sqrt(squared)
-    irradiance = POWER[kind] * (1 if kind == "sun" else cosine / squared)
-    if kind == "spot" and math.acos(cosine) > 1.2:
-        return None
-    if kind == "sun":
-        lit = False  # it comes from above the tank
-    if receiver == "alpha":
-        irradiance *= 0.5
-    dims = [math.exp(-a * (way + (math.sqrt(squared) if within else 0))) for a in lost]
-    return [factor * 0.8 / math.pi * irradiance * d if lit else 0.0 for d in dims]
+    # The sun comes from above the tank. Behind a wall that bends light a quad is met by rays, which is no product.
+    lit = place == ("tank" if within else "outside") and receiver != "thin" and kind != "sun"
+    if not lit:
+        return None if kind == "quad" else [0.0] * 3
+    at = lamp_place(place, receiver)
+    factor *= 0.8 / math.pi * (0.5 if receiver == "alpha" else 1)
+    return [factor * math.exp(-a * way) * irradiance(kind, at, at[1] - FLOOR[receiver], a if within else 0.0) for a in lost]
 
 
 def forms(cell):

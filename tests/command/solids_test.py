@@ -15,7 +15,7 @@ from solids import IOR, Model, glass, matt  # noqa: E402
 # Faults in dimShadow, standInside, passMedium and the rows of paths that begin are seen by these.
 CHOSEN = ("outside tank point inside", "outside tank quad inside", "outside tank spot alpha", "outside outside quad thin", "outside other quad inside", "outside outside environment inside",
           "glass tank quad alpha", "glass outside quad outside", "glass other quad inside", "glass outside environment thin", "glass tank spot outside",
-          "absorbing tank point inside", "absorbing tank quad inside", "absorbing tank point alpha", "absorbing tank quad thin", "absorbing other quad inside", "absorbing outside quad outside",
+          "absorbing tank point inside", "absorbing tank quad inside", "absorbing tank point alpha", "absorbing tank quad thin", "absorbing other quad inside", "absorbing outside quad inside",
           "absorbing outside environment alpha", "scattering tank quad inside", "scattering tank point alpha", "scattering outside environment outside", "scattering other quad inside",
           "fog tank quad inside", "fog outside point outside")
 LAMP = {**matt((0, 0, 0)), "emissiveFactor": [1, 1, 1]}
