@@ -36,4 +36,10 @@ struct ContextError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Memory beyond the limit or a file outside of the scene's folder is asked for (SECURITY.md): the whole file
+/// is refused, not only the part that asks.
+struct AtStake : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 }  // namespace fragtrace

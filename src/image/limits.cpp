@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "base/errors.h"
+
 namespace fragtrace {
 namespace {
 
@@ -27,8 +29,8 @@ uint64_t defaultMemoryLimit() {
 void MemoryBudget::take(uint64_t bytes) {
   if (bytes > limit_ - taken_) {
     const uint64_t wanted = bytes > UINT64_MAX - taken_ ? UINT64_MAX : taken_ + bytes;
-    throw std::runtime_error("would take " + inMegabytes(wanted) + " of memory, more than the " +
-                             inMegabytes(limit_) + " of --memory-limit");
+    throw AtStake("would take " + inMegabytes(wanted) + " of memory, more than the " + inMegabytes(limit_) +
+                  " of --memory-limit");
   }
   taken_ += bytes;
 }

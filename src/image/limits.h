@@ -32,7 +32,8 @@ struct InputLimits {
   uint64_t memoryBytes = defaultMemoryLimit();
   int textureSide = kLargestTextureSide;  ///< wider or higher textures are scaled down to this
   bool allowExternalFiles = false;        ///< URIs may lead out of the scene's folder
-  bool drawMissingTextures = false;       ///< a picture that cannot be read is warned of, and marked
+  bool drawMissingTextures = true;        ///< a picture that cannot be read is warned of, and marked
+  bool strict = false;                    ///< what is only warned of is refused
 
   bool operator==(const InputLimits&) const = default;
 };

@@ -178,11 +178,12 @@ OptionRow memoryRow() {
 }
 
 OptionRow missingRow() {
-  constexpr std::array<const char*, 2> kNames{"error", "warn"};
+  constexpr std::array<const char*, 2> kNames{"refuse", "magenta"};
   return choice(
       "--missing-textures",
-      "what to do if the image of a texture cannot be read: {}; error ends the program; warn prints a "
-      "warning, replaces a missing base colour with magenta, and omits the effects of other missing textures",
+      "what to do if the image of a texture that is drawn cannot be read: {}; magenta prints a warning, "
+      "replaces a missing base colour with magenta, and omits the effects of other missing textures; refuse "
+      "ends the program",
       FRAGTRACE_MEMBER(limits.drawMissingTextures), kNames,
       {.effect = Effect::Picture, .renewal = Renewal::Scene});
 }
@@ -219,6 +220,8 @@ std::vector<OptionRow> inputRows() {
                  "maximum width and height of textures in pixels; larger ones are scaled down",
                  FRAGTRACE_MEMBER(limits.textureSide), {1, kLargestTextureSide}, kScene),
       missingRow(),
+      flag("--strict", "refuse a scene of whose file a warning would be printed",
+           FRAGTRACE_MEMBER(limits.strict), {.effect = Effect::Report, .renewal = Renewal::Scene}),
       flag("--allow-external-files", "let the scene refer to files outside its folder",
            FRAGTRACE_MEMBER(limits.allowExternalFiles),
            {.effect = Effect::Report, .renewal = Renewal::Scene}),

@@ -50,12 +50,12 @@ class Ktx2(Case):
         self.assertEqual(result.returncode, 0, result.stderr)
         return read_pfm(path)[4][4], result.stderr
 
-    def test_without_the_codec_a_file_that_requires_it_is_refused(self):
-        result = self.run_without_codec("info", self.scene())
+    def test_without_the_codec_the_texture_of_a_file_that_requires_it_is_missing(self):
+        result = self.run_without_codec("info", self.scene(), "--missing-textures", "refuse")
         self.assertEqual(result.returncode, 3, result.stdout)
-        for text in ("scene.gltf: /images/0: " + WITHOUT, "`scripts/setup ktx2`", "`gltf-transform ktxdecompress IN OUT`", "(--missing-textures warn"):
+        for text in ("scene.gltf: /images/0: " + WITHOUT, "`scripts/setup ktx2`", "`gltf-transform ktxdecompress IN OUT`", "(--missing-textures magenta"):
             self.assertIn(text, result.stderr)
-        color, said = self.middle(self.scene(), "--missing-textures", "warn", program=self.run_without_codec)
+        color, said = self.middle(self.scene(), program=self.run_without_codec)
         self.assertEqual(color, (1, 0, 1))
         self.assertIn(WITHOUT, said)
 
@@ -112,7 +112,7 @@ class Ktx2(Case):
         (self.folder / "fragtrace_worker").write_text("#!/bin/sh\nkill -SEGV $$")
         (self.folder / "fragtrace_worker").chmod(0o755)
         (self.folder / MODULE).touch()
-        self.fails(3, "info", self.scene(), "--decode", says=["wood.ktx2: KTX2 cannot be decoded: the codec of KTX2 textures failed", "signal 11"],
+        self.fails(3, "info", self.scene(), "--decode", "--missing-textures", "refuse", says=["wood.ktx2: KTX2 cannot be decoded: the codec of KTX2 textures failed", "signal 11"],
                    env={**os.environ, "FRAGTRACE_LIBRARY_PATH": str(self.folder)})
 
     def test_it_is_no_environment(self):

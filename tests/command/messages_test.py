@@ -58,7 +58,7 @@ class Values(Case):
         self.fails(2, "render", "", "-o", self.folder / "x.png", says=["an argument is empty"])
 
     def test_a_name_that_is_none_is_told_those_that_are(self):
-        for option, names in (("--png-depth", "8, 16"), ("--missing-textures", "error, warn"), ("--tone-map", "linear, ")):
+        for option, names in (("--png-depth", "8, 16"), ("--missing-textures", "refuse, magenta"), ("--tone-map", "linear, ")):
             self.fails(2, "render", BOX, "-o", self.folder / "x.png", option, "foo", says=[f"{option}: 'foo' is none of {names}"])
         self.fails(2, "bench", "start", BOX, "--format", "gif", says=["--format: 'gif' is none of png, jpg"])
 

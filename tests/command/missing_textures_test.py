@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Textures whose picture is missing or broken: refused, or drawn without and said (--missing-textures)."""
+"""Textures whose picture is missing or broken: drawn without and said, or refused (--missing-textures)."""
 import json
 
 from materials_test import png, quad
 from support import Case, main, read_pfm, run
 
-WARN = ("--missing-textures", "warn")
+REFUSE = ("--missing-textures", "refuse")
 
 
 class MissingTextures(Case):
@@ -20,7 +20,7 @@ class MissingTextures(Case):
 
     def middle(self, scene, *options):
         path = self.folder / "x.pfm"
-        result = run("render", scene, "-o", path, "--resolution", "9,9", "--spp", 4, "--stage", "flat", *WARN, *options)
+        result = run("render", scene, "-o", path, "--resolution", "9,9", "--spp", 4, "--stage", "flat", *options)
         self.assertEqual(result.returncode, 0, result.stderr)
         return read_pfm(path)[4][4], result.stderr
 
@@ -32,14 +32,14 @@ class MissingTextures(Case):
         (self.folder / "odd.png").write_text("no picture")
         for name, reason in (("gone.png", "cannot be opened"), ("cut.png", ""), ("odd.png", "")):
             scene = self.scene(self.BASE, [name, name])
-            refused = run("render", scene, "-o", self.folder / "y.pfm", "--resolution", "9,9", "--spp", 1)
+            refused = run("render", scene, "-o", self.folder / "y.pfm", "--resolution", "9,9", "--spp", 1, *REFUSE)
             self.assertEqual(refused.returncode, 3, name)
             self.assertFalse((self.folder / "y.pfm").exists())
             color, said = self.middle(scene)
             self.assertEqual(color, (1, 0, 1), name)
             self.assertEqual(said.count(name), 1, said)
             self.assertIn(reason, said)
-            info = run("info", scene, *WARN)
+            info = run("info", scene)
             self.assertEqual(info.returncode, 0)
             self.assertIn(name, info.stderr + info.stdout)
 
@@ -48,9 +48,33 @@ class MissingTextures(Case):
         webp = b"RIFF\x20\0\0\0WEBPVP8 \x14\0\0\0\x30\x01\0\x9d\x01\x2a\x04\0\x04\0" + bytes(10)
         for name, data in (("head.png", whole[:20]), ("cut.png", whole[:-30]), ("odd.png", b"no picture"), ("cut.webp", webp)):
             (self.folder / name).write_bytes(data)
-            self.fails(3, "render", self.scene(self.BASE, [name]), "-o", self.folder / "y.pfm", "--resolution", "9,9", "--spp", 1, "--quiet",
+            self.fails(3, "render", self.scene(self.BASE, [name]), "-o", self.folder / "y.pfm", "--resolution", "9,9", "--spp", 1, "--quiet", *REFUSE,
                        says=[name, "scene.gltf: /images/0"])
-            self.fails(3, "info", self.scene(self.BASE, [name]), "--decode", says=[name, "scene.gltf: /images/0"])
+            self.fails(3, "info", self.scene(self.BASE, [name]), "--decode", *REFUSE, says=[name, "scene.gltf: /images/0"])
+
+    def test_a_damaged_picture_is_magenta(self):
+        """The bytes of a PNG without its checksum, and pixels of a WebP."""
+        whole = bytearray(png(4, 4, [10, 200, 10, 255] * 16))
+        whole[50] ^= 0x40
+        webp = b"RIFF\x20\0\0\0WEBPVP8 \x14\0\0\0\x30\x01\0\x9d\x01\x2a\x04\0\x04\0" + bytes(10)
+        for name, data in (("bad.png", bytes(whole)), ("bad.webp", webp)):
+            (self.folder / name).write_bytes(data)
+            color, said = self.middle(self.scene(self.BASE, [name]))
+            self.assertEqual(color, (1, 0, 1), said)
+            self.assertIn(name, said)
+
+    def test_all_that_is_missing_is_named_at_once(self):
+        scene = self.scene({**self.BASE, "normalTexture": {"index": 1}, "emissiveTexture": {"index": 2}}, ["a.png", "b.png", "maps/c.png"])
+        _, said = self.middle(scene)
+        self.assertIn("/images/0/uri: a.png, b.png, maps/c.png cannot be opened: No such file", said)
+        self.fails(3, "info", scene, *REFUSE, says=["/images/0/uri: ", "a.png cannot be opened", "; also missing: b.png, maps/c.png"])
+        root = json.loads(scene.read_text())
+        root["buffers"][0]["uri"] = "data.bin"
+        scene.write_text(json.dumps(root))
+        self.fails(3, "info", scene, says=["/buffers/0/uri: ", "data.bin cannot be opened", "; also missing: a.png, b.png, maps/c.png"])
+
+    def test_one_outside_of_the_folder_is_refused(self):
+        self.fails(3, "info", self.scene(self.BASE, ["../gone.png"]), says=["/images/0/uri: ", "leads out of the scene's folder"])
 
     def test_one_that_is_there_is_drawn(self):
         (self.folder / "there.png").write_bytes(png(4, 4, [0, 255, 0, 255] * 16))

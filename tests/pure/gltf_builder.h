@@ -164,6 +164,24 @@ inline std::string refusalOf(const std::filesystem::path& path) {
   return "";
 }
 
+/// The same, or the first warning where the file is loaded.
+inline std::string faultOf(const std::filesystem::path& path, const GltfOptions& options = {}) {
+  std::string message;
+  try {
+    const Scene scene = loadGltf(path, options);
+    if (!scene.warnings.empty()) message = scene.warnings[0];
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  const std::string folder = path.parent_path().string() + "/";
+  return message.starts_with(folder) ? message.substr(folder.size()) : message;
+}
+
+inline std::string faultOf(GltfBuilder& builder, const GltfOptions& options = {}) {
+  const TemporaryFolder folder;
+  return faultOf(folder.write("test.gltf", builder.text()), options);
+}
+
 inline std::string refusalOf(GltfBuilder& builder) {
   const TemporaryFolder folder;
   return refusalOf(folder.write("test.gltf", builder.text()));

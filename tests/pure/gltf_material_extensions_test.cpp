@@ -84,13 +84,13 @@ TEST(GltfTextureTransform, EachUseHasItsOwnAndNoneIsTheIdentity) {
   EXPECT_EQ(m.specularTexture.transform.of({0.25, 0.5}), glm::vec2(0.75, 0.5));
 }
 
-TEST(GltfTextureTransform, WhatLeavesNoDigitsIsBroughtBackAndWrongTypesAreRefused) {
+TEST(GltfTextureTransform, WhatLeavesNoDigitsIsBroughtBackAndWrongTypesAreAbsent) {
   expectWarning({{"normalTexture", transformed(0, {{"scale", {1e30, 1}}})}},
                 "normalTexture/extensions/KHR_texture_transform/scale");
   GltfBuilder builder = fileWith({{"normalTexture", transformed(0, {{"offset", {1, 2, 3}}})}});
-  EXPECT_EQ(refusalOf(builder),
+  EXPECT_EQ(faultOf(builder),
             "test.gltf: /materials/0/normalTexture/extensions/KHR_texture_transform/offset: does not hold 2 "
-            "numbers");
+            "numbers; it is taken as absent");
 }
 
 TEST(GltfTextureTransform, MadeTangentsFollowTheTurnedTexture) {
@@ -128,6 +128,8 @@ TEST(GltfWebp, AnExtensionWithoutASourceLeavesTheFallback) {
 
 TEST(GltfWebp, APictureThatDoesNotExistIsRefused) {
   GltfBuilder builder;
+  builder.root["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
+  builder.addTriangle()["material"] = 0;
   builder.root["textures"] = {{{"extensions", {{"EXT_texture_webp", {{"source", 7}}}}}}};
   EXPECT_EQ(refusalOf(builder),
             "test.gltf: /textures/0/extensions/EXT_texture_webp/source: index 7 is past the 0 elements of "
@@ -284,13 +286,15 @@ TEST(GltfLayers, FactorsOutOfRangeAreBroughtBackAtTheirPlace) {
   at("dispersion", "dispersion", -1);
 }
 
-TEST(GltfLayers, WrongTypesAreRefusedAtTheirPlace) {
+TEST(GltfLayers, WrongTypesAndReferencesAreNamedAtTheirPlace) {
   GltfBuilder builder = fileWith({{"extensions", {{"KHR_materials_sheen", {{"sheenColorFactor", {1, 1}}}}}}});
-  EXPECT_EQ(
-      refusalOf(builder),
-      "test.gltf: /materials/0/extensions/KHR_materials_sheen/sheenColorFactor: does not hold 3 numbers");
+  EXPECT_EQ(faultOf(builder),
+            "test.gltf: /materials/0/extensions/KHR_materials_sheen/sheenColorFactor: does not hold 3 "
+            "numbers; it is "
+            "taken as absent");
   builder = fileWith(
       {{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatNormalTexture", {{"index", 99}}}}}}}});
+  builder.addTriangle()["material"] = 0;
   EXPECT_EQ(
       refusalOf(builder),
       "test.gltf: /materials/0/extensions/KHR_materials_clearcoat/clearcoatNormalTexture/index: index 99 "

@@ -28,7 +28,7 @@ TEST(GltfMeshopt, TheRatifiedExtensionIsReadTheSame) {
   EXPECT_GT(scene.triangles.size(), 0U);
 }
 
-TEST(GltfMeshopt, WhatOnlyTheRatifiedExtensionHasIsRefusedByName) {
+TEST(GltfMeshopt, WhatOnlyTheRatifiedExtensionHasIsNamed) {
   const Grid grid;
   const std::string extension = "/bufferViews/0/extensions/KHR_meshopt_compression";
   const auto objectOf = [](GltfBuilder& b) -> json& {
@@ -40,8 +40,8 @@ TEST(GltfMeshopt, WhatOnlyTheRatifiedExtensionHasIsRefusedByName) {
             "test.gltf: " + extension + "/filter: does not go with its mode or its byteStride");
   GltfBuilder both = khrGrid(grid);
   both.root["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = objectOf(both);
-  EXPECT_EQ(refusalOf(both),
-            "test.gltf: " + extension + ": excludes EXT_meshopt_compression, which stands beside it");
+  EXPECT_EQ(faultOf(both),
+            "test.gltf: " + extension + ": stands beside EXT_meshopt_compression, which is ignored");
   GltfBuilder old = meshoptGrid(grid);
   meshoptOf(old, 0)["filter"] = "COLOR";
   EXPECT_NE(refusalOf(old).find("\"COLOR\" is no filter"), std::string::npos);
@@ -61,7 +61,7 @@ TEST(GltfMeshopt, WhatTheLibraryIsTooOldForIsRefusedByName) {
     builder.addTriangle();
     builder.embedBuffer();
     builder.root["buffers"].push_back({{"byteLength", 1000}});
-    const std::string refusal = refusalOf(builder);
+    const std::string refusal = faultOf(builder);
     EXPECT_NE(
         refusal.find(isColor ? "the filter COLOR needs meshoptimizer 0.25" : "the stream has version 1, and"),
         std::string::npos)

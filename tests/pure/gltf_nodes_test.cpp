@@ -161,11 +161,11 @@ TEST(GltfNodes, WhatIsTooSmallToCalculateWithIsLeftOutWithAWarning) {
   EXPECT_TRUE(scene.warnings[0].ends_with(
       "test.gltf: /nodes/1/scale: its mesh is less than 1e-75 m in size, and left out"));
   builder.root["nodes"].push_back({{"children", {1}}, {"scale", {1e-200, 1e-200, 1e-200}}});
-  EXPECT_EQ(refusalOf(builder), "test.gltf: /nodes/1: its world transform underflows");
+  EXPECT_EQ(faultOf(builder), "test.gltf: /nodes/1: its world transform underflows; the node is left out");
 }
 
 /// Wherever its other parts are.
-TEST(GltfNodes, WhatIsTooFarAwayIsRefused) {
+TEST(GltfNodes, WhatIsTooFarAwayIsLeftOut) {
   GltfBuilder builder;
   builder.addMesh(
       {{"POSITION", builder.addAccessor<float>("VEC3", {1.5e38f, 0, 0, 1.5e38f, 1, 0, 1.5e38f, 0, 1})}});
@@ -174,7 +174,8 @@ TEST(GltfNodes, WhatIsTooFarAwayIsRefused) {
   builder.node(0)["scale"] = {1e-38, 1, 1};
   EXPECT_EQ(load(builder).triangles.size(), 1u);
   builder.root["nodes"].push_back({{"mesh", 0}, {"scale", {1e-38, 1, 1}}, {"translation", {0, -1e31, 0}}});
-  EXPECT_EQ(refusalOf(builder), "test.gltf: /nodes/1: " + reason);
+  EXPECT_EQ(faultOf(builder), "test.gltf: /nodes/1: " + reason + "; the mesh here is left out");
+  EXPECT_EQ(load(builder).triangles.size(), 1u);
 }
 
 /// The nearest point of the scene to the camera, unless it stands far outside.
@@ -281,7 +282,7 @@ TEST(GltfNodes, SphereIsPlacedByItsNode) {
   EXPECT_EQ(scene.materials.size(), 1u);
 }
 
-TEST(GltfNodes, SpheresAndLightsOfNoSizeOrTooFarAwayAreRefusedOrLeftOut) {
+TEST(GltfNodes, SpheresAndLightsOfNoSizeOrTooFarAwayAreLeftOut) {
   GltfBuilder builder;
   builder.addTriangle();
   builder.root["extensions"] = {
@@ -295,11 +296,13 @@ TEST(GltfNodes, SpheresAndLightsOfNoSizeOrTooFarAwayAreRefusedOrLeftOut) {
   EXPECT_EQ(scene.warnings.size(), 1u);
   EXPECT_TRUE(anyWarningHas(scene, "/nodes/1: its light is too far away for a scene of this size"));
   builder.node(1) = {{"extras", {{"shape", 0}}}, {"translation", {0, 0, 1e31}}};
-  EXPECT_EQ(refusalOf(builder),
-            "test.gltf: /nodes/1: its sphere reaches farther than 1e30 m from the origin");
+  EXPECT_EQ(
+      faultOf(builder),
+      "test.gltf: /nodes/1: its sphere reaches farther than 1e30 m from the origin; the sphere is left out");
   for (const double scale : {0.0, 1e-300, 1e-150}) {
     builder.node(1) = {{"extras", {{"shape", 0}}}, {"scale", {scale, scale, scale}}};
-    EXPECT_EQ(refusalOf(builder), "test.gltf: /nodes/1: its sphere has no radius above 0");
+    EXPECT_EQ(faultOf(builder),
+              "test.gltf: /nodes/1: its sphere has no radius above 0; the sphere is left out");
   }
 }
 

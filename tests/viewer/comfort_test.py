@@ -47,7 +47,7 @@ class FirstPicture(Case):
                 "--light-reuse", "candidates", "--caustics", "off", "--hdri-rotation", "10", "--hdri-intensity", "0.5",
                 "--shadow-catcher", "-1.5", "--background-color", "0.5,0.25,1", "--default-light", "none", "--traversal", "bvh",
                 "--instancing", "share", "--buffer-reads", "ssbo", "--dispatch", "compute", "--tune", "gpu", "--vector-width", "256",
-                "--schedule", "megakernel", "--memory-limit", "1000000000", "--texture-limit", "512", "--missing-textures", "warn",
+                "--schedule", "megakernel", "--memory-limit", "1000000000", "--texture-limit", "512", "--missing-textures", "refuse",
                 "--aov", "normal,samples", "--tree-level", "2", "--exposure", "1", "--tone-map", "aces", "--denoise", "variance",
                 "--f-stop", "2", "--focus-distance", "3", "--aperture-blades", "5"]
         switches = ["--no-background", "--allow-external-files"]

@@ -92,13 +92,15 @@ std::vector<float> readTimes(Document& document, const Channel& channel) {
   Diagnostics& diagnostics = document.diagnostics;
   const tinygltf::Accessor& accessor = document.model.accessors.at(size_t(channel.input));
   if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
-    diagnostics.refuse(place, "is not of floats of type SCALAR");
-  takeMemory(document, place, accessor.count * sizeof(float));
+    diagnostics.lose(place, "is not of floats of type SCALAR");
+  const size_t count = accessorCount(document, channel.input);
+  if (count == 0) diagnostics.lose(place, "has no keys");
+  takeMemory(document, place, count * sizeof(float));
   std::vector<float> times = readComponents(document, channel.input, 1, place);
   size_t equal = 0;
   for (size_t i = 0; i < times.size(); ++i) {
     if (!std::isfinite(times[i]) || (i > 0 && times[i] < times[i - 1])) {
-      diagnostics.refuse(place, "key " + std::to_string(i) + " is not later than the one before");
+      diagnostics.lose(place, "key " + std::to_string(i) + " is not later than the one before");
     }
     equal += i > 0 && times[i] == times[i - 1];
   }
@@ -109,31 +111,37 @@ std::vector<float> readTimes(Document& document, const Channel& channel) {
 }
 
 /// Values of a channel that drives `width` numbers; a width of 0 is any.
-Keyframes readKeyframes(Document& document, const Channel& channel, size_t width, bool isArray, bool isFlag) {
+Keyframes readKeyframes(Document& document, const Channel& channel, const NumberRule& rule) {
+  const bool isArray = rule.width == 0;
   Diagnostics& diagnostics = document.diagnostics;
   const std::string place = channel.place + "/sampler";
+  if (channel.input < 0) diagnostics.lose(place, "is past the samplers of its animation");
   const auto interpolation = interpolationNamed(channel.interpolation);
   if (!interpolation) {
-    diagnostics.refuse(channel.sampler + "/interpolation",
-                       inQuotes(channel.interpolation) + " is no interpolation");
+    diagnostics.lose(channel.sampler + "/interpolation",
+                     inQuotes(channel.interpolation) + " is no interpolation");
   }
   Keyframes keys;
-  keys.interpolation = isFlag ? Interpolation::Step : *interpolation;
+  keys.interpolation = rule.isFlag ? Interpolation::Step : *interpolation;
   keys.times = readTimes(document, channel);
   const bool isCubic = keys.interpolation == Interpolation::CubicSpline;
   if (isCubic && keys.times.size() < 2)
-    diagnostics.refuse(channel.sampler + "/input", "a spline needs two keys");
+    diagnostics.warn(channel.sampler + "/input",
+                     "is the only key of a spline, which therefore does not move");
   const size_t perKey = keys.times.size() * (isCubic ? 3 : 1);
   const size_t count = accessorCount(document, channel.output);
-  keys.width = isArray ? count / perKey : width;
+  keys.width = isArray ? count / perKey : rule.width;
   if (count != perKey * (isArray ? keys.width : 1) || keys.width == 0) {
-    diagnostics.refuse(place, std::to_string(count) + " elements do not fit its " +
-                                  std::to_string(keys.times.size()) + " keys");
+    diagnostics.lose(place, std::to_string(count) + " elements do not fit its " +
+                                std::to_string(keys.times.size()) + " keys");
   }
-  takeMemory(document, place, count * (isArray ? 1 : width) * sizeof(float));
-  keys.values = readComponents(document, channel.output, isArray ? 1 : int(width), place, isFlag);
+  takeMemory(document, place, count * (isArray ? 1 : rule.width) * sizeof(float));
+  keys.isRotation = channel.target.starts_with("/nodes/") && channel.target.ends_with("/rotation");
+  const bool isFraction = keys.isRotation || channel.target.ends_with("/weights");
+  keys.values = readComponents(document, channel.output, isArray ? 1 : int(rule.width), place,
+                               isFraction ? Integers::Fractions : Integers::Numbers);
   if (!std::all_of(keys.values.begin(), keys.values.end(), [](float v) { return std::isfinite(v); }))
-    diagnostics.refuse(place, "holds a number that is not finite");
+    diagnostics.lose(place, "holds a number that is not finite");
   return keys;
 }
 
@@ -141,28 +149,34 @@ Keyframes readKeyframes(Document& document, const Channel& channel, size_t width
 void checkRotations(const Keyframes& keys, const Channel& channel, Diagnostics& diagnostics) {
   constexpr double kRoundedToBytes = 0.00788;  // four components, each off by half of 1 / 127
   size_t count = 0;
-  for (size_t key = 0; key < keys.times.size(); ++key)
-    count += !(std::abs(lengthOf(valueOfKey(keys, key)) - 1.0) <= kRoundedToBytes);
+  for (size_t key = 0; key < keys.times.size(); ++key) {
+    const double length = lengthOf(valueOfKey(keys, key));
+    count += length != 0.0 && !(std::abs(length - 1.0) <= kRoundedToBytes);
+  }
   if (count > 0)
     diagnostics.warn(channel.place + "/sampler", "a rotation that is no unit quaternion is normalized",
                      count);
 }
 
 void applyChannel(Document& document, const Channel& channel, double seconds, json& root) {
-  if (channel.target.empty()) return;  // checkMotion() has said so
-  const std::optional<NumberRule> rule = numberRuleIn(root, channel.target);
+  const std::optional<NumberRule> rule =
+      channel.target.empty() ? std::nullopt : numberRuleIn(root, channel.target);
   if (!rule) {
     document.diagnostics.warn(channel.place + "/target",
                               "is nothing that can be animated; the channel is ignored");
     return;
   }
-  Keyframes keys = readKeyframes(document, channel, rule->width, rule->width == 0, rule->isFlag);
+  const Keyframes keys = readKeyframes(document, channel, *rule);
   document.keyTimes.insert(document.keyTimes.end(), keys.times.begin(), keys.times.end());
-  keys.isRotation = channel.target.starts_with("/nodes/") && channel.target.ends_with("/rotation");
   if (keys.isRotation) checkRotations(keys, channel, document.diagnostics);
-  const std::vector<double> values = valuesAt(keys, seconds);
-  if (keys.isRotation && lengthOf(values) == 0.0)
-    document.diagnostics.refuse(channel.place + "/sampler", "gives no rotation at that time");
+  std::vector<double> values = valuesAt(keys, seconds);
+  if (keys.isRotation && lengthOf(values) == 0.0) {
+    document.diagnostics.warn(channel.place + "/sampler", "a quaternion of zeros is read as no rotation");
+    values = {0.0, 0.0, 0.0, 1.0};
+  }
+  if (decomposeMatrixAt(root, channel.target))
+    document.diagnostics.warn(channel.place + "/target",
+                              "has a node with a matrix, which is taken apart to be animated");
   writeNumbers(root, channel.target, *rule, values);
 }
 
@@ -191,7 +205,12 @@ std::vector<double> valuesAt(const Keyframes& keys, double seconds) {
 }
 
 void applyAnimation(Document& document, const Animation& animation, double seconds, json& root) {
-  for (const Channel& channel : animation.channels) applyChannel(document, channel, seconds, root);
+  for (const Channel& channel : animation.channels) {
+    document.diagnostics.keepRest("the channel", [&] {
+      applyChannel(document, channel, seconds, root);
+      return true;
+    });
+  }
 }
 
 }  // namespace fragtrace

@@ -36,10 +36,10 @@ std::optional<Camera> cameraAt(const Document& document, const PlacedNode& node)
     camera.fovY = described.perspective.yfov;
     camera.aspectRatio = described.perspective.aspectRatio;
     if (!(camera.fovY > 0.0 && camera.fovY < 3.141592653589793)) {
-      document.diagnostics.refuse(place + "/perspective/yfov", "is not between 0 and pi");
+      document.diagnostics.lose(place + "/perspective/yfov", "is not between 0 and pi");
     }
     if (camera.aspectRatio < 0.0)
-      document.diagnostics.refuse(place + "/perspective/aspectRatio", "is negative");
+      document.diagnostics.lose(place + "/perspective/aspectRatio", "is negative");
     return camera;
   }
   // Negative magnifications are discouraged mirrors in the specification; only their size is taken.
@@ -47,7 +47,7 @@ std::optional<Camera> cameraAt(const Document& document, const PlacedNode& node)
   camera.halfHeight = std::abs(described.orthographic.ymag);
   camera.aspectRatio = std::abs(described.orthographic.xmag) / camera.halfHeight;
   if (!(camera.halfHeight > 0.0 && camera.aspectRatio > 0.0) || !std::isfinite(camera.aspectRatio)) {
-    document.diagnostics.refuse(place + "/orthographic", "xmag and ymag must not be 0");
+    document.diagnostics.lose(place + "/orthographic", "xmag and ymag must not be 0");
   }
   return camera;
 }

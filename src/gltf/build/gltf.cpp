@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "bvh/contacts.h"
 #include "gltf/build/flatten.h"
 #include "gltf/build/materials.h"
@@ -113,9 +114,12 @@ std::vector<PlacedSphere> takeParts(Document& document, const std::vector<Placed
                                     bool readsVolume, Scene& scene) {
   std::vector<PlacedSphere> spheres;
   for (const PlacedNode& node : nodes) {
-    if (const auto camera = cameraAt(document, node)) scene.cameras.push_back(*camera);
+    Diagnostics& diagnostics = document.diagnostics;
+    const auto camera = diagnostics.keepRest("the camera", [&] { return cameraAt(document, node); });
+    if (camera && *camera) scene.cameras.push_back(**camera);
     if (node.hidden) continue;
-    if (const auto sphere = sphereAt(document, node)) spheres.push_back(*sphere);
+    const auto sphere = diagnostics.keepRest("the sphere", [&] { return sphereAt(document, node); });
+    if (sphere && *sphere) spheres.push_back(**sphere);
     std::optional<Volume> volume;
     if (readsVolume) volume = volumeAt(document, node);
     if (volume && !scene.volume.source.file.empty())
@@ -125,6 +129,19 @@ std::vector<PlacedSphere> takeParts(Document& document, const std::vector<Placed
       scene.volume = std::move(*volume);
   }
   return spheres;
+}
+
+/// Takes over the warnings. Refuses a scene of which losses leave nothing, and with --strict any warning.
+void settle(const Diagnostics& diagnostics, const GltfOptions& options, Scene& scene) {
+  const bool isEmpty = scene.triangles.empty() && scene.spheres.empty() && scene.strokes.empty() &&
+                       scene.volume.source.file.empty();
+  if (isEmpty && diagnostics.firstLoss() && options.selection.hiddenNodes.empty())
+    throw InputError(*diagnostics.firstLoss());
+  scene.warnings = diagnostics.warnings();
+  if (!options.limits.strict || scene.warnings.empty()) return;
+  const size_t others = scene.warnings.size() - 1;
+  const std::string more = others > 0 ? ", and " + countText(others, "other warning") : "";
+  throw InputError(scene.warnings[0] + " (--strict refuses it" + more + ")");
 }
 
 Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
@@ -140,11 +157,11 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
   scene.animationNames = document.animationNames;
   scene.animationSeconds = document.animationSeconds;
   scene.materialVariants = document.materialVariants;
-  addMaterials(document, scene);
   scene.lightSources = lightSources(document);
 
   // World space.
   const std::vector<PlacedNode> nodes = placeNodes(document, options.selection);
+  addMaterials(document, nodes, scene);
   scene.nodes = namedNodes(document, nodes);
   if (options.progress) options.progress("building the meshes", 0.45);
   ShownMeshes shown = showMeshes(document, scene.materials, nodes);
@@ -183,10 +200,12 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
   scene.solids = solidsOf(scene);
   for (const PlacedNode& node : nodes) {
     if (node.hidden) continue;
-    if (const auto light = lightAt(document, node, scene.space)) scene.lights.push_back(*light);
+    const auto light =
+        document.diagnostics.keepRest("the light", [&] { return lightAt(document, node, scene.space); });
+    if (light && *light) scene.lights.push_back(**light);
   }
   dropUnusedDefaultMaterial(scene);
-  scene.warnings = document.diagnostics.warnings();
+  settle(document.diagnostics, options, scene);
   return scene;
 }
 

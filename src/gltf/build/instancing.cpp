@@ -60,19 +60,22 @@ class InstanceReader {
     const auto scale = attribute<3>("SCALE");
     warnOthers();
     if (!count_) return {node_.world};
+    if (*count_ == 0) document_.diagnostics.warn(place_, "has no elements; the mesh is not drawn");
     takeMemory(document_, place_, *count_ * sizeof(glm::dmat4));
     std::vector<glm::dmat4> places;
     places.reserve(*count_);
     for (size_t i = 0; i < *count_; ++i) {
       glm::dmat4 place(1.0);
       if (!translation.empty()) place = glm::translate(place, glm::dvec3(translation[i]));
-      if (!rotation.empty()) place = place * glm::mat4_cast(rotationOf(rotation[i], i));
+      if (!rotation.empty()) place = place * glm::mat4_cast(rotationOf(rotation[i]));
       if (!scale.empty()) place = glm::scale(place, glm::dvec3(scale[i]));
-      places.push_back(node_.world * place);
-      if (!isMultiplicable(places.back()))
-        document_.diagnostics.refuse(
-            place_, "the world transform of instance " + std::to_string(i) + " is not finite, or overflows");
+      place = node_.world * place;
+      if (isMultiplicable(place)) places.push_back(place);
     }
+    const size_t lost = *count_ - places.size();
+    const std::string reason = "the world transform of an instance is not finite, or overflows";
+    if (places.empty() && lost > 0) document_.diagnostics.lose(place_, reason);
+    if (lost > 0) document_.diagnostics.warn(place_, reason + "; the instance is left out", lost);
     if (const size_t count = dropRepeated(places); count > 0)
       document_.diagnostics.warn(place_, "an instance that stands exactly where another one does is left out",
                                  count);
@@ -91,35 +94,33 @@ class InstanceReader {
     checkType(name, components, document_.model.accessors.at(size_t(accessor)));
     const size_t count = accessorCount(document_, accessor);
     if (count_ && *count_ != count) {
-      document_.diagnostics.refuse(placeOf(name), "has " + std::to_string(count) + " elements where " +
-                                                      first_ + " has " + std::to_string(*count_));
+      document_.diagnostics.lose(placeOf(name), "has " + std::to_string(count) + " elements where " + first_ +
+                                                    " has " + std::to_string(*count_));
     }
     if (!count_) first_ = name;
     count_ = count;
     takeMemory(document_, placeOf(name), count * sizeof(glm::vec<components, float>));
-    return readVectors<components>(document_, accessor, placeOf(name));
+    return readVectors<components>(document_, accessor, placeOf(name), Integers::Fractions);
   }
 
   /// Refuses types that the extension does not allow. All attributes may be floats, and rotations also
-  /// normalized signed integers.
+  /// signed integers.
   void checkType(const char* name, int components, const tinygltf::Accessor& accessor) const {
     const int type = accessor.componentType;
     const bool isSigned = type == TINYGLTF_COMPONENT_TYPE_BYTE || type == TINYGLTF_COMPONENT_TYPE_SHORT;
-    const bool isAllowed =
-        type == TINYGLTF_COMPONENT_TYPE_FLOAT || (components == 4 && isSigned && accessor.normalized);
+    const bool isAllowed = type == TINYGLTF_COMPONENT_TYPE_FLOAT || (components == 4 && isSigned);
     if (!isAllowed)
-      document_.diagnostics.refuse(
-          placeOf(name), components == 4 ? "is neither of floats nor of normalized signed bytes or shorts"
-                                         : "is not of floats");
+      document_.diagnostics.lose(placeOf(name), components == 4
+                                                    ? "is neither of floats nor of signed bytes or shorts"
+                                                    : "is not of floats");
   }
 
-  glm::dquat rotationOf(const glm::vec4& r, size_t instance) const {
+  glm::dquat rotationOf(const glm::vec4& r) {
     const glm::dquat rotation(double(r.w), double(r.x), double(r.y), double(r.z));
     const double length = glm::length(rotation);
-    if (!(length > 0.0) || !std::isfinite(length))
-      document_.diagnostics.refuse(placeOf("ROTATION"),
-                                   "element " + std::to_string(instance) + " is not a unit quaternion");
-    return rotation / length;
+    if (length != 0.0) return rotation / length;
+    document_.diagnostics.warn(placeOf("ROTATION"), "a quaternion of zeros is read as no rotation");
+    return {1.0, 0.0, 0.0, 0.0};
   }
 
   void warnOthers() {

@@ -9,18 +9,7 @@
 namespace fragtrace {
 namespace {
 
-void readSpot(const tinygltf::SpotLight& spot, const std::string& place, const Diagnostics& diagnostics,
-              Light& light) {
-  constexpr double kRightAngle = 1.5707963267948966;
-  // The right angle itself, rounded up by an exporter, is meant to be legal.
-  constexpr double kRoundingSlack = 1e-6;
-  const bool inOrder = spot.innerConeAngle >= 0.0 && spot.innerConeAngle < spot.outerConeAngle;
-  if (!inOrder || spot.outerConeAngle > kRightAngle + kRoundingSlack) {
-    diagnostics.refuse(place + "/spot", "the cone angles do not fulfil 0 <= inner < outer <= pi/2");
-  }
-  light.innerConeAngle = float(spot.innerConeAngle);
-  light.outerConeAngle = float(std::min(spot.outerConeAngle, kRightAngle));
-}
+constexpr float kRightAngle = 1.5707964f;
 
 LightSource sourceOf(const tinygltf::Light& described) {
   LightSource source{.name = described.name, .intensity = described.intensity};
@@ -51,20 +40,23 @@ std::optional<Light> lightAt(Document& document, const PlacedNode& node, const L
     light.type = LightType::Directional;
   } else if (described.type == "spot") {
     light.type = LightType::Spot;
-    readSpot(described.spot, place, document.diagnostics, light);
-  } else if (described.type != "point") {
-    document.diagnostics.refuse(place + "/type", inQuotes(described.type) + " is not a kind of light");
+    light.innerConeAngle = float(described.spot.innerConeAngle);
+    light.outerConeAngle = float(described.spot.outerConeAngle);
+    // mendValues() has put the file's angles in order, but not those of --set and of animations.
+    if (!(light.innerConeAngle >= 0.0f && light.innerConeAngle <= light.outerConeAngle) ||
+        light.outerConeAngle > kRightAngle)
+      document.diagnostics.lose(place + "/spot", "the cone angles do not fulfil 0 <= inner <= outer <= pi/2");
   }
   light.source = uint32_t(index);
   light.node = nameOrPlace(source.name, "nodes", node.index);
   light.intensity = intensityOf(sourceOf(described), space);
   for (int c = 0; c < 3; ++c) {
     if (!std::isfinite(light.intensity[c]) || light.intensity[c] < 0.0f) {
-      document.diagnostics.refuse(place, "colour times intensity is negative or too large");
+      document.diagnostics.lose(place, "colour times intensity is negative or too large");
     }
   }
   // tinygltf says 0 where no range is given.
-  if (described.range < 0.0) document.diagnostics.refuse(place + "/range", "is negative");
+  if (described.range < 0.0) document.diagnostics.lose(place + "/range", "is negative");
   if (described.range > 0.0) light.range = float(described.range / space.unit);
   light.position = glm::vec3(space.localOf(glm::dvec3(node.world[3])));
   const glm::vec3& p = light.position;

@@ -222,7 +222,7 @@ void readMaterialExtensions(const tinygltf::Material& source, const MaterialPart
   }
   for (int c = 0; c < 3; ++c) {
     if (!std::isfinite(result.emissiveFactor[c] * result.emissiveStrength))
-      core.refuse("emissiveFactor times emissiveStrength is too large");
+      core.lose("emissiveFactor times emissiveStrength is too large");
   }
 }
 

@@ -41,7 +41,7 @@ TextureRef MaterialPart::texture(int index, int texcoord, const tinygltf::Value&
                                  const std::string& name) const {
   TextureRef result;
   if (index < 0) return result;
-  result = textures_.use(index, placeOf(name));
+  result = textures_.use(index);
   if (transform.IsObject()) {
     texcoord = int(numberOf(transform, "texCoord", texcoord));
     result.transform = below(name + "/extensions/KHR_texture_transform", transform).transformOf();

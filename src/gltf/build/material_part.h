@@ -36,7 +36,7 @@ class MaterialPart {
   void warn(const std::string& name, const std::string& reason) const {
     diagnostics_.warn(placeOf(name), reason);
   }
-  [[noreturn]] void refuse(const std::string& reason) const { diagnostics_.refuse(place_, reason); }
+  [[noreturn]] void lose(const std::string& reason) const { diagnostics_.lose(place_, reason); }
 
   /// The value, or the nearest of least..most with a warning.
   float within(double value, float least, float most, const std::string& name) const;

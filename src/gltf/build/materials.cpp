@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/build/materials.h"
 
+#include <utility>
+
 #include "gltf/build/material_part.h"
 #include "gltf/build/textures.h"
 #include "gltf/read/value.h"
@@ -10,12 +12,9 @@ namespace {
 
 const tinygltf::Value kNothing;
 
-AlphaMode alphaModeOf(const std::string& mode, const MaterialPart& part, const Diagnostics& diagnostics) {
+AlphaMode alphaModeOf(const std::string& mode) {
   if (mode == "MASK") return AlphaMode::Mask;
-  if (mode == "BLEND") return AlphaMode::Blend;
-  if (mode != "OPAQUE")
-    diagnostics.refuse(part.placeOf("alphaMode"), inQuotes(mode) + " is not an alpha mode");
-  return AlphaMode::Opaque;
+  return mode == "BLEND" ? AlphaMode::Blend : AlphaMode::Opaque;
 }
 
 template <typename Info>
@@ -76,7 +75,7 @@ Material readMaterial(Document& document, TextureTable& textures, size_t index) 
   if (extensionOf(source, "KHR_materials_pbrSpecularGlossiness") == nullptr)
     readMetallicRoughness(source.pbrMetallicRoughness, part.below("pbrMetallicRoughness", kNothing), result);
   readCommon(source, part, result);
-  result.alphaMode = alphaModeOf(source.alphaMode, part, document.diagnostics);
+  result.alphaMode = alphaModeOf(source.alphaMode);
   readMaterialExtensions(source, part, result);
   markLost(result);
   const tinygltf::Value& perlin = memberOf(source.extras, "perlinNormal");
@@ -84,14 +83,37 @@ Material readMaterial(Document& document, TextureTable& textures, size_t index) 
   return result;
 }
 
+/// Returns, by material, true if a node of the scene shows something of it.
+std::vector<bool> drawnMaterials(const tinygltf::Model& model, const std::vector<PlacedNode>& nodes) {
+  std::vector<bool> drawn(model.materials.size(), false);
+  const auto note = [&](int material) {
+    if (material >= 0 && size_t(material) < drawn.size()) drawn[size_t(material)] = true;
+  };
+  for (const PlacedNode& node : nodes) {
+    const tinygltf::Node& source = model.nodes.at(size_t(node.index));
+    if (node.hidden) continue;
+    if (source.mesh >= 0) {
+      for (const tinygltf::Primitive& primitive : model.meshes.at(size_t(source.mesh)).primitives)
+        note(primitive.material);
+    }
+    if (source.extras.Has("shape")) note(int(numberOf(source.extras, "material", -1)));
+  }
+  return drawn;
+}
+
 }  // namespace
 
-void addMaterials(Document& document, Scene& scene) {
+void addMaterials(Document& document, const std::vector<PlacedNode>& nodes, Scene& scene) {
+  const std::vector<bool> drawn = drawnMaterials(document.model, nodes);
   TextureTable textures(document, scene);
   for (size_t i = 0; i < document.model.materials.size(); ++i) {
-    scene.materials.push_back(readMaterial(document, textures, i));
+    textures.setDrawn(drawn[i]);
+    auto material =
+        document.diagnostics.keepRest("the material", [&] { return readMaterial(document, textures, i); });
+    scene.materials.push_back(material ? std::move(*material) : Material());
     scene.materials.back().number = uint32_t(scene.materials.size());
   }
+  textures.warnOfLost();
   scene.materials.emplace_back();
   scene.materials.back().name = "default";
   scene.materials.back().number = uint32_t(scene.materials.size());

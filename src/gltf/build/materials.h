@@ -5,14 +5,16 @@
 #include <string_view>
 
 #include "gltf/build/material_part.h"
+#include "gltf/build/nodes.h"
 #include "gltf/read/document.h"
 #include "scene/scene.h"
 
 namespace fragtrace {
 
 /// Appends all materials in the order of the file, with the textures they use, and last the default material.
-/// Factors outside of their range are brought to it with a warning. Throws InputError.
-void addMaterials(Document& document, Scene& scene);
+/// Factors outside of their range are brought to it with a warning. `nodes` tell which materials are
+/// drawn. Throws InputError.
+void addMaterials(Document& document, const std::vector<PlacedNode>& nodes, Scene& scene);
 
 /// The extension's object in a material, or null if the material does not have it.
 const tinygltf::Value* extensionOf(const tinygltf::Material& source, std::string_view name);

@@ -2,6 +2,7 @@
 #include "gltf/build/meshes.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "gltf/build/nodes.h"
 
@@ -22,13 +23,20 @@ DecodedMesh decodeMesh(Document& document, const std::vector<Material>& material
                        const MeshPose& pose) {
   DecodedMesh decoded;
   const size_t count = document.model.meshes.at(size_t(mesh)).primitives.size();
-  for (size_t i = 0; i < count; ++i)
-    decoded.primitives.push_back(decodePrimitive(document, materials, mesh, int(i), pose));
+  for (size_t i = 0; i < count; ++i) {
+    auto primitive = document.diagnostics.keepRest(
+        "the primitive", [&] { return decodePrimitive(document, materials, mesh, int(i), pose); });
+    decoded.primitives.push_back(primitive ? std::move(*primitive) : MeshPrimitive());
+  }
   decoded.bounds = boundsOf(decoded.primitives);
   return decoded;
 }
 
 bool hasStrokes(const MeshPrimitive& primitive) { return !primitive.strokes.ends.empty(); }
+
+bool hasNoInfluences(const MeshPrimitive& primitive) {
+  return !primitive.empty() && primitive.influences.empty();
+}
 
 /// Drops the places where a mesh is so small that squares of its size underflow. A size of 0 is none of them:
 /// files hide meshes that way.
@@ -40,7 +48,7 @@ void checkSizes(Document& document, const PlacedNode& node, const BoundsDouble& 
     const BoundsDouble placed = transformed(bounds, world);
     const glm::dvec3 farthest = glm::max(glm::abs(placed.minimum), glm::abs(placed.maximum));
     if (!(std::max({farthest.x, farthest.y, farthest.z}) <= kFarthest))
-      document.diagnostics.refuse(place, "its mesh reaches farther than 1e30 m from the origin");
+      document.diagnostics.lose(place, "its mesh reaches farther than 1e30 m from the origin");
     const glm::dvec3 extent = placed.extent();
     const double size = std::max({extent.x, extent.y, extent.z});
     return size > 0.0 && size < kSmallest;
@@ -57,6 +65,43 @@ std::vector<const PlacedNode*> byIndex(const Document& document, const std::vect
   return result;
 }
 
+/// Adds the mesh of a node.
+void showMesh(Document& document, const std::vector<Material>& materials, const PlacedNode& node,
+              const std::vector<const PlacedNode*>& placed, ShownMeshes& shown) {
+  const tinygltf::Node& source = document.model.nodes.at(size_t(node.index));
+  const tinygltf::Mesh& mesh = document.model.meshes.at(size_t(source.mesh));
+  const MeshPose pose = poseOf(document, source);
+  const auto [entry, isNew] = shown.decoded.try_emplace({source.mesh, pose});
+  if (isNew) entry->second = decodeMesh(document, materials, source.mesh, pose);
+  const DecodedMesh& decoded = entry->second;
+  std::span<const glm::dmat4> joints;
+  if (source.skin >= 0) {
+    auto matrices = shown.joints.find(source.skin);
+    if (matrices == shown.joints.end())
+      matrices = shown.joints.emplace(source.skin, jointMatrices(document, node.index, placed)).first;
+    joints = matrices->second;
+    if (std::ranges::any_of(decoded.primitives, hasNoInfluences))
+      document.diagnostics.warn(pointerTo("nodes", node.index, "skin"),
+                                "has a mesh without joints and weights, which stands where its node does");
+  }
+  const std::string nodeName = nameOrPlace(source.name, "nodes", node.index);
+  const std::string meshName = nameOrPlace(mesh.name, "meshes", source.mesh);
+  std::vector<glm::dmat4> places = placesOfMesh(document, node);
+  if (joints.empty()) checkSizes(document, node, decoded.bounds, places);
+  takeMemory(document, pointerTo("nodes", node.index),
+             places.size() * decoded.primitives.size() *
+                 (sizeof(PrimitiveInstance) + nodeName.size() + meshName.size()));
+  const bool mayShare = source.skin < 0 && std::ranges::none_of(decoded.primitives, hasStrokes);
+  const std::vector<MeshPrimitive>* whole = mayShare ? &decoded.primitives : nullptr;
+  for (const glm::dmat4& world : places) {
+    for (const MeshPrimitive& primitive : decoded.primitives) {
+      if (!primitive.empty())
+        shown.instances.push_back(
+            {&primitive, world, joints, nodeName, uint32_t(node.index), meshName, whole});
+    }
+  }
+}
+
 }  // namespace
 
 ShownMeshes showMeshes(Document& document, const std::vector<Material>& materials,
@@ -65,35 +110,11 @@ ShownMeshes showMeshes(Document& document, const std::vector<Material>& material
   std::vector<const PlacedNode*> placed;
   if (!document.skins.empty()) placed = byIndex(document, nodes);
   for (const PlacedNode& node : nodes) {
-    const tinygltf::Node& source = document.model.nodes.at(size_t(node.index));
-    if (source.mesh < 0 || node.hidden) continue;
-    const tinygltf::Mesh& mesh = document.model.meshes.at(size_t(source.mesh));
-    const MeshPose pose = poseOf(document, source);
-    const auto [entry, isNew] = shown.decoded.try_emplace({source.mesh, pose});
-    if (isNew) entry->second = decodeMesh(document, materials, source.mesh, pose);
-    const DecodedMesh& decoded = entry->second;
-    std::span<const glm::dmat4> joints;
-    if (source.skin >= 0) {
-      const auto [matrices, isFirst] = shown.joints.try_emplace(source.skin);
-      if (isFirst) matrices->second = jointMatrices(document, node.index, placed);
-      joints = matrices->second;
-    }
-    const std::string nodeName = nameOrPlace(source.name, "nodes", node.index);
-    const std::string meshName = nameOrPlace(mesh.name, "meshes", source.mesh);
-    std::vector<glm::dmat4> places = placesOfMesh(document, node);
-    if (joints.empty()) checkSizes(document, node, decoded.bounds, places);
-    takeMemory(document, pointerTo("nodes", node.index),
-               places.size() * decoded.primitives.size() *
-                   (sizeof(PrimitiveInstance) + nodeName.size() + meshName.size()));
-    const bool mayShare = source.skin < 0 && std::ranges::none_of(decoded.primitives, hasStrokes);
-    const std::vector<MeshPrimitive>* whole = mayShare ? &decoded.primitives : nullptr;
-    for (const glm::dmat4& world : places) {
-      for (const MeshPrimitive& primitive : decoded.primitives) {
-        if (!primitive.empty())
-          shown.instances.push_back(
-              {&primitive, world, joints, nodeName, uint32_t(node.index), meshName, whole});
-      }
-    }
+    if (document.model.nodes.at(size_t(node.index)).mesh < 0 || node.hidden) continue;
+    document.diagnostics.keepRest("the mesh here", [&] {
+      showMesh(document, materials, node, placed, shown);
+      return true;
+    });
   }
   return shown;
 }

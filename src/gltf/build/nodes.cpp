@@ -21,7 +21,7 @@ glm::dmat4 localTransform(const tinygltf::Node& node, const std::string& place,
     for (int i = 0; i < 16; ++i) transform[i / 4][i % 4] = node.matrix.at(size_t(i));
     if (transform[0][3] != 0.0 || transform[1][3] != 0.0 || transform[2][3] != 0.0 ||
         transform[3][3] != 1.0) {
-      diagnostics.refuse(place + "/matrix", "is not affine: its last row is not 0, 0, 0, 1");
+      diagnostics.lose(place + "/matrix", "is not affine: its last row is not 0, 0, 0, 1");
     }
     return transform;
   }
@@ -33,10 +33,9 @@ glm::dmat4 localTransform(const tinygltf::Node& node, const std::string& place,
     const auto& r = node.rotation;
     const glm::dquat rotation(r.at(3), r.at(0), r.at(1), r.at(2));
     const double length = glm::length(rotation);
-    // Exporters round to float, so that nearly every quaternion is off by a little; zero has no direction at
-    // all.
+    // Exporters round to float, so that nearly every quaternion is off by a little.
     if (!(length > 0.0) || !std::isfinite(length))
-      diagnostics.refuse(place + "/rotation", "is not a unit quaternion");
+      diagnostics.lose(place + "/rotation", "is not a unit quaternion");
     transform = transform * glm::mat4_cast(rotation / length);
   }
   if (!node.scale.empty()) {
@@ -46,12 +45,29 @@ glm::dmat4 localTransform(const tinygltf::Node& node, const std::string& place,
   return transform;
 }
 
-/// Parent by node, -1 for roots. Throws unless the nodes form trees.
+/// Returns, by node, true if it is in the scene; without scenes all are.
+std::vector<bool> nodesOfScene(const tinygltf::Model& model) {
+  if (model.scenes.empty()) return std::vector<bool>(model.nodes.size(), true);
+  std::vector<bool> seen(model.nodes.size(), false);
+  std::vector<int> waiting = model.scenes.at(size_t(std::max(model.defaultScene, 0))).nodes;
+  while (!waiting.empty()) {
+    const auto node = size_t(waiting.back());
+    waiting.pop_back();
+    if (seen.at(node)) continue;
+    seen[node] = true;
+    const std::vector<int>& children = model.nodes[node].children;
+    waiting.insert(waiting.end(), children.begin(), children.end());
+  }
+  return seen;
+}
+
+/// Parent by node, -1 for roots. Throws unless the nodes of the scene form trees.
 std::vector<int> parentsOf(const Document& document) {
   const auto& nodes = document.model.nodes;
+  const std::vector<bool> isOfScene = nodesOfScene(document.model);
   std::vector<int> parents(nodes.size(), -1);
   for (size_t i = 0; i < nodes.size(); ++i) {
-    for (size_t k = 0; k < nodes[i].children.size(); ++k) {
+    for (size_t k = 0; isOfScene[i] && k < nodes[i].children.size(); ++k) {
       const int child = nodes[i].children[k];
       int& parent = parents.at(size_t(child));
       if (parent >= 0) {
@@ -79,19 +95,29 @@ std::vector<int> parentsOf(const Document& document) {
   return parents;
 }
 
-std::vector<int> rootsOf(const Document& document, const std::vector<int>& parents) {
+std::vector<int> rootsOf(Document& document, const std::vector<int>& parents) {
   const auto& scenes = document.model.scenes;
   if (!scenes.empty()) {
     const size_t scene = size_t(std::max(document.model.defaultScene, 0));
-    const std::vector<int>& roots = scenes.at(scene).nodes;
+    std::vector<int> roots;
     std::vector<bool> seen(parents.size(), false);
-    for (const int root : roots) {
+    std::vector<bool> isChild(parents.size(), false);  // of any node, in the scene or not
+    for (const tinygltf::Node& node : document.model.nodes) {
+      for (const int child : node.children) isChild.at(size_t(child)) = true;
+    }
+    for (const int root : scenes.at(scene).nodes) {
       const std::string place = pointerTo("scenes", scene, "nodes");
       if (parents.at(size_t(root)) >= 0) {
         document.diagnostics.refuse(place, "node " + std::to_string(root) + " is not a root node");
       }
+      if (isChild[size_t(root)])
+        document.diagnostics.warn(place, "node " + std::to_string(root) +
+                                             " is not a root node, and stands without what is above it");
       if (seen[size_t(root)])
-        document.diagnostics.refuse(place, "names node " + std::to_string(root) + " twice");
+        document.diagnostics.warn(place,
+                                  "names node " + std::to_string(root) + " twice, which is drawn once");
+      else
+        roots.push_back(root);
       seen[size_t(root)] = true;
     }
     return roots;
@@ -137,6 +163,16 @@ std::vector<bool> chosenByUser(const Document& document, const std::vector<std::
 /// A scale of 0, which may well be meant.
 bool flattensAll(const glm::dmat4& matrix) { return glm::dmat3(matrix) == glm::dmat3(0.0); }
 
+glm::dmat4 worldTransform(const tinygltf::Node& node, const glm::dmat4& parent, const std::string& place,
+                          const Diagnostics& diagnostics) {
+  const glm::dmat4 local = localTransform(node, place, diagnostics);
+  const glm::dmat4 world = parent * local;
+  if (!isMultiplicable(world)) diagnostics.lose(place, "its world transform overflows");
+  if (flattensAll(world) && !flattensAll(parent) && !flattensAll(local))
+    diagnostics.lose(place, "its world transform underflows");
+  return world;
+}
+
 }  // namespace
 
 bool isMultiplicable(const glm::dmat4& matrix) {
@@ -149,7 +185,7 @@ bool isMultiplicable(const glm::dmat4& matrix) {
   return true;
 }
 
-std::vector<PlacedNode> placeNodes(const Document& document, const SceneSelection& selection) {
+std::vector<PlacedNode> placeNodes(Document& document, const SceneSelection& selection) {
   const std::vector<int> roots = rootsOf(document, parentsOf(document));
   const std::vector<bool> chosen = chosenByUser(document, selection.hiddenNodes);
   std::vector<PlacedNode> placed;
@@ -167,12 +203,10 @@ std::vector<PlacedNode> placeNodes(const Document& document, const SceneSelectio
     waiting.pop_back();
     const tinygltf::Node& source = document.model.nodes.at(size_t(node.index));
     const std::string place = pointerTo("nodes", node.index);
-    const glm::dmat4 parent = node.world;
-    const glm::dmat4 local = localTransform(source, place, document.diagnostics);
-    node.world = parent * local;
-    if (!isMultiplicable(node.world)) document.diagnostics.refuse(place, "its world transform overflows");
-    if (flattensAll(node.world) && !flattensAll(parent) && !flattensAll(local))
-      document.diagnostics.refuse(place, "its world transform underflows");
+    const auto world = document.diagnostics.keepRest(
+        "the node", [&] { return worldTransform(source, node.world, place, document.diagnostics); });
+    if (!world) continue;
+    node.world = *world;
     node.hiddenInFile = node.hiddenInFile || hidesItself(source);
     node.hidden = node.hidden || node.hiddenInFile || chosen[size_t(node.index)];
     placed.push_back(node);

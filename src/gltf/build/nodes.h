@@ -28,7 +28,7 @@ struct PlacedNode {
 /// order; those that the user hides, by SceneSelection::hiddenNodes, too. All are turned as
 /// SceneSelection::up says. Throws InputError for a loop, a node with two parents, and a transform that is
 /// not affine or not finite, and UsageError for a node to hide that is not in the file.
-std::vector<PlacedNode> placeNodes(const Document& document, const SceneSelection& selection);
+std::vector<PlacedNode> placeNodes(Document& document, const SceneSelection& selection);
 
 /// Returns true if the numbers and the products of any four are finite.
 bool isMultiplicable(const glm::dmat4& matrix);

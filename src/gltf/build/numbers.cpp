@@ -2,6 +2,8 @@
 #include "gltf/build/numbers.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -167,6 +169,37 @@ std::optional<NumberRule> numberRuleIn(const json& root, const std::string& poin
   return rule && isOfSomething(root, pointer) ? rule : std::nullopt;
 }
 
+bool decomposeMatrixAt(json& root, const std::string& pointer) {
+  const size_t end = pointer.rfind('/');
+  const std::string_view member = std::string_view(pointer).substr(end + 1);
+  if (!pointer.starts_with("/nodes/") ||
+      (member != "translation" && member != "rotation" && member != "scale"))
+    return false;
+  json& node = root[json::json_pointer(pointer.substr(0, end))];
+  if (!node.contains("matrix")) return false;
+  glm::dmat4 matrix(1.0);
+  for (size_t i = 0; i < 16; ++i) matrix[int(i / 4)][int(i % 4)] = node["matrix"][i].get<double>();
+  glm::dmat3 axes(matrix);
+  glm::dvec3 scale(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]));
+  if (glm::determinant(axes) < 0.0) scale.x = -scale.x;
+  // Axes without length, or not at right angles, are replaced by ones that are.
+  const auto unit = [](const glm::dvec3& axis, const glm::dvec3& otherwise) {
+    const double length = glm::length(axis);
+    return length > 0.0 ? axis / length : otherwise;
+  };
+  const glm::dvec3 z = unit(axes[2], unit(glm::cross(axes[0], axes[1]), {0.0, 0.0, 1.0}));
+  const glm::dvec3 across = axes[1] - glm::dot(axes[1], z) * z;
+  const glm::dvec3 aside = std::abs(z.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 y = unit(across, glm::normalize(glm::cross(z, aside)));
+  const glm::dquat turn = glm::quat_cast(glm::dmat3(glm::cross(y, z), y, z));
+  const glm::dvec3 place(matrix[3]);
+  node.erase("matrix");
+  node["translation"] = {place.x, place.y, place.z};
+  node["rotation"] = {turn.x, turn.y, turn.z, turn.w};
+  node["scale"] = {scale.x, scale.y, scale.z};
+  return true;
+}
+
 void writeNumbers(json& root, const std::string& pointer, const NumberRule& rule,
                   const std::vector<double>& values) {
   json& place = root[json::json_pointer(pointer)];
@@ -185,7 +218,9 @@ void checkNumbers(const json& root, std::span<const SetNumber> set) {
 
 void writeNumbers(json& root, const std::vector<SetNumber>& set, Diagnostics& diagnostics) {
   for (const SetNumber& one : set) {
-    writeNumbers(root, one.pointer, checkedRule(root, one), one.values);
+    const NumberRule rule = checkedRule(root, one);
+    decomposeMatrixAt(root, one.pointer);
+    writeNumbers(root, one.pointer, rule, one.values);
     if (const char* warning = whatIsBright(one)) diagnostics.warn(one.pointer, warning);
     diagnostics.noteSet(one.pointer);
   }

@@ -22,6 +22,10 @@ const char* whatIsBright(const SetNumber& set);
 /// object or the array that holds them.
 std::optional<NumberRule> numberRuleIn(const nlohmann::json& root, const std::string& pointer);
 
+/// Makes translation, rotation and scale of a node's matrix, if a pointer is to one of them. Returns false
+/// where there is nothing to do.
+bool decomposeMatrixAt(nlohmann::json& root, const std::string& pointer);
+
 /// Writes as many values as the rule says, which is of that place.
 void writeNumbers(nlohmann::json& root, const std::string& pointer, const NumberRule& rule,
                   const std::vector<double>& values);

@@ -43,10 +43,9 @@ class PrimitiveReader {
   MeshPrimitive read() {
     constexpr int kLastMode = TINYGLTF_MODE_TRIANGLE_FAN;
     if (source_.mode > kLastMode)
-      diagnostics_.refuse(place_ + "/mode", std::to_string(source_.mode) + " is no mode");
-    if (accessorOf("POSITION") < 0) {
-      // The check of the document has reported a primitive without any attribute.
-      if (!source_.attributes.empty()) diagnostics_.warn(place_, "a primitive without POSITION is left out");
+      diagnostics_.lose(place_ + "/mode", std::to_string(source_.mode) + " is no mode");
+    if (accessorOf("POSITION") < 0 || accessorCount(document_, accessorOf("POSITION")) == 0) {
+      diagnostics_.warn(place_, "a primitive without vertices is left out");
       return {};
     }
     readPositions();
@@ -58,6 +57,7 @@ class PrimitiveReader {
     } else {
       readStrokes(indices);
     }
+    dropBroken();
     readTexcoords();
     readColors();
     if (pose_.jointCount > 0)
@@ -79,9 +79,9 @@ class PrimitiveReader {
   int matchingAccessor(const char* attribute) const {
     const int accessor = accessorOf(attribute);
     if (accessor >= 0 && accessorCount(document_, accessor) != result_.vertices.position.size()) {
-      diagnostics_.refuse(placeOf(attribute),
-                          "has " + std::to_string(accessorCount(document_, accessor)) + " elements for " +
-                              std::to_string(result_.vertices.position.size()) + " positions");
+      diagnostics_.lose(placeOf(attribute),
+                        "has " + std::to_string(accessorCount(document_, accessor)) + " elements for " +
+                            std::to_string(result_.vertices.position.size()) + " positions");
     }
     return accessor;
   }
@@ -97,8 +97,8 @@ class PrimitiveReader {
       const std::string place = place_ + pointerTo("targets", t, attribute);
       const size_t count = accessorCount(document_, found->second);
       if (count != values.size()) {
-        diagnostics_.refuse(place, "has " + std::to_string(count) + " elements for " +
-                                       std::to_string(values.size()) + " vertices");
+        diagnostics_.lose(place, "has " + std::to_string(count) + " elements for " +
+                                     std::to_string(values.size()) + " vertices");
       }
       takeMemory(document_, place,
                  count * sizeof(glm::vec<components, float>) + (sums.empty() ? count * sizeof(sums[0]) : 0));
@@ -125,12 +125,26 @@ class PrimitiveReader {
     auto& positions = result_.vertices.position;
     positions = readVectors<3>(document_, accessorOf("POSITION"), placeOf("POSITION"));
     morph<3>("POSITION", positions);
-    if (positions.size() >= kMissIndex) diagnostics_.refuse(placeOf("POSITION"), "has too many elements");
+    if (positions.size() >= kMissIndex) diagnostics_.lose(placeOf("POSITION"), "has too many elements");
     for (size_t i = 0; i < positions.size(); ++i) {
-      if (!isFinite(positions[i])) {
-        diagnostics_.refuse(placeOf("POSITION"), "vertex " + std::to_string(i) + " is not finite");
-      }
+      if (isFinite(positions[i])) continue;
+      positions[i] = glm::vec3(0.0f);
+      broken_.push_back(uint32_t(i));
     }
+  }
+
+  /// Leaves out what has a vertex that is not finite.
+  void dropBroken() {
+    if (broken_.empty()) return;
+    const auto isBroken = [&](uint32_t vertex) { return std::ranges::binary_search(broken_, vertex); };
+    std::erase_if(result_.triangles, [&](const Triangle& t) {
+      return isBroken(t.vertex.x) || isBroken(t.vertex.y) || isBroken(t.vertex.z);
+    });
+    std::erase_if(result_.strokes.ends,
+                  [&](const glm::uvec2& ends) { return isBroken(ends.x) || isBroken(ends.y); });
+    if (result_.empty())
+      diagnostics_.lose(placeOf("POSITION"), "vertex " + std::to_string(broken_[0]) + " is not finite");
+    warnMended("POSITION", broken_.size(), "a vertex that is not finite is left out with its triangles");
   }
 
   /// Returns the indices of the file, or those of all vertices.
@@ -145,7 +159,6 @@ class PrimitiveReader {
     constexpr uint64_t kBytesOfAnIndex = sizeof(uint32_t) + sizeof(Triangle);
     takeMemory(document_, place_ + "/indices", kBytesOfAnIndex * accessorCount(document_, source_.indices));
     indices = readIndices(document_, source_.indices, vertexCount, place_ + "/indices");
-    warnRestart(indices);
     return indices;
   }
 
@@ -166,17 +179,6 @@ class PrimitiveReader {
     result_.triangles.reserve(triangles.size());
     for (const glm::uvec3& triangle : triangles)
       result_.triangles.push_back({triangle, materialIndex_, flat});
-  }
-
-  /// glTF 2.0, 3.7.2.1: the largest value of the index type is none.
-  void warnRestart(const std::vector<uint32_t>& indices) {
-    const int type = document_.model.accessors.at(size_t(source_.indices)).componentType;
-    const uint32_t restart = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE    ? 0xffu
-                             : type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ? 0xffffu
-                                                                              : 0xffffffffu;
-    if (result_.vertices.position.size() <= restart) return;
-    if (std::find(indices.begin(), indices.end(), restart) != indices.end())
-      diagnostics_.warn(place_ + "/indices", "holds the primitive restart value, which is taken as an index");
   }
 
   /// Returns the triangle's unit normal; zero for a triangle without area.
@@ -247,9 +249,7 @@ class PrimitiveReader {
       const int accessor = matchingAccessor(kNames[set]);
       auto& texcoords = set == 0 ? result_.vertices.texcoord0 : result_.vertices.texcoord1;
       if (accessor < 0) {
-        // The check of the document has reported it if a texture asks for it.
-        if (!isAskedForByTexture(set))
-          diagnostics_.warn(place_, std::string(kNames[set]) + " is needed and missing, (0, 0) is taken");
+        diagnostics_.warn(place_, std::string(kNames[set]) + " is needed and missing, (0, 0) is taken");
         texcoords.assign(result_.vertices.position.size(), glm::vec2(0.0f));
         continue;
       }
@@ -383,6 +383,7 @@ class PrimitiveReader {
   uint32_t materialIndex_;
   const Material& material_;
   MeshPrimitive result_;
+  std::vector<uint32_t> broken_;  ///< vertices that are not finite, rising
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "gltf/build/animation.h"
 #include "gltf/build/numbers.h"
 #include "gltf/check/extensions.h"
+#include "gltf/check/repairs.h"
 #include "gltf/check/schema.h"
 #include "gltf/check/validity.h"
 #include "gltf/codecs/compression.h"
@@ -28,16 +29,6 @@ json& arrayIn(json& root, const char* name) {
   json& array = root[name];
   if (array.is_null()) array = json::array();
   return array;
-}
-
-/// Warns of a data URI whose media type is not one of those expected.
-void warnMediaType(std::string_view uri, const std::string& place,
-                   std::initializer_list<std::string_view> expected, Diagnostics& diagnostics) {
-  if (!isDataUri(uri)) return;
-  const std::string_view type = mediaTypeOf(uri);
-  if (std::find(expected.begin(), expected.end(), type) == expected.end())
-    diagnostics.warn(place, "has the media type " + inQuotes(type) +
-                                ", which is none of a buffer; it is read all the same");
 }
 
 void checkExtensions(json& root, Diagnostics& diagnostics) {
@@ -78,76 +69,98 @@ ReadProgress tellReading(const GltfProgress& progress, const std::string& what, 
 constexpr double kContainerPart = 0.2;
 constexpr double kBuffersPart = 0.4;
 
-/// Brings every buffer into memory, exactly as long as the document says; one without URI stays empty.
-Buffers readBuffers(json& root, Container& container, Worker& codecs, Document& document) {
+/// The bytes of a buffer's URI.
+std::vector<uint8_t> readBuffer(const std::string& uri, size_t index, size_t count, Document& document) {
+  const std::string place = pointerTo("buffers", index, "uri");
+  document.refersToFiles = document.refersToFiles || !isDataUri(uri);
+  const double step = (kBuffersPart - kContainerPart) / double(count);
+  const double from = kContainerPart + double(index) * step;
+  document.access.progress = tellReading(
+      document.progress, "reading buffer " + std::to_string(index + 1) + " of " + std::to_string(count), from,
+      from + step);
+  std::vector<uint8_t> bytes =
+      document.diagnostics.attempt(place, [&] { return readUri(document.access, uri, document.memory); });
+  if (const std::string odd = oddityOf(document.access, uri); !odd.empty())
+    document.diagnostics.warn(place, odd);
+  takeMemory(document, place, bytes.size());
+  return bytes;
+}
+
+/// The URIs of all buffers and pictures.
+std::vector<std::string> urisOf(json& root) {
+  std::vector<std::string> uris;
+  for (const char* array : {"buffers", "images"}) {
+    for (const json& one : arrayIn(root, array)) uris.push_back(one.value("uri", std::string()));
+  }
+  std::erase(uris, "");
+  return uris;
+}
+
+/// Brings every buffer into memory, exactly as long as the document says; one without URI stays empty, and so
+/// does one that is lost.
+Buffers readBuffers(json& root, Container& container, Worker& codecs, const IsUsed& isUsed,
+                    Document& document) {
   Diagnostics& diagnostics = document.diagnostics;
   Buffers buffers;
   const json& described = arrayIn(root, "buffers");
   for (size_t i = 0; i < described.size(); ++i) {
     const json& buffer = described[i];
     const auto length = buffer["byteLength"].get<uint64_t>();
-    if (length == 0) diagnostics.refuse(pointerTo("buffers", i, "byteLength"), "is 0");
-    std::vector<uint8_t> bytes;
-    if (isFallback(buffer) && codecs.works()) {
-      buffers.emplace_back();
-      continue;
-    }
+    std::vector<uint8_t>& bytes = buffers.emplace_back();
+    if (length == 0 || (isFallback(buffer) && codecs.works())) continue;
+    const std::string place = pointerTo("buffers", i);
     if (buffer.contains("uri")) {
-      const std::string place = pointerTo("buffers", i, "uri");
       const auto& uri = buffer["uri"].get_ref<const std::string&>();
-      document.refersToFiles = document.refersToFiles || !isDataUri(uri);
-      const double step = (kBuffersPart - kContainerPart) / double(described.size());
-      const double from = kContainerPart + double(i) * step;
-      document.access.progress =
-          tellReading(document.progress,
-                      "reading buffer " + std::to_string(i + 1) + " of " + std::to_string(described.size()),
-                      from, from + step);
-      warnMediaType(uri, place, {"application/octet-stream", "application/gltf-buffer"}, diagnostics);
-      bytes = diagnostics.attempt(place, [&] { return readUri(document.access, uri, document.memory); });
-      takeMemory(document, place, bytes.size());
+      try {
+        bytes = readBuffer(uri, i, described.size(), document);
+      } catch (const InputError& error) {
+        if (isUsed(place)) throw InputError(error.what() + alsoMissing(document.access, urisOf(root), uri));
+        diagnostics.warn(place + "/uri", "cannot be read, and nothing uses it");
+        continue;
+      }
     } else if (i == 0 && container.hasBinary) {
       bytes = std::move(container.binary);
     } else {
-      if (i == 0 && container.isGlb)
-        diagnostics.warn(pointerTo("buffers", i), "has neither URI nor BIN chunk, and no data");
-      buffers.emplace_back();  // an extension may bring it; bytesOf refuses its use
-      continue;
+      continue;  // an extension may bring it; bytesOf() loses what uses it
     }
     if (length > bytes.size()) {
-      diagnostics.refuse(pointerTo("buffers", i), "holds " + std::to_string(bytes.size()) +
-                                                      " bytes, fewer than its byteLength of " +
-                                                      std::to_string(length));
+      diagnostics.warnLoss(place,
+                           "holds " + std::to_string(bytes.size()) + " bytes, fewer than its byteLength of " +
+                               std::to_string(length),
+                           "the buffer", isUsed(place));
+      bytes.clear();
     }
-    bytes.resize(length);
-    buffers.push_back(std::move(bytes));
+    bytes.resize(bytes.empty() ? 0 : length);
   }
   return buffers;
 }
 
-void checkBufferViews(json& root, const Diagnostics& diagnostics) {
-  const json& views = arrayIn(root, "bufferViews");
+/// Buffer views that reach past their buffer are lost. Takes out strides, of which tinygltf refuses some.
+void checkBufferViews(json& root, const IsUsed& isUsed, Document& document) {
+  json& views = arrayIn(root, "bufferViews");
+  const json& buffers = arrayIn(root, "buffers");
   for (size_t i = 0; i < views.size(); ++i) {
-    const json& view = views[i];
-    const std::string place = pointerTo("bufferViews", i);
-    const auto size = arrayIn(root, "buffers")[view["buffer"].get<size_t>()]["byteLength"].get<uint64_t>();
+    json& view = views[i];
     const uint64_t offset = view.value("byteOffset", uint64_t(0));
     const auto length = view["byteLength"].get<uint64_t>();
-    if (length == 0) diagnostics.refuse(place + "/byteLength", "is 0");
+    const auto buffer = view["buffer"].get<size_t>();
+    const auto size = buffer < buffers.size() ? buffers[buffer]["byteLength"].get<uint64_t>() : 0;
     if (offset > size || length > size - offset) {
-      diagnostics.refuse(place, std::to_string(length) + " bytes from byte " + std::to_string(offset) +
-                                    " reach past the " + std::to_string(size) + " of its buffer");
+      const std::string place = pointerTo("bufferViews", i);
+      document.diagnostics.warnLoss(place,
+                                    std::to_string(length) + " bytes from byte " + std::to_string(offset) +
+                                        " reach past the " + std::to_string(size) + " of its buffer",
+                                    "the buffer view", isUsed(place));
+      view["byteLength"] = 0;
+      view["byteOffset"] = 0;
     }
-    const uint64_t stride = view.value("byteStride", uint64_t(4));
-    if (stride < 4 || stride > 252 || stride % 4 != 0) {
-      diagnostics.refuse(place + "/byteStride",
-                         std::to_string(stride) + " is not a multiple of 4 from 4 to 252");
-    }
+    document.strides.push_back(view.value("byteStride", size_t(0)));
+    view.erase("byteStride");
   }
 }
 
-/// tinygltf refuses files with an accessor of a kind that it does not know, used or not. Such a one becomes
-/// empty, which is refused where it is used.
-void emptyUnknownAccessors(json& root, Diagnostics& diagnostics) {
+/// tinygltf refuses files with an accessor of a kind that it does not know. Such a one becomes empty.
+void emptyUnknownAccessors(json& root, const IsUsed& isUsed, Diagnostics& diagnostics) {
   constexpr std::array<std::string_view, 7> kTypes = {"SCALAR", "VEC2", "VEC3", "VEC4",
                                                       "MAT2",   "MAT3", "MAT4"};
   constexpr std::array<int, 6> kComponentTypes = {5120, 5121, 5122, 5123, 5125, 5126};
@@ -159,17 +172,9 @@ void emptyUnknownAccessors(json& root, Diagnostics& diagnostics) {
     const bool knowsComponents =
         std::ranges::any_of(kComponentTypes, [&](int type) { return accessor["componentType"] == type; });
     if (knowsType && knowsComponents) continue;
-    diagnostics.warn(pointerTo("accessors", i), "has a type that glTF does not know, and is taken as empty");
+    const std::string place = pointerTo("accessors", i);
+    diagnostics.warnLoss(place, "has a type that glTF does not know", "the accessor", isUsed(place));
     accessor = {{"type", "SCALAR"}, {"componentType", kComponentTypes.back()}, {"count", 0}};
-  }
-}
-
-/// tinygltf refuses spot lights without a cone, of which the default is meant.
-void addDefaultCones(json& root) {
-  const json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
-  if (!root.contains(lights)) return;
-  for (json& light : root[lights]) {
-    if (light["type"] == "spot") light.emplace("spot", json::object());
   }
 }
 
@@ -185,13 +190,10 @@ void noteNames(json& root, Document& document) {
 
 /// Notes where the pictures are, and gives tinygltf a name that leads nowhere, which it takes without
 /// complaint.
-std::vector<ImageSource> takeImages(json& root, const Diagnostics& diagnostics) {
+std::vector<ImageSource> takeImages(json& root) {
   std::vector<ImageSource> sources;
   json& images = arrayIn(root, "images");
   for (size_t i = 0; i < images.size(); ++i) {
-    if (images[i].contains("uri") == images[i].contains("bufferView")) {
-      diagnostics.refuse(pointerTo("images", i), "needs either a URI or a buffer view");
-    }
     sources.push_back({images[i].value("uri", std::string()), images[i].value("bufferView", -1),
                        images[i].value("mimeType", std::string())});
     images[i] = {{"uri", "image"}};
@@ -326,29 +328,28 @@ KeptDocument readDocument(const std::filesystem::path& path, const GltfOptions& 
   takeMemory(document, "", container.binary.size());
   json root = parseJson(container.json, document.memory, diagnostics);
   container.json = std::string();
+  dropNulls(root, diagnostics);
   checkVersion(root, diagnostics);
-  checkSchema(root, diagnostics);
-  checkValidity(root, diagnostics);
+  const IsUsed isUsed = applySchema(root, options.selection, diagnostics);
+  checkLeastVersion(root, diagnostics);
+  checkPlacesOfExtensions(root, diagnostics);
+  mendValues(root, isUsed, diagnostics);
   checkExtensions(root, diagnostics);
-  checkMotion(root, diagnostics);
   noteNames(root, document);
   applySelection(root, options.selection, diagnostics);
   Worker codecs(kGeometryCodecs);
-  Buffers buffers = readBuffers(root, container, codecs, document);
-  checkBufferViews(root, diagnostics);
-  checkDataValidity(root, diagnostics);
-  emptyUnknownAccessors(root, diagnostics);
+  Buffers buffers = readBuffers(root, container, codecs, isUsed, document);
+  checkBufferViews(root, isUsed, document);
+  emptyUnknownAccessors(root, isUsed, diagnostics);
   document.access.progress = tellReading(options.progress, "reading textures", kBuffersPart, kBuffersPart);
   if (options.progress) options.progress("unpacking", kBuffersPart);
   decompressViews(root, buffers, codecs, document);
   decompressPrimitives(root, buffers, codecs, document);
-  addDefaultCones(root);
   document.skins = takeSkins(root);
   std::vector<Animation> animations = takeAnimations(root);
-  document.images = takeImages(root, diagnostics);
+  document.images = takeImages(root);
   nameBuffers(root, buffers);
   document.model = parseModel(root, buffers, diagnostics);
-  checkAccessors(document);
   return {std::move(document), std::move(root), std::move(animations)};
 }
 

@@ -17,8 +17,8 @@ std::vector<glm::dmat4> bindMatrices(Document& document, int skin) {
   takeMemory(document, place, accessorCount(document, source.inverseBindMatrices) * sizeof(glm::dmat4));
   std::vector<glm::dmat4> matrices = readMatrices(document, source.inverseBindMatrices, place);
   if (matrices.size() < source.joints.size()) {
-    document.diagnostics.refuse(place, "has " + std::to_string(matrices.size()) + " matrices for " +
-                                           std::to_string(source.joints.size()) + " joints");
+    document.diagnostics.lose(place, "has " + std::to_string(matrices.size()) + " matrices for " +
+                                         std::to_string(source.joints.size()) + " joints");
   }
   size_t broken = 0;
   for (glm::dmat4& matrix : matrices) {
@@ -94,12 +94,12 @@ std::vector<glm::dmat4> jointMatrices(Document& document, int node,
   for (size_t i = 0; i < joints.size(); ++i) {
     const PlacedNode* joint = nodes.at(size_t(joints[i]));
     if (joint == nullptr) {
-      document.diagnostics.refuse(pointerTo("nodes", node, "skin"),
-                                  "its joint, node " + std::to_string(joints[i]) + ", is not in the scene");
+      document.diagnostics.lose(pointerTo("nodes", node, "skin"),
+                                "its joint, node " + std::to_string(joints[i]) + ", is not in the scene");
     }
     matrices[i] = joint->world * matrices[i];
     if (!isMultiplicable(matrices[i]))
-      document.diagnostics.refuse(pointerTo("skins", skin, "joints", i), "its matrix overflows");
+      document.diagnostics.lose(pointerTo("skins", skin, "joints", i), "its matrix overflows");
   }
   return matrices;
 }
@@ -119,22 +119,22 @@ std::vector<Influence> readInfluences(Document& document, const tinygltf::Primit
     for (const std::string& name : {joints, weights}) {
       const size_t elements = accessorCount(document, primitive.attributes.at(name));
       if (elements == count) continue;
-      document.diagnostics.refuse(
+      document.diagnostics.lose(
           place + pointerTo("attributes", name),
           "has " + std::to_string(elements) + " elements for " + std::to_string(count) + " positions");
     }
     const std::string jointPlace = place + pointerTo("attributes", joints);
     const auto jointsOf = readJoints(document, primitive.attributes.at(joints), jointPlace);
-    const auto weightsOf =
-        readVectors<4>(document, primitive.attributes.at(weights), place + pointerTo("attributes", weights));
+    const auto weightsOf = readVectors<4>(document, primitive.attributes.at(weights),
+                                          place + pointerTo("attributes", weights), Integers::Fractions);
     for (size_t i = 0; i < count; ++i) {
       for (int k = 0; k < int(kInASet); ++k) {
         Influence influence{jointsOf[i][k], weightsOf[i][k]};
         if (influence.joint >= jointCount) {
           if (influence.weight != 0.0f) {
-            document.diagnostics.refuse(jointPlace, "joint " + std::to_string(influence.joint) +
-                                                        " is past the " + std::to_string(jointCount) +
-                                                        " of the skin");
+            document.diagnostics.lose(jointPlace, "joint " + std::to_string(influence.joint) +
+                                                      " is past the " + std::to_string(jointCount) +
+                                                      " of the skin");
           }
           document.diagnostics.warn(jointPlace, "a joint that is none of the skin's weighs 0");
           influence.joint = 0;

@@ -57,13 +57,13 @@ std::optional<PlacedSphere> sphereAt(Document& document, const PlacedNode& node)
 
   glm::dmat3 axes(node.world);
   const double scale = glm::length(axes[0]);
-  if (!isUniform(axes, scale)) document.diagnostics.refuse(place, "scales a sphere unevenly");
+  if (!isUniform(axes, scale)) document.diagnostics.lose(place, "scales a sphere unevenly");
   const double radius = numberOf(memberOf(shape, "sphere"), "radius", 0.5);  // the extension's default
   sphere.radius = radius * scale;
-  if (!(sphere.radius >= kSmallest)) document.diagnostics.refuse(place, "its sphere has no radius above 0");
+  if (!(sphere.radius >= kSmallest)) document.diagnostics.lose(place, "its sphere has no radius above 0");
   sphere.center = glm::dvec3(node.world[3]);
   if (!(glm::length(sphere.center) + sphere.radius <= kFarthest))
-    document.diagnostics.refuse(place, "its sphere reaches farther than 1e30 m from the origin");
+    document.diagnostics.lose(place, "its sphere reaches farther than 1e30 m from the origin");
   if (glm::determinant(axes) < 0.0) {
     document.diagnostics.warn(place, "a mirrored sphere shows its textures unmirrored");
     axes = -axes;

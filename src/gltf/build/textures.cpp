@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
+#include "base/text.h"
 #include "gltf/read/uri.h"
 #include "gltf/read/value.h"
 #include "image/files/header.h"
@@ -19,17 +18,9 @@ namespace {
 constexpr const char* kBasisu = "KHR_texture_basisu";
 constexpr double kTexturesPart = 0.4;  // share of a load that is done when they are read
 
-Wrap wrapOf(int mode, const std::string& place, Diagnostics& diagnostics) {
-  switch (mode) {
-    case TINYGLTF_TEXTURE_WRAP_REPEAT:
-      return Wrap::Repeat;
-    case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
-      return Wrap::ClampToEdge;
-    case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
-      return Wrap::MirroredRepeat;
-    default:
-      diagnostics.refuse(place, std::to_string(mode) + " is not a wrap mode");
-  }
+Wrap wrapOf(int mode) {
+  if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::ClampToEdge;
+  return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::MirroredRepeat : Wrap::Repeat;
 }
 
 /// The bytes of a picture where it stands, not decoded.
@@ -40,28 +31,23 @@ std::vector<uint8_t> imageBytes(Document& document, int index) {
     return {bytes.begin(), bytes.end()};
   }
   if (!source.bytes.empty()) return source.bytes;
-  std::vector<uint8_t> bytes = document.diagnostics.attempt(pointerTo("images", index, "uri"), [&] {
-    return readUri(document.access, source.uri, document.memory);
-  });
+  const std::string place = pointerTo("images", index);
+  if (source.uri.empty()) document.diagnostics.lose(place, "has neither a URI nor a buffer view");
+  std::vector<uint8_t> bytes = document.diagnostics.attemptObject(
+      place + "/uri", [&] { return readUri(document.access, source.uri, document.memory); });
+  if (const std::string odd = oddityOf(document.access, source.uri); !odd.empty())
+    document.diagnostics.warn(place + "/uri", odd);
   if (document.keepsPictures) source.bytes = bytes;
   return bytes;
 }
 
-/// Warns of a media type, declared for the picture, that its bytes are not of.
-void warnMediaType(std::string_view declared, ImageFormat format, const std::string& place,
-                   Diagnostics& diagnostics) {
-  const std::string_view found = format == ImageFormat::Png    ? "image/png"
-                                 : format == ImageFormat::Jpeg ? "image/jpeg"
-                                 : format == ImageFormat::WebP ? "image/webp"
-                                 : format == ImageFormat::Ktx2 ? "image/ktx2"
-                                                               : "";
-  if (found.empty()) {
-    diagnostics.warn(place,
-                     "is neither PNG nor JPEG nor WebP nor KTX2, as glTF wants it; it is read if it can be");
-  } else if (!declared.empty() && declared != found) {
-    diagnostics.warn(place, "is declared " + inQuotes(declared) + " and is " + std::string(found) +
-                                ", as which it is read");
-  }
+/// Throws unless the picture can be decoded whole. Checksums of a PNG and the markers of a JPEG, which its
+/// header's reader follows to the end, save decoding it.
+void checkWhole(const std::vector<uint8_t>& bytes, const ImageHeader& header) {
+  if (header.format == ImageFormat::Png && !isIntactPng(bytes))
+    throw std::runtime_error("is damaged: a checksum is wrong");
+  if (header.format != ImageFormat::Png && header.format != ImageFormat::Jpeg)
+    decodeTexelsByProcess(bytes, header);
 }
 
 /// Names the file, if it is one, in what is thrown, also where its format cannot be decoded.
@@ -85,11 +71,11 @@ EncodedImage readImage(Document& document, int index) {
       isFile ? pathOfUri(document.access, source.uri).string() : document.diagnostics.file() + ": " + place;
   result.place = document.diagnostics.file() + ": " + place;
   result.bytes = imageBytes(document, index);
-  const ImageHeader header =
-      document.diagnostics.attempt(place, [&] { return headerOf(result.bytes, isFile ? source.uri : ""); });
+  const ImageHeader header = document.diagnostics.attemptObject(
+      place, [&] { return headerOf(result.bytes, isFile ? source.uri : ""); });
   if (header.format == ImageFormat::Pfm || header.format == ImageFormat::Hdr ||
       header.format == ImageFormat::OpenExr)
-    document.diagnostics.refuse(place, "is no picture that a texture may have: PNG, JPEG, WebP, KTX2");
+    document.diagnostics.lose(place, "is no picture that a texture may have: PNG, JPEG, WebP, KTX2");
   result.width = header.width;
   result.height = header.height;
   if (std::max(header.width, header.height) > document.textureSide) {
@@ -99,9 +85,8 @@ EncodedImage readImage(Document& document, int index) {
     document.diagnostics.warn(place, "pictures wider or higher than " + std::to_string(document.textureSide) +
                                          " pixels are scaled down");
   }
-  warnMediaType(
-      source.bufferView < 0 && !isFile ? mediaTypeOf(source.uri) : std::string_view(source.mimeType),
-      header.format, isFile || source.bufferView >= 0 ? place : place + "/uri", document.diagnostics);
+  if (document.drawMissingTextures)
+    document.diagnostics.attemptObject(place, [&] { checkWhole(result.bytes, header); });
   return result;
 }
 
@@ -130,9 +115,17 @@ bool isDispensable(const tinygltf::Model& model, const tinygltf::Texture& textur
 /// Returns true if a picture is a file that is not there.
 bool isMissing(const Document& document, int image) {
   const ImageSource& source = document.images.at(size_t(image));
-  std::error_code error;
-  return source.bufferView < 0 && source.bytes.empty() && !isDataUri(source.uri) &&
-         !std::filesystem::exists(pathOfUri(document.access, source.uri), error);
+  return source.bufferView < 0 && source.bytes.empty() && isMissing(document.access, source.uri);
+}
+
+/// A reason without the name of the file, with which it begins, or else after a space.
+std::string withoutName(const Document& document, const std::string& uri, const std::string& reason) {
+  if (!uri.empty() && !isDataUri(uri)) {
+    for (const std::string& name : {pathOfUri(document.access, uri).string(), uri}) {
+      if (reason.starts_with(name)) return reason.substr(name.size());
+    }
+  }
+  return " " + reason;
 }
 
 /// The picture to draw: the fallback of a KTX2 picture stays away where its file is missing.
@@ -154,38 +147,59 @@ TextureTable::TextureTable(Document& document, Scene& scene)
       scene_(scene),
       textures_(document.model.textures.size(), kMissIndex),
       images_(document.images.size(), kMissIndex),
-      lost_(document.images.size(), false) {}
+      lost_(document.images.size()) {}
 
-void TextureTable::warnLost(int image, const std::string& reason) {
-  lost_[size_t(image)] = true;
-  const std::string file = document_.diagnostics.file() + ": ";
-  const std::string& uri = document_.images.at(size_t(image)).uri;
-  const bool isNamed = uri.empty() || isDataUri(uri) || reason.find(uri) != std::string::npos;
-  document_.diagnostics.warn(
-      "", (reason.starts_with(file) ? reason.substr(file.size()) : reason) +
-              (isNamed ? "" : " (" + uri + ")") +
-              "; a base colour is drawn in magenta, other textures are left out (--missing-textures warn)");
+TextureRef TextureTable::lose(int image, const std::string& place, const std::string& reason) {
+  TextureRef ref;
+  ref.lost = true;
+  const std::string uri = image >= 0 ? document_.images.at(size_t(image)).uri : "";
+  if (isDrawn_ && !document_.drawMissingTextures) {
+    std::vector<std::string> uris;
+    for (const ImageSource& source : document_.images) uris.push_back(source.uri);
+    document_.diagnostics.refuse(place, reason + alsoMissing(document_.access, uris, uri) +
+                                            " (--missing-textures magenta draws the scene without it)");
+  }
+  const std::string kind = withoutName(document_, uri, reason);
+  auto group = std::ranges::find_if(
+      reasons_, [&](const LostPictures& one) { return one.reason == kind && one.isDrawn == isDrawn_; });
+  if (group == reasons_.end()) group = reasons_.insert(group, {place, kind, isDrawn_, {}});
+  const std::string name = uri.empty() || isDataUri(uri) ? place : uri;
+  if (std::ranges::find(group->names, name) == group->names.end()) group->names.push_back(name);
+  return ref;
+}
+
+void TextureTable::warnOfLost() {
+  for (const LostPictures& lost : reasons_) {
+    const bool isNamed = lost.names.size() > 1 || lost.names[0] != lost.place;
+    document_.diagnostics.warn(
+        lost.place, (isNamed ? joined(lost.names) + lost.reason : lost.reason.substr(1)) +
+                        (lost.isDrawn ? "; a base colour is drawn in magenta, other textures are left out"
+                                      : "; no drawn material has it"));
+  }
 }
 
 uint32_t TextureTable::useImage(int image) {
   uint32_t& known = images_.at(size_t(image));
-  if (known != kMissIndex || lost_[size_t(image)]) return known;
+  if (known != kMissIndex) return known;
+  if (const auto& loss = lost_[size_t(image)]) {
+    lose(image, loss->place, loss->reason);
+    return known;
+  }
   if (document_.progress)
     document_.progress("reading texture " + std::to_string(scene_.images.size() + 1) + " of " +
                            std::to_string(images_.size()),
                        kTexturesPart);
   try {
     EncodedImage encoded = readImage(document_, image);
-    if (document_.drawMissingTextures)
-      decodeTexels(encoded.bytes, nameOf(encoded));  // a fault shows only then
     known = uint32_t(scene_.images.size());
     scene_.images.push_back(std::move(encoded));
+  } catch (const Loss& loss) {
+    lost_[size_t(image)] = loss;
+    lose(image, loss.place, loss.reason);
+    return kMissIndex;
   } catch (const InputError& error) {
-    // A picture that is there, and too large, is not missing.
-    if (std::string_view(error.what()).ends_with("--memory-limit")) throw;
-    if (!document_.drawMissingTextures)
-      throw InputError(std::string(error.what()) + " (--missing-textures warn draws the scene without it)");
-    warnLost(image, error.what());
+    if (isDrawn_) throw;  // memory or another folder is at stake
+    lose(image, pointerTo("images", image), "is not read");
     return kMissIndex;
   }
   const EncodedImage& read = scene_.images.back();
@@ -193,7 +207,7 @@ uint32_t TextureTable::useImage(int image) {
   return known;
 }
 
-TextureRef TextureTable::use(int texture, const std::string& place) {
+TextureRef TextureTable::use(int texture) {
   TextureRef ref;
   uint32_t& known = textures_.at(size_t(texture));
   ref.texture = known;
@@ -201,8 +215,7 @@ TextureRef TextureTable::use(int texture, const std::string& place) {
   const tinygltf::Texture& source = document_.model.textures[size_t(texture)];
   const int image = drawnImage(document_, source);
   if (image < 0) {
-    document_.diagnostics.warn(place, "a texture without a picture is left out");
-    return ref;
+    return lose(-1, pointerTo("textures", texture), "has no picture");
   }
   if (isDispensable(document_.model, source) && !whyNoKtx2().empty()) {
     document_.diagnostics.warn(pointerTo("textures", texture, "extensions", kBasisu),
@@ -215,9 +228,8 @@ TextureRef TextureTable::use(int texture, const std::string& place) {
   if (ref.lost) return ref;
   if (source.sampler >= 0) {
     const tinygltf::Sampler& sampler = document_.model.samplers.at(size_t(source.sampler));
-    const std::string samplerPlace = pointerTo("samplers", source.sampler);
-    result.wrapU = wrapOf(sampler.wrapS, samplerPlace + "/wrapS", document_.diagnostics);
-    result.wrapV = wrapOf(sampler.wrapT, samplerPlace + "/wrapT", document_.diagnostics);
+    result.wrapU = wrapOf(sampler.wrapS);
+    result.wrapV = wrapOf(sampler.wrapT);
     result.linear = sampler.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST;
   }
   ref.texture = known = uint32_t(scene_.textures.size());

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/check/schema.h"
 
+#include <algorithm>
 #include <deque>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -11,6 +13,7 @@
 #include "base/split.h"
 #include "gltf/check/extensions.h"
 #include "gltf/check/schema_checker.h"
+#include "gltf/check/use.h"
 
 namespace fragtrace {
 namespace {
@@ -129,8 +132,8 @@ constexpr Rule kRules[] = {
     {"/meshes/*/primitives/*/targets/*/*", Kind::Index, "/accessors"},
     {"/meshes/*/primitives/*/extensions", Kind::Object},
     {"/meshes/*/primitives/*/extensions/KHR_draco_mesh_compression", Kind::Object},
-    {"/meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/bufferView!", Kind::Index, "/bufferViews"},
-    {"/meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/attributes!", Kind::Object},
+    {"/meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/bufferView", Kind::Index, "/bufferViews"},
+    {"/meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/attributes", Kind::Object},
     {"/meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/attributes/*", Kind::Int},
 
     {"/extensions/KHR_materials_variants", Kind::Object},
@@ -149,13 +152,13 @@ constexpr Rule kRules[] = {
     {"/cameras/*/type!", Kind::Text},
     {"/cameras/*/perspective", Kind::Object},
     {"/cameras/*/perspective/yfov!", Kind::Number},
-    {"/cameras/*/perspective/znear!", Kind::Number},
+    {"/cameras/*/perspective/znear", Kind::Number},
     {"/cameras/*/perspective/aspectRatio", Kind::Number},
     {"/cameras/*/orthographic", Kind::Object},
     {"/cameras/*/orthographic/xmag!", Kind::Number},
     {"/cameras/*/orthographic/ymag!", Kind::Number},
-    {"/cameras/*/orthographic/zfar!", Kind::Number},
-    {"/cameras/*/orthographic/znear!", Kind::Number},
+    {"/cameras/*/orthographic/zfar", Kind::Number},
+    {"/cameras/*/orthographic/znear", Kind::Number},
 
     {"/extensions/KHR_lights_punctual", Kind::Object},
     {"/extensions/KHR_lights_punctual/lights!", Kind::Objects},
@@ -291,9 +294,21 @@ bool matches(std::string_view pattern, std::string_view pointer) {
 
 }  // namespace
 
-void checkSchema(json& root, const Diagnostics& diagnostics) {
+IsUsed applySchema(json& root, const SceneSelection& selection, Diagnostics& diagnostics) {
   if (!root.is_object()) diagnostics.refuse("", "is not glTF: the JSON is not an object");
-  for (const Rule& rule : rules()) applyRule(rule, root, diagnostics);
+  const IsUsed isUsed = [&root, selection, used = std::make_shared<Owners>()](std::string_view place) {
+    if (used->empty()) *used = usedObjects(root, rules(), selection);  // few documents ask for it
+    return used->contains(ownerOf(place));
+  };
+  const auto isRequired = [](std::string_view pattern) {
+    return std::ranges::any_of(rules(), [&](const Rule& rule) {
+      const std::string_view one = rule.pattern;
+      return one.ends_with('!') && one.substr(0, one.size() - 1) == pattern;
+    });
+  };
+  const SchemaContext context{diagnostics, isRequired, isUsed};
+  for (const Rule& rule : rules()) applyRule(rule, root, context);
+  return isUsed;
 }
 
 std::optional<NumberRule> numberRuleAt(std::string_view pointer) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -11,13 +12,17 @@
 #include <vector>
 
 #include "gltf/read/diagnostics.h"
+#include "scene/selection.h"
 
 namespace fragtrace {
 
-/// Throws InputError with the place of the first member that the loader reads and that has the wrong type, is
-/// missing though required, or refers to something that does not exist. Whole numbers written as 1.0 become
-/// integers.
-void checkSchema(nlohmann::json& root, const Diagnostics& diagnostics);
+/// Takes out what the loader reads and what has the wrong type, is missing though required, or refers to
+/// something that does not exist, with a warning each: see applyRule(). Whole numbers written as 1.0 become
+/// integers. Throws InputError for a reference to something that does not exist, in an object that the
+/// selected scene uses. Returns what tells if it uses the object at a place, as long as the document is
+/// there.
+using IsUsed = std::function<bool(std::string_view place)>;
+IsUsed applySchema(nlohmann::json& root, const SceneSelection& selection, Diagnostics& diagnostics);
 
 /// Numbers that the loader reads.
 struct NumberRule {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Checks a document against one rule of the schema.
+// Checks a document against one rule of the schema, and takes out what breaks it.
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <string_view>
 
 #include "gltf/read/diagnostics.h"
@@ -32,9 +34,16 @@ struct Rule {
   size_t size = 0;
 };
 
-/// Throws InputError with the place of the first member that breaks the rule. Whole numbers written as 1.0
-/// become integers.
-void applyRule(const Rule& rule, nlohmann::json& root, const Diagnostics& diagnostics);
+/// Checks the rule. Whole numbers written as 1.0 become integers. What breaks the rule goes, with a warning:
+/// an optional member; else the member or element that holds it, and so on. An object of lost_objects.h
+/// becomes one without content. Throws InputError where that ends at the root, and for a broken reference in
+/// an object that is used.
+struct SchemaContext {
+  Diagnostics& diagnostics;
+  std::function<bool(std::string_view pattern)> isRequired;  ///< a member's pattern, without its !
+  std::function<bool(std::string_view place)> isUsed;        ///< by the chosen scene
+};
+void applyRule(const Rule& rule, nlohmann::json& root, const SchemaContext& context);
 
 /// Returns the next part of a JSON pointer, and removes it from the pointer.
 std::string_view cutPart(std::string_view& pointer);

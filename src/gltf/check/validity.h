@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Warns about violations of glTF's rules that still have a meaning, at their place, so that nothing is
-// silently drawn in another way than its author meant. Violations without a meaning are refused by the schema
-// and by the code that reads them.
+// Checks what a document says of itself. What only glTF's rules forbid and no picture shows is left to
+// Khronos' validator (docs/gltf.md).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,14 +9,13 @@
 
 namespace fragtrace {
 
-/// Checks a document that has passed the schema: empty arrays, extensions at the wrong place, versions,
-/// cameras, lights, nodes. Refuses versions that are not supported.
-void checkValidity(const nlohmann::json& root, Diagnostics& diagnostics);
-
 /// Refuses versions but 2.x, before their schema is looked at. Says nothing of an asset without a version.
 void checkVersion(const nlohmann::json& root, const Diagnostics& diagnostics);
 
-/// Checks the same for buffer views, accessors, images and mesh primitives.
-void checkDataValidity(const nlohmann::json& root, Diagnostics& diagnostics);
+/// Refuses a document that has passed the schema and asks for a higher version than 2.0.
+void checkLeastVersion(const nlohmann::json& root, const Diagnostics& diagnostics);
+
+/// Warns of extensions at places where they are ignored.
+void checkPlacesOfExtensions(const nlohmann::json& root, Diagnostics& diagnostics);
 
 }  // namespace fragtrace

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // KHR_draco_mesh_compression.
+#include <algorithm>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -29,7 +31,7 @@ class PrimitiveDecoder {
 
   /// Returns true if the file also holds all of it uncompressed.
   bool hasFallback() const {
-    for (const auto& attribute : extension_["attributes"].items()) {
+    for (const auto& attribute : compressed().items()) {
       const auto accessor = primitive_["attributes"].find(attribute.key());
       if (accessor == primitive_["attributes"].end() || !hasView(*accessor)) return false;
     }
@@ -37,30 +39,74 @@ class PrimitiveDecoder {
   }
 
   /// The extension's schema requires at least one attribute; some files have none, but accessors with data.
-  bool isEmpty() const { return extension_["attributes"].empty(); }
+  bool isEmpty() const { return compressed().empty(); }
 
   void takeOwnData() {
-    bool hasData = !primitive_.contains("indices") || hasView(primitive_["indices"]);
+    bool isWhole = !primitive_.contains("indices") || hasData(primitive_["indices"]);
     for (const auto& attribute : primitive_["attributes"].items())
-      hasData = hasData && hasView(attribute.value());
-    if (!hasData) refuse("/attributes", "is empty, and not all of the primitive's own accessors have data");
+      isWhole = isWhole && hasData(attribute.value());
+    if (!isWhole) lose("/attributes", "is empty, and not all of the primitive's own accessors have data");
     document_.diagnostics.warn(place_ + "/attributes", "is empty; the primitive's own data are taken");
   }
 
   void decode(Buffers& buffers, Worker& codecs) {
     makeRequest();
     const std::span<const uint8_t> encoded = encodedBytes(buffers);
-    takeMemory(document_, place_, 2 * request_.outputBytes);
-    std::vector<uint8_t> decoded =
-        document_.diagnostics.attempt(place_, [&] { return decodeByProcess(codecs, request_, encoded); });
+    const auto attempt = [&] {
+      takeMemory(document_, place_, 2 * request_.outputBytes);
+      return decodeByProcess(codecs, request_, encoded);
+    };
+    std::vector<uint8_t> decoded = document_.diagnostics.attemptObject(place_, [&] {
+      try {
+        return attempt();
+      } catch (const InputError&) {
+        throw;
+      } catch (const std::runtime_error&) {
+        if (!takeCounts(codecs, encoded)) throw;
+        return attempt();
+      }
+    });
     putDecoded(buffers.size());
     root_["buffers"].push_back({{"byteLength", decoded.size()}});
     buffers.push_back(std::move(decoded));
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& part, const std::string& reason) const {
-    document_.diagnostics.refuse(place_ + part, reason);
+  [[noreturn]] void lose(const std::string& part, const std::string& reason) const {
+    document_.diagnostics.lose(place_ + part, reason);
+  }
+
+  /// The attributes that the stream holds, by their ids.
+  const json& compressed() const {
+    static const json kNone = json::object();
+    return extension_.contains("attributes") ? extension_["attributes"] : kNone;
+  }
+
+  bool hasData(const json& index) const { return hasView(index) || accessorOf(index).contains("sparse"); }
+
+  /// Takes the stream's counts where the accessors have others. Returns false where they have not.
+  bool takeCounts(Worker& codecs, std::span<const uint8_t> encoded) {
+    CodecRequest question;
+    question.codec = Codec::DracoCounts;
+    question.outputBytes = sizeof(StreamCounts);
+    const std::vector<uint8_t> answer = decodeByProcess(codecs, question, encoded);
+    StreamCounts counts;
+    std::memcpy(&counts, answer.data(), std::min(answer.size(), sizeof counts));
+    if (std::max(counts.vertices, counts.indices) >= kMissIndex ||
+        (counts.vertices == request_.count && counts.indices == request_.indexCount))
+      return false;
+    request_.count = counts.vertices;
+    request_.indexCount = counts.indices;
+    request_.outputBytes = counts.indices * sizeof(uint32_t);
+    for (size_t i = 0; i < request_.attributeCount; ++i) request_.outputBytes += paddedTo4(bytesOf(i));
+    document_.diagnostics.warn(place_, "has other counts than its accessors; those of the stream are taken");
+    return true;
+  }
+
+  /// The decoded bytes of an attribute.
+  uint64_t bytesOf(size_t attribute) const {
+    const CodecAttribute& one = request_.attributes[attribute];
+    return request_.count * one.components * componentSize(one.componentType);
   }
 
   bool hasView(const json& index) const { return accessorOf(index).contains("bufferView"); }
@@ -69,56 +115,55 @@ class PrimitiveDecoder {
 
   uint64_t countOf(const json& index) const {
     const auto count = accessorOf(index)["count"].get<uint64_t>();
-    if (count == 0 || count >= kMissIndex) refuse("", "has an accessor with no or too many elements");
+    if (count >= kMissIndex) lose("", "has an accessor with too many elements");
     return count;
   }
 
   void makeRequest() {
     constexpr int kTriangles = 4;
     if (primitive_.value("mode", kTriangles) < kTriangles)
-      refuse("", "compresses triangles, which the primitive's mode has none of");
-    if (!primitive_.contains("indices")) refuse("", "has a primitive without indices");
+      lose("", "compresses triangles, which the primitive's mode has none of");
     request_.codec = Codec::Draco;
-    request_.indexCount = countOf(primitive_["indices"]);
+    request_.indexCount = primitive_.contains("indices") ? countOf(primitive_["indices"]) : 0;
     request_.outputBytes = request_.indexCount * sizeof(uint32_t);
-    for (const auto& attribute : extension_["attributes"].items())
+    for (const auto& attribute : compressed().items())
       addAttribute(attribute.key(), attribute.value().get<uint32_t>());
-    if (names_.empty()) refuse("/attributes", "has no attribute of the primitive");
+    if (names_.empty()) lose("/attributes", "has no attribute of the primitive");
   }
 
   void addAttribute(const std::string& name, uint32_t id) {
     const std::string part = "/attributes/" + escapedForPointer(name);
     if (!primitive_["attributes"].contains(name))
       return document_.diagnostics.warn(place_ + part, "is no attribute of the primitive, and ignored");
-    if (request_.attributeCount == kMostCodecAttributes) refuse("/attributes", "has too many attributes");
+    if (request_.attributeCount == kMostCodecAttributes) lose("/attributes", "has too many attributes");
     const json& index = primitive_["attributes"][name];
     const auto& type = accessorOf(index)["type"].get_ref<const std::string&>();
     const uint32_t components = type == "SCALAR"          ? 1
                                 : type.starts_with("VEC") ? uint32_t(type.back() - '0')
                                                           : 0;
-    if (components == 0) refuse(part, "has an accessor that is neither of scalars nor of vectors");
-    const uint64_t count = countOf(index);
-    if (request_.count != 0 && request_.count != count)
-      refuse(part, "has an accessor with another number of elements than the others");
-    request_.count = count;
+    if (components == 0) lose(part, "has an accessor that is neither of scalars nor of vectors");
+    if (names_.empty()) request_.count = countOf(index);
     const auto component = accessorOf(index)["componentType"].get<uint32_t>();
     request_.attributes[request_.attributeCount++] = {id, component, components};
-    request_.outputBytes += paddedTo4(count * components * componentSize(component));
+    request_.outputBytes += paddedTo4(bytesOf(request_.attributeCount - 1));
     names_.push_back(name);
   }
 
   std::span<const uint8_t> encodedBytes(const Buffers& buffers) const {
+    if (!extension_.contains("bufferView")) lose("", "\"bufferView\" is missing");
     const json& view = root_["bufferViews"][extension_["bufferView"].get<size_t>()];
-    const std::vector<uint8_t>& bytes = buffers[view["buffer"].get<size_t>()];
-    if (bytes.empty()) refuse("/bufferView", "is of a buffer without data");
-    return std::span(bytes).subspan(view.value("byteOffset", uint64_t(0)),
-                                    view["byteLength"].get<uint64_t>());
+    const auto buffer = view["buffer"].get<size_t>();
+    if (buffer >= buffers.size() || buffers[buffer].empty())
+      lose("/bufferView", "is of a buffer without data");
+    return std::span(buffers[buffer])
+        .subspan(view.value("byteOffset", uint64_t(0)), view["byteLength"].get<uint64_t>());
   }
 
   /// Adds an accessor like the given one, at those bytes of the buffer; returns its index.
-  size_t addAccessor(json accessor, size_t buffer, uint64_t offset, uint64_t length) {
+  size_t addAccessor(json accessor, uint64_t count, size_t buffer, uint64_t offset, uint64_t length) {
     root_["bufferViews"].push_back({{"buffer", buffer}, {"byteOffset", offset}, {"byteLength", length}});
     accessor["bufferView"] = root_["bufferViews"].size() - 1;
+    accessor["count"] = count;
     accessor.erase("byteOffset");
     accessor.erase("sparse");
     root_["accessors"].push_back(std::move(accessor));
@@ -130,13 +175,12 @@ class PrimitiveDecoder {
     constexpr int kTriangles = 4;
     json indices = {{"componentType", kUnsignedInt}, {"type", "SCALAR"}, {"count", request_.indexCount}};
     uint64_t offset = request_.indexCount * sizeof(uint32_t);
-    primitive_["indices"] = addAccessor(std::move(indices), buffer, 0, offset);
+    primitive_["indices"] = addAccessor(std::move(indices), request_.indexCount, buffer, 0, offset);
     primitive_["mode"] = kTriangles;
     for (size_t i = 0; i < names_.size(); ++i) {
-      const CodecAttribute& attribute = request_.attributes[i];
-      const uint64_t length = request_.count * attribute.components * componentSize(attribute.componentType);
+      const uint64_t length = bytesOf(i);
       json& index = primitive_["attributes"][names_[i]];
-      index = addAccessor(accessorOf(index), buffer, offset, length);
+      index = addAccessor(accessorOf(index), request_.count, buffer, offset, length);
       offset += paddedTo4(length);
     }
   }
@@ -152,6 +196,25 @@ class PrimitiveDecoder {
 
 }  // namespace
 
+namespace {
+
+void decompressPrimitive(json& root, json& primitive, const std::string& place, Buffers& buffers,
+                         Worker& codecs, Document& document) {
+  PrimitiveDecoder decoder(root, primitive, place, document);
+  if (decoder.isEmpty()) {
+    decoder.takeOwnData();
+  } else if (codecs.works()) {
+    decoder.decode(buffers, codecs);
+  } else if (decoder.hasFallback()) {
+    document.diagnostics.warn(place,
+                              "cannot be decoded, the uncompressed data are taken: " + codecs.whyNot());
+  } else {
+    document.diagnostics.refuse(place, std::string(kExtension) + " cannot be decoded: " + codecs.whyNot());
+  }
+}
+
+}  // namespace
+
 void decompressPrimitives(json& root, Buffers& buffers, Worker& codecs, Document& document) {
   if (!root.contains("meshes")) return;
   for (size_t m = 0; m < root["meshes"].size(); ++m) {
@@ -160,17 +223,11 @@ void decompressPrimitives(json& root, Buffers& buffers, Worker& codecs, Document
       const json::json_pointer extension(pointerTo("extensions", kExtension));
       if (!primitives[i].contains(extension)) continue;
       const std::string place = pointerTo("meshes", m, "primitives", i, "extensions", kExtension);
-      PrimitiveDecoder decoder(root, primitives[i], place, document);
-      if (decoder.isEmpty()) {
-        decoder.takeOwnData();
-      } else if (codecs.works()) {
-        decoder.decode(buffers, codecs);
-      } else if (decoder.hasFallback()) {
-        document.diagnostics.warn(place,
-                                  "cannot be decoded, the uncompressed data are taken: " + codecs.whyNot());
-      } else {
-        document.diagnostics.refuse(place,
-                                    std::string(kExtension) + " cannot be decoded: " + codecs.whyNot());
+      try {
+        decompressPrimitive(root, primitives[i], place, buffers, codecs, document);
+      } catch (const Loss& loss) {
+        document.diagnostics.warnLoss(loss.place, loss.reason, "the primitive");
+        primitives[i] = {{"attributes", json::object()}};
       }
     }
   }

@@ -63,21 +63,20 @@ void checkSizes(const CodecRequest& request, const std::string& place, const Dia
                            (request.filter == MeshoptFilter::Exponential || stride == 8 ||
                             (request.filter != MeshoptFilter::Quaternion && stride == 4)));
   if (!isStride) {
-    diagnostics.refuse(place + "/byteStride",
-                       std::to_string(stride) + " is no stride that its mode can have");
+    diagnostics.lose(place + "/byteStride", std::to_string(stride) + " is no stride that its mode can have");
   }
-  if (!fitsFilter) diagnostics.refuse(place + "/filter", "does not go with its mode or its byteStride");
-  if (request.count == 0) diagnostics.refuse(place + "/count", "is 0");
+  if (!fitsFilter) diagnostics.lose(place + "/filter", "does not go with its mode or its byteStride");
+  if (request.count == 0) diagnostics.lose(place + "/count", "is 0");
   if (request.codec == Codec::MeshoptTriangles && request.count % 3 != 0)
-    diagnostics.refuse(place + "/count", std::to_string(request.count) + " is no multiple of 3");
+    diagnostics.lose(place + "/count", std::to_string(request.count) + " is no multiple of 3");
 }
 
 CodecRequest requestOf(const json& extension, bool isKhr, uint64_t viewBytes, const std::string& place,
                        const Diagnostics& diagnostics) {
   const auto& mode = extension["mode"].get_ref<const std::string&>();
   const std::string filter = extension.value("filter", std::string("NONE"));
-  if (!codecNamed(mode)) diagnostics.refuse(place + "/mode", inQuotes(mode) + " is no mode");
-  if (!filterNamed(filter, isKhr)) diagnostics.refuse(place + "/filter", inQuotes(filter) + " is no filter");
+  if (!codecNamed(mode)) diagnostics.lose(place + "/mode", inQuotes(mode) + " is no mode");
+  if (!filterNamed(filter, isKhr)) diagnostics.lose(place + "/filter", inQuotes(filter) + " is no filter");
   CodecRequest request;
   request.codec = *codecNamed(mode);
   request.filter = *filterNamed(filter, isKhr);
@@ -87,8 +86,8 @@ CodecRequest requestOf(const json& extension, bool isKhr, uint64_t viewBytes, co
   checkSizes(request, place, diagnostics);
   // The check divides instead of multiplying, so that no count is large enough to wrap around.
   if (viewBytes % request.stride != 0 || viewBytes / request.stride != request.count) {
-    diagnostics.refuse(place + "/count", "times byteStride is not the " + std::to_string(viewBytes) +
-                                             " bytes of the buffer view");
+    diagnostics.lose(place + "/count", "times byteStride is not the " + std::to_string(viewBytes) +
+                                           " bytes of the buffer view");
   }
   return request;
 }
@@ -99,8 +98,8 @@ std::span<const uint8_t> encodedBytes(const json& extension, const Buffers& buff
   const uint64_t offset = extension.value("byteOffset", uint64_t(0));
   const auto length = extension["byteLength"].get<uint64_t>();
   if (offset > bytes.size() || length > bytes.size() - offset) {
-    diagnostics.refuse(place, std::to_string(length) + " bytes from byte " + std::to_string(offset) +
-                                  " reach past the " + std::to_string(bytes.size()) + " of its buffer");
+    diagnostics.lose(place, std::to_string(length) + " bytes from byte " + std::to_string(offset) +
+                                " reach past the " + std::to_string(bytes.size()) + " of its buffer");
   }
   return std::span(bytes).subspan(offset, length);
 }
@@ -112,31 +111,49 @@ bool isFallback(const json& buffer) {
   return extension != nullptr && extension->value("fallback", false);
 }
 
+namespace {
+
+/// Replaces a view by its decoded bytes, in a buffer of its own.
+void decompressView(json& root, size_t index, Buffers& buffers, Worker& codecs, Document& document) {
+  json& view = root["bufferViews"][index];
+  const auto [name, extension] = meshoptOf(view);
+  const std::string place = pointerTo("bufferViews", index, "extensions", name);
+  Diagnostics& diagnostics = document.diagnostics;
+  const CodecRequest request =
+      requestOf(*extension, name == kKhr, view["byteLength"].get<uint64_t>(), place, diagnostics);
+  const std::span<const uint8_t> encoded = encodedBytes(*extension, buffers, place, diagnostics);
+  takeMemory(document, place, 2 * request.outputBytes);
+  std::vector<uint8_t> decoded =
+      diagnostics.attemptObject(place, [&] { return decodeByProcess(codecs, request, encoded); });
+  view["buffer"] = buffers.size();
+  view["byteOffset"] = 0;
+  root["buffers"].push_back({{"byteLength", decoded.size()}});
+  buffers.push_back(std::move(decoded));
+}
+
+}  // namespace
+
 void decompressViews(json& root, Buffers& buffers, Worker& codecs, Document& document) {
   Diagnostics& diagnostics = document.diagnostics;
   for (size_t i = 0; i < root["bufferViews"].size(); ++i) {
     json& view = root["bufferViews"][i];
     const auto [name, extension] = meshoptOf(view);
-    if (extension == nullptr) continue;
+    if (extension == nullptr || view["byteLength"] == 0) continue;
     const std::string place = pointerTo("bufferViews", i, "extensions", name);
     if (name == kKhr && viewExtension(view, kExt) != nullptr)
-      diagnostics.refuse(place, "excludes " + std::string(kExt) + ", which stands beside it");
+      diagnostics.warn(place, "stands beside " + std::string(kExt) + ", which is ignored");
     if (!codecs.works()) {
       if (buffers[view["buffer"].get<size_t>()].empty())
         diagnostics.refuse(place, std::string(name) + " cannot be decoded: " + codecs.whyNot());
       diagnostics.warn(place, "cannot be decoded, the uncompressed data are taken: " + codecs.whyNot());
       continue;
     }
-    const CodecRequest request =
-        requestOf(*extension, name == kKhr, view["byteLength"].get<uint64_t>(), place, diagnostics);
-    const std::span<const uint8_t> encoded = encodedBytes(*extension, buffers, place, diagnostics);
-    takeMemory(document, place, 2 * request.outputBytes);
-    std::vector<uint8_t> decoded =
-        diagnostics.attempt(place, [&] { return decodeByProcess(codecs, request, encoded); });
-    view["buffer"] = buffers.size();
-    view["byteOffset"] = 0;
-    root["buffers"].push_back({{"byteLength", decoded.size()}});
-    buffers.push_back(std::move(decoded));
+    try {
+      decompressView(root, i, buffers, codecs, document);
+    } catch (const Loss& loss) {
+      diagnostics.warnLoss(loss.place, loss.reason, "the buffer view");
+      view["byteLength"] = 0;
+    }
   }
 }
 

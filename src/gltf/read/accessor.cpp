@@ -74,24 +74,26 @@ void forEachComponent(const Elements& elements, const Store& store) {
 /// Points into a buffer view after checking that all elements lie inside it.
 Elements checkedRange(const Document& document, const std::string& place, int view, size_t offset,
                       Elements elements, bool useStride) {
-  const tinygltf::BufferView& bufferView = document.model.bufferViews.at(size_t(view));
   const size_t size = componentSize(unsigned(elements.componentType)) * size_t(elements.components);
-  const size_t declared = useStride ? bufferView.byteStride : 0;
+  const size_t declared =
+      useStride && size_t(view) < document.strides.size() ? document.strides[size_t(view)] : 0;
   elements.stride = declared != 0 ? declared : size;
   const std::span<const uint8_t> bytes = bytesOf(document, view);
   const size_t length = bytes.size();
+  elements.data = bytes.data();
+  if (elements.count == 0) return elements;
   if (elements.stride < size) {
-    document.diagnostics.refuse(place, "elements of " + std::to_string(size) + " bytes lie " +
-                                           std::to_string(elements.stride) + " bytes apart");
+    document.diagnostics.lose(place, "elements of " + std::to_string(size) + " bytes lie " +
+                                         std::to_string(elements.stride) + " bytes apart");
   }
   // The check divides instead of multiplying, so that no count is large enough to wrap around.
   if (offset > length || size > length - offset ||
       elements.count - 1 > (length - offset - size) / elements.stride) {
-    document.diagnostics.refuse(place, std::to_string(elements.count) + " elements reach past the " +
-                                           std::to_string(length) + " bytes of buffer view " +
-                                           std::to_string(view));
+    document.diagnostics.lose(place, std::to_string(elements.count) + " elements reach past the " +
+                                         std::to_string(length) + " bytes of buffer view " +
+                                         std::to_string(view));
   }
-  elements.data = bytes.data() + offset;
+  elements.data += offset;
   return elements;
 }
 
@@ -103,11 +105,9 @@ Elements elementsOf(const Document& document, int index) {
   elements.componentType = accessor.componentType;
   elements.components = tinygltf::GetNumComponentsInType(uint32_t(accessor.type));
   elements.normalized = accessor.normalized;
-  if (accessor.count == 0)
-    document.diagnostics.refuse(place, "has no elements, or a type that glTF does not know");
   if (!isComponentType(unsigned(accessor.componentType))) {
-    document.diagnostics.refuse(place + "/componentType",
-                                std::to_string(accessor.componentType) + " is not a component type");
+    document.diagnostics.lose(place + "/componentType",
+                              std::to_string(accessor.componentType) + " is not a component type");
   }
   if (accessor.bufferView >= 0) {
     return checkedRange(document, place, accessor.bufferView, accessor.byteOffset, elements, true);
@@ -115,7 +115,7 @@ Elements elementsOf(const Document& document, int index) {
   // Zeros take no room in the file, so only this limits the memory that they take.
   constexpr size_t kMostZeros = size_t(1) << 26;
   if (accessor.count > kMostZeros) {
-    document.diagnostics.refuse(place, std::to_string(accessor.count) + " elements without a buffer view");
+    document.diagnostics.lose(place, std::to_string(accessor.count) + " elements without a buffer view");
   }
   return elements;
 }
@@ -142,16 +142,16 @@ bool isIndexType(int componentType) {
 SparseElements sparseElementsOf(const Document& document, int index, const Elements& base) {
   const tinygltf::Accessor& accessor = document.model.accessors.at(size_t(index));
   SparseElements result;
-  if (!accessor.sparse.isSparse) return result;
+  if (!accessor.sparse.isSparse || accessor.sparse.count == 0) return result;
   const std::string place = pointerTo("accessors", index, "sparse");
   const auto& sparse = accessor.sparse;
-  if (sparse.count <= 0 || size_t(sparse.count) > base.count) {
-    document.diagnostics.refuse(
-        place + "/count", std::to_string(sparse.count) + " is not from 1 to " + std::to_string(base.count));
+  if (sparse.count < 0 || size_t(sparse.count) > base.count) {
+    document.diagnostics.lose(
+        place + "/count", std::to_string(sparse.count) + " is not from 0 to " + std::to_string(base.count));
   }
   if (!isIndexType(sparse.indices.componentType)) {
-    document.diagnostics.refuse(place + "/indices/componentType",
-                                std::to_string(sparse.indices.componentType) + " is not an unsigned integer");
+    document.diagnostics.lose(place + "/indices/componentType",
+                              std::to_string(sparse.indices.componentType) + " is not an unsigned integer");
   }
   Elements indices;
   indices.count = size_t(sparse.count);
@@ -162,9 +162,9 @@ SparseElements sparseElementsOf(const Document& document, int index, const Eleme
   forEachComponent(indices, [&](size_t i, int, auto value) {
     result.indices[i] = indexOf(value);
     if (result.indices[i] >= base.count) {
-      document.diagnostics.refuse(place + "/indices", "index " + std::to_string(result.indices[i]) +
-                                                          " is past the " + std::to_string(base.count) +
-                                                          " elements");
+      document.diagnostics.lose(place + "/indices", "index " + std::to_string(result.indices[i]) +
+                                                        " is past the " + std::to_string(base.count) +
+                                                        " elements");
     }
   });
   result.values = base;
@@ -174,19 +174,24 @@ SparseElements sparseElementsOf(const Document& document, int index, const Eleme
   return result;
 }
 
-/// Refuses formats that a vertex attribute may not have: integers may be unscaled only with
-/// KHR_mesh_quantization.
-void checkAttribute(const Document& document, const Elements& elements, const std::string& place) {
+/// Takes integers for fractions where they are meant so, and warns of those that the file may not have.
+void settleIntegers(Document& document, Integers integers, const std::string& place, Elements& elements) {
   if (elements.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT || elements.normalized) return;
+  if (integers == Integers::Fractions) {
+    elements.normalized = true;
+    return document.diagnostics.warn(place,
+                                     "holds integers that are not normalized, and read as if they were");
+  }
   const auto& used = document.model.extensionsUsed;
-  if (std::find(used.begin(), used.end(), "KHR_mesh_quantization") != used.end()) return;
-  document.diagnostics.refuse(place, "integers that are not normalized need KHR_mesh_quantization");
+  if (std::find(used.begin(), used.end(), "KHR_mesh_quantization") == used.end())
+    document.diagnostics.warn(place,
+                              "holds integers, as KHR_mesh_quantization allows; they are read as they are");
 }
 
 template <typename Vector>
-std::vector<Vector> decodeAttribute(const Document& document, int accessor, const Elements& elements,
+std::vector<Vector> decodeAttribute(Document& document, int accessor, Elements elements, Integers integers,
                                     const std::string& place, const Vector& base) {
-  checkAttribute(document, elements, place);
+  settleIntegers(document, integers, place, elements);
   const SparseElements sparse = sparseElementsOf(document, accessor, elements);
   std::vector<Vector> result(elements.count, base);
   if (elements.data != nullptr) {
@@ -204,52 +209,33 @@ std::vector<Vector> decodeAttribute(const Document& document, int accessor, cons
 
 }  // namespace
 
-void checkAccessors(const Document& document) {
-  const auto hasData = [&document](int index) {
-    if (index < 0) return true;
-    const tinygltf::BufferView& view = document.model.bufferViews.at(size_t(index));
-    const size_t size = document.model.buffers.at(size_t(view.buffer)).data.size();
-    return view.byteOffset <= size && view.byteLength <= size - view.byteOffset;
-  };
-  for (size_t i = 0; i < document.model.accessors.size(); ++i) {
-    const tinygltf::Accessor& accessor = document.model.accessors[i];
-    if (accessor.count == 0 || !hasData(accessor.bufferView)) continue;
-    const Elements elements = elementsOf(document, int(i));
-    if (!accessor.sparse.isSparse) continue;
-    if (hasData(accessor.sparse.indices.bufferView) && hasData(accessor.sparse.values.bufferView))
-      sparseElementsOf(document, int(i), elements);
-  }
-}
-
-size_t accessorCount(const Document& document, int accessor) {
-  return document.model.accessors.at(size_t(accessor)).count;
-}
+size_t accessorCount(const Document& document, int accessor) { return elementsOf(document, accessor).count; }
 
 template <glm::length_t components>
-std::vector<glm::vec<components, float>> readVectors(const Document& document, int accessor,
-                                                     const std::string& place) {
+std::vector<glm::vec<components, float>> readVectors(Document& document, int accessor,
+                                                     const std::string& place, Integers integers) {
   const Elements elements = elementsOf(document, accessor);
   if (document.model.accessors.at(size_t(accessor)).type !=
       components) {  // TINYGLTF_TYPE_VEC2 is 2, and so on
-    document.diagnostics.refuse(
+    document.diagnostics.lose(
         place, "accessor " + std::to_string(accessor) + " is not of type VEC" + std::to_string(components));
   }
-  return decodeAttribute(document, accessor, elements, place, glm::vec<components, float>(0.0f));
+  return decodeAttribute(document, accessor, elements, integers, place, glm::vec<components, float>(0.0f));
 }
 
-template std::vector<glm::vec2> readVectors<2>(const Document&, int, const std::string&);
-template std::vector<glm::vec3> readVectors<3>(const Document&, int, const std::string&);
-template std::vector<glm::vec4> readVectors<4>(const Document&, int, const std::string&);
+template std::vector<glm::vec2> readVectors<2>(Document&, int, const std::string&, Integers);
+template std::vector<glm::vec3> readVectors<3>(Document&, int, const std::string&, Integers);
+template std::vector<glm::vec4> readVectors<4>(Document&, int, const std::string&, Integers);
 
-std::vector<glm::vec4> readColors(const Document& document, int accessor, const std::string& place) {
+std::vector<glm::vec4> readColors(Document& document, int accessor, const std::string& place) {
   const Elements elements = elementsOf(document, accessor);
   const int type = document.model.accessors.at(size_t(accessor)).type;
   if (type != TINYGLTF_TYPE_VEC3 && type != TINYGLTF_TYPE_VEC4) {
-    document.diagnostics.refuse(place,
-                                "accessor " + std::to_string(accessor) + " is not of type VEC3 or VEC4");
+    document.diagnostics.lose(place, "accessor " + std::to_string(accessor) + " is not of type VEC3 or VEC4");
   }
   const float alpha = type == TINYGLTF_TYPE_VEC3 ? 1.0f : 0.0f;
-  return decodeAttribute(document, accessor, elements, place, glm::vec4(0.0f, 0.0f, 0.0f, alpha));
+  return decodeAttribute(document, accessor, elements, Integers::Fractions, place,
+                         glm::vec4(0.0f, 0.0f, 0.0f, alpha));
 }
 
 std::vector<glm::uvec4> readJoints(const Document& document, int accessor, const std::string& place) {
@@ -257,8 +243,8 @@ std::vector<glm::uvec4> readJoints(const Document& document, int accessor, const
   if (document.model.accessors.at(size_t(accessor)).type != TINYGLTF_TYPE_VEC4 ||
       !isIndexType(elements.componentType) ||
       elements.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
-    document.diagnostics.refuse(place, "accessor " + std::to_string(accessor) +
-                                           " does not hold unsigned bytes or shorts of type VEC4");
+    document.diagnostics.lose(place, "accessor " + std::to_string(accessor) +
+                                         " does not hold unsigned bytes or shorts of type VEC4");
   }
   const SparseElements sparse = sparseElementsOf(document, accessor, elements);
   std::vector<glm::uvec4> result(elements.count, glm::uvec4(0));
@@ -271,31 +257,30 @@ std::vector<glm::uvec4> readJoints(const Document& document, int accessor, const
   return result;
 }
 
-std::vector<glm::dmat4> readMatrices(const Document& document, int accessor, const std::string& place) {
+std::vector<glm::dmat4> readMatrices(Document& document, int accessor, const std::string& place) {
   const tinygltf::Accessor& source = document.model.accessors.at(size_t(accessor));
   if (source.type != TINYGLTF_TYPE_MAT4 || source.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
-    document.diagnostics.refuse(
-        place, "accessor " + std::to_string(accessor) + " does not hold floats of type MAT4");
+    document.diagnostics.lose(place,
+                              "accessor " + std::to_string(accessor) + " does not hold floats of type MAT4");
   }
   const std::vector<float> numbers = readComponents(document, accessor, 16, place);
   std::vector<glm::dmat4> result(numbers.size() / 16);
   for (size_t i = 0; i < numbers.size(); ++i) {
     if (!std::isfinite(numbers[i]))
-      document.diagnostics.refuse(place, "matrix " + std::to_string(i / 16) + " is not finite");
+      document.diagnostics.lose(place, "matrix " + std::to_string(i / 16) + " is not finite");
     result[i / 16][int(i % 16 / 4)][int(i % 4)] = double(numbers[i]);
   }
   return result;
 }
 
-std::vector<float> readComponents(const Document& document, int accessor, int components,
-                                  const std::string& place, bool wholeNumbers) {
-  const Elements elements = elementsOf(document, accessor);
+std::vector<float> readComponents(Document& document, int accessor, int components, const std::string& place,
+                                  Integers integers) {
+  Elements elements = elementsOf(document, accessor);
   if (elements.components != components) {
-    document.diagnostics.refuse(place, "accessor " + std::to_string(accessor) + " does not have " +
-                                           std::to_string(components) + " components an element");
+    document.diagnostics.lose(place, "accessor " + std::to_string(accessor) + " does not have " +
+                                         std::to_string(components) + " components an element");
   }
-  if (elements.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !elements.normalized && !wholeNumbers)
-    document.diagnostics.refuse(place, "holds integers that are not normalized");
+  settleIntegers(document, integers, place, elements);
   const SparseElements sparse = sparseElementsOf(document, accessor, elements);
   const auto width = size_t(components);
   std::vector<float> result(elements.count * width, 0.0f);
@@ -317,7 +302,7 @@ std::vector<uint32_t> readIndices(const Document& document, int accessor, size_t
   const Elements elements = elementsOf(document, accessor);
   if (document.model.accessors.at(size_t(accessor)).type != TINYGLTF_TYPE_SCALAR ||
       !isIndexType(elements.componentType)) {
-    document.diagnostics.refuse(
+    document.diagnostics.lose(
         place, "accessor " + std::to_string(accessor) + " does not hold unsigned integers of type SCALAR");
   }
   const SparseElements sparse = sparseElementsOf(document, accessor, elements);
@@ -329,10 +314,11 @@ std::vector<uint32_t> readIndices(const Document& document, int accessor, size_t
     forEachComponent(sparse.values,
                      [&](size_t i, int, auto value) { result[sparse.indices[i]] = indexOf(value); });
   }
+  if (result.empty()) return result;
   const uint32_t largest = *std::max_element(result.begin(), result.end());
   if (largest >= vertexCount) {
-    document.diagnostics.refuse(place, "index " + std::to_string(largest) + " is past the " +
-                                           std::to_string(vertexCount) + " vertices");
+    document.diagnostics.lose(place, "index " + std::to_string(largest) + " is past the " +
+                                         std::to_string(vertexCount) + " vertices");
   }
   return result;
 }

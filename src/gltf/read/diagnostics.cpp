@@ -32,12 +32,27 @@ std::string Diagnostics::line(std::string_view place, std::string_view reason) c
   return withoutControls(text);
 }
 
-void Diagnostics::refuse(std::string_view place, std::string_view reason) const {
+void Diagnostics::throwIfSet(std::string_view place, std::string_view reason) const {
   const std::string inside = std::string(place) + "/";
   const auto isInside = [&](const std::string& set) { return (set + "/").starts_with(inside); };
   if (!place.empty() && std::ranges::any_of(set_, isInside))
     throw UsageError(withoutControls("--set: " + std::string(place) + ": " + std::string(reason)));
+}
+
+void Diagnostics::refuse(std::string_view place, std::string_view reason) const {
+  throwIfSet(place, reason);
   throw InputError(line(place, reason));
+}
+
+void Diagnostics::lose(std::string_view place, std::string_view reason) const {
+  throwIfSet(place, reason);
+  throw Loss(line(place, reason), place, reason);
+}
+
+void Diagnostics::warnLoss(std::string_view place, std::string_view reason, const std::string& object,
+                           bool isUsed) {
+  if (isUsed && !firstLoss_) firstLoss_ = line(place, reason);
+  warn(place, std::string(reason) + "; " + object + " is left out");
 }
 
 void Diagnostics::warn(std::string_view place, std::string_view reason, size_t count) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -35,7 +36,19 @@ std::string pointerTo(const Parts&... parts) {
   return pointer;
 }
 
+/// The reason why an object of the file cannot be read. It costs that object alone: keepRest() catches it.
+struct Loss : InputError {
+  Loss(const std::string& line, std::string_view lostPlace, std::string_view lostReason)
+      : InputError(line), place(lostPlace), reason(lostReason) {}
+
+  std::string place, reason;
+};
+
 /// Names the file in every message, and collects the warnings. Control characters become question marks.
+/// The rule of what costs what: what has one obvious reading is read so, with a warn(). What has none costs
+/// its own object: lose(), inside a keepRest(). The file is refused where a reference is broken in something
+/// that is used, or where memory or another folder is at stake, and at the end if losses leave nothing to
+/// draw. What nothing uses is never a reason.
 class Diagnostics {
  public:
   explicit Diagnostics(std::string file) : file_(std::move(file)) {}
@@ -47,6 +60,27 @@ class Diagnostics {
   /// REASON" where the user has set a number there.
   [[noreturn]] void refuse(std::string_view place, std::string_view reason) const;
 
+  /// Throws a Loss, or UsageError as refuse() does.
+  [[noreturn]] void lose(std::string_view place, std::string_view reason) const;
+
+  /// Runs an action for an object, such as "the primitive". Returns nothing, with a warning, if it is lost.
+  template <typename Action>
+  auto keepRest(const char* object, const Action& action) -> std::optional<decltype(action())> {
+    try {
+      return action();
+    } catch (const Loss& loss) {
+      warnLoss(loss.place, loss.reason, object);
+      return std::nullopt;
+    }
+  }
+
+  /// Warns that an object is left out for that reason. firstLoss() does not count one that nothing uses.
+  void warnLoss(std::string_view place, std::string_view reason, const std::string& object,
+                bool isUsed = true);
+
+  /// The message of the first object that was lost, which refuses a file of which nothing is left.
+  const std::optional<std::string>& firstLoss() const { return firstLoss_; }
+
   /// Runs an action; a std::runtime_error of it is the reason to refuse that place.
   template <typename Action>
   auto attempt(std::string_view place, const Action& action) const {
@@ -56,6 +90,20 @@ class Diagnostics {
       throw;
     } catch (const std::runtime_error& error) {
       refuse(place, error.what());
+    }
+  }
+
+  /// Does the same, and the reason loses that place, unless it is AtStake.
+  template <typename Action>
+  auto attemptObject(std::string_view place, const Action& action) const {
+    try {
+      return action();
+    } catch (const InputError&) {
+      throw;
+    } catch (const AtStake& error) {
+      refuse(place, error.what());
+    } catch (const std::runtime_error& error) {
+      lose(place, error.what());
     }
   }
 
@@ -76,11 +124,13 @@ class Diagnostics {
     size_t count = 0;
   };
   std::string line(std::string_view place, std::string_view reason) const;
+  void throwIfSet(std::string_view place, std::string_view reason) const;
 
   std::string file_;
   std::vector<std::string> set_;  ///< places of the user's numbers
   std::vector<Warning> warnings_;
   std::unordered_map<std::string, size_t> warningOf_;  ///< index of a warning by its reason
+  std::optional<std::string> firstLoss_;
 };
 
 }  // namespace fragtrace

@@ -38,6 +38,7 @@ struct Document {
   FileAccess access;
   GltfProgress progress{};  ///< reports this load; a document that is kept has none
   std::vector<ImageSource> images;
+  std::vector<size_t> strides;  ///< bytes between elements by buffer view; 0: they are packed
   std::vector<Skin> skins;
   std::vector<std::string> sceneNames, animationNames, materialVariants;
   std::vector<std::optional<double>> animationSeconds;  ///< as in Scene
@@ -51,7 +52,7 @@ struct Document {
   MemoryBudget memory;         ///< memory that loading may still take
 };
 
-/// The bytes of a buffer view. Throws InputError if its buffer has none, as a buffer without URI may.
+/// The bytes of a buffer view. Throws a Loss if its buffer has none, as a buffer without URI may.
 std::span<const uint8_t> bytesOf(const Document& document, int bufferView);
 
 /// Counts memory that `place` asks for. Throws InputError if it is too much.

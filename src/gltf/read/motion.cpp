@@ -37,11 +37,12 @@ std::string targetOf(const json& target) {
 Channel channelOf(const json& channel, const json& samplers, const std::string& animation,
                   const std::string& place) {
   const auto index = channel["sampler"].get<size_t>();
-  const json& sampler = samplers[index];
   Channel result;
   result.place = place;
   result.target = targetOf(channel["target"]);
   result.sampler = animation + "/samplers/" + std::to_string(index);
+  if (index >= samplers.size()) return result;
+  const json& sampler = samplers[index];
   result.interpolation = sampler.value("interpolation", std::string("LINEAR"));
   result.input = sampler["input"].get<int>();
   result.output = sampler["output"].get<int>();

@@ -26,7 +26,7 @@ struct Channel {
   std::string target;   ///< JSON pointer of the numbers that it drives; empty: none that we know
   std::string sampler;  ///< JSON pointer
   std::string interpolation;
-  int input = -1;
+  int input = -1;  ///< none: the sampler does not exist
   int output = -1;
 };
 
@@ -38,10 +38,6 @@ struct Animation {
 /// Takes the skins out of a document that has passed the schema. The document keeps none.
 std::vector<Skin> takeSkins(nlohmann::json& root);
 std::vector<Animation> takeAnimations(nlohmann::json& root);
-
-/// Warns about violations of glTF's rules for skins, animations, morph weights and variants, and refuses
-/// samplers that do not exist.
-void checkMotion(const nlohmann::json& root, Diagnostics& diagnostics);
 
 /// The names of an array's elements, "" where one has none.
 std::vector<std::string> namesOf(const nlohmann::json& array);

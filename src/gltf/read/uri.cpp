@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "gltf/read/diagnostics.h"
 #include "image/limits.h"
 
@@ -22,6 +23,13 @@ int hexValue(char c) {
   if (c >= 'a' && c <= 'f') return c - 'a' + 10;
   if (c >= 'A' && c <= 'F') return c - 'A' + 10;
   return -1;
+}
+
+constexpr std::string_view kWhiteSpace = " \t\n\r\f";
+
+/// What is no character of base64 and has an obvious meaning: white space, and escapes of what is base64.
+bool isBase64Escaped(std::string_view text) {
+  return text.find('%') != text.npos || text.find_first_of(kWhiteSpace) != text.npos;
 }
 
 /// RFC 4648 base64 with or without padding. Throws at the first character that does not belong.
@@ -61,9 +69,12 @@ std::vector<uint8_t> decodeDataUri(std::string_view uri, MemoryBudget memory) {
     throw std::runtime_error("the data URI has an empty parameter");
   const std::string_view payload = uri.substr(comma + 1);
   memory.take(payload.size());
-  if (uri.substr(0, comma).ends_with(";base64")) return decodeBase64(payload);
-  const std::string text = percentDecoded(payload);
-  return {text.begin(), text.end()};
+  const bool isBase64 = uri.substr(0, comma).ends_with(";base64");
+  if (isBase64 && !isBase64Escaped(payload)) return decodeBase64(payload);
+  std::string text = percentDecoded(payload);
+  if (!isBase64) return {text.begin(), text.end()};
+  std::erase_if(text, [](char c) { return kWhiteSpace.find(c) != kWhiteSpace.npos; });
+  return decodeBase64(text);
 }
 
 /// RFC 3986, 3.1: a letter, then letters, digits, + - and . up to a colon.
@@ -83,6 +94,19 @@ bool leadsOut(const std::filesystem::path& path) {
   return normal.is_absolute() || (!normal.empty() && *normal.begin() == "..");
 }
 
+/// Returns true if the name is read with slashes for its backslashes. A name that leads out is not looked
+/// for.
+bool isBackslashed(const FileAccess& access, const std::string& name) {
+  std::error_code error;
+  return name.find('\\') != name.npos &&
+         ((!access.allowExternal && leadsOut(name)) || !std::filesystem::exists(access.folder / name, error));
+}
+
+std::string withSlashes(std::string name) {
+  std::ranges::replace(name, '\\', '/');
+  return name;
+}
+
 /// True when the open file lies in the folder or below, symbolic links followed.
 bool isBelow(int file, const std::filesystem::path& folder) {
   std::error_code error;
@@ -97,15 +121,12 @@ bool isBelow(int file, const std::filesystem::path& folder) {
 /// Owns the descriptor until it is read.
 std::vector<uint8_t> readRegularFile(int file, const FileAccess& access, const MemoryBudget& memory) {
   struct stat status {};
-  std::string reason;
-  if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) {
-    reason = "is not a regular file";
-  } else if (!access.allowExternal && !isBelow(file, access.folder)) {
-    reason = "is a link out of the scene's folder (--allow-external-files reads it)";
-  }
-  if (reason.empty()) return readOpenFile(file, memory, {}, access.progress);
+  const bool isOutside = !access.allowExternal && !isBelow(file, access.folder);
+  const bool isRegular = ::fstat(file, &status) == 0 && S_ISREG(status.st_mode);
+  if (!isOutside && isRegular) return readOpenFile(file, memory, {}, access.progress);
   ::close(file);
-  throw std::runtime_error(reason);
+  if (isOutside) throw AtStake("is a link out of the scene's folder (--allow-external-files reads it)");
+  throw std::runtime_error("is not a regular file");
 }
 
 /// "; wood.png lies there" where a file of the folder has the same name except for the case of its letters;
@@ -143,31 +164,61 @@ std::string_view mediaTypeOf(std::string_view dataUri) {
 }
 
 std::filesystem::path pathOfUri(const FileAccess& access, std::string_view uri) {
-  return access.folder / percentDecoded(uri);
+  const std::string decoded = percentDecoded(uri);
+  return access.folder / (isBackslashed(access, decoded) ? withSlashes(decoded) : decoded);
+}
+
+std::string oddityOf(const FileAccess& access, std::string_view uri) {
+  if (!isDataUri(uri))
+    return isBackslashed(access, percentDecoded(uri)) ? "has backslashes, which are read as slashes" : "";
+  const size_t comma = std::min(uri.find(','), uri.size());
+  const bool isEscaped = uri.substr(0, comma).ends_with(";base64") && isBase64Escaped(uri.substr(comma));
+  return isEscaped ? "has base64 with escapes or white space, which is read without them" : "";
+}
+
+bool isMissing(const FileAccess& access, std::string_view uri) {
+  const std::string decoded = percentDecoded(uri);
+  if (isDataUri(uri) || decoded.empty() || hasScheme(uri) ||
+      (!access.allowExternal && leadsOut(withSlashes(decoded))))
+    return false;
+  std::error_code error;
+  return !std::filesystem::exists(pathOfUri(access, uri), error);
+}
+
+std::string alsoMissing(const FileAccess& access, const std::vector<std::string>& uris,
+                        std::string_view one) {
+  std::vector<std::string> names;
+  for (const std::string& uri : uris) {
+    if (uri != one && isMissing(access, uri) && std::ranges::find(names, uri) == names.end())
+      names.push_back(uri);
+  }
+  return names.empty() ? "" : "; also missing: " + joined(names);
 }
 
 std::vector<uint8_t> readUri(const FileAccess& access, std::string_view uri, const MemoryBudget& memory) {
   if (isDataUri(uri)) return decodeDataUri(uri, memory);
   const std::string decoded = percentDecoded(uri);
-  if (decoded.empty() || hasScheme(uri) || decoded.find('\0') != std::string::npos)
-    throw std::runtime_error("the URI " + inQuotes(uri) + " is neither a data URI nor a relative path");
-  if (decoded.find('\\') != std::string::npos && !std::filesystem::exists(pathOfUri(access, uri)))
-    throw std::runtime_error("the URI " + inQuotes(uri) + " has a backslash, where glTF has /");
-  if (!access.allowExternal && leadsOut(decoded)) {
-    throw std::runtime_error("the URI " + inQuotes(uri) +
-                             " leads out of the scene's folder (--allow-external-files reads it)");
+  const std::string isNone = "the URI " + inQuotes(uri) + " is neither a data URI nor a relative path";
+  if (hasScheme(uri)) throw AtStake(isNone);
+  if (decoded.empty() || decoded.find('\0') != std::string::npos) throw std::runtime_error(isNone);
+  const bool isOutside = leadsOut(isBackslashed(access, decoded) ? withSlashes(decoded) : decoded);
+  if (!access.allowExternal && isOutside) {
+    throw AtStake("the URI " + inQuotes(uri) +
+                  " leads out of the scene's folder (--allow-external-files reads it)");
   }
   const std::filesystem::path path = pathOfUri(access, uri);
+  // A data URI whose first letters are wrong is such a name, too.
+  constexpr size_t kLongestName = 512;
+  const std::string name = path.string().size() <= kLongestName ? path.string() : inQuotes(uri);
   // Opening a pipe to which nobody writes would wait without end.
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   try {
     if (file < 0) throw std::runtime_error("cannot be opened: " + systemReason(errno) + likeNamed(path));
     return readRegularFile(file, access, memory);
+  } catch (const AtStake& error) {
+    throw AtStake(name + " " + error.what());
   } catch (const std::runtime_error& error) {
-    // A data URI whose first letters are wrong is such a name, too.
-    constexpr size_t kLongestName = 512;
-    const std::string name = path.string();
-    throw std::runtime_error((name.size() <= kLongestName ? name : inQuotes(uri)) + " " + error.what());
+    throw std::runtime_error(name + " " + error.what());
   }
 }
 

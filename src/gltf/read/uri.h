@@ -27,12 +27,22 @@ bool isDataUri(std::string_view uri);
 /// The media type of a data URI, such as "image/png"; empty if it has none.
 std::string_view mediaTypeOf(std::string_view dataUri);
 
-/// The file that a relative URI names.
+/// The file that a relative URI names. Backslashes, escaped or not, are slashes where no file of that name
+/// exists.
 std::filesystem::path pathOfUri(const FileAccess& access, std::string_view uri);
 
+/// What is odd about a URI and has an obvious reading, and that reading; empty: nothing.
+std::string oddityOf(const FileAccess& access, std::string_view uri);
+
+/// Returns true if it is a relative URI, within the folder, to a file that is not there.
+bool isMissing(const FileAccess& access, std::string_view uri);
+
+/// The other ones of these URIs that are missing, as the end of a message about one; empty: none.
+std::string alsoMissing(const FileAccess& access, const std::vector<std::string>& uris, std::string_view one);
+
 /// The bytes, at most what is left of `memory`, that a data URI holds or that a relative URI names. Throws
-/// std::runtime_error with the reason: no such file, not a regular file, out of the folder, a scheme, broken
-/// base64.
+/// std::runtime_error with the reason: no such file, not a regular file, broken base64; AtStake for what lies
+/// out of the folder or has a scheme, and for memory.
 std::vector<uint8_t> readUri(const FileAccess& access, std::string_view uri, const MemoryBudget& memory);
 
 }  // namespace fragtrace

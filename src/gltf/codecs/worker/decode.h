@@ -13,7 +13,8 @@ enum class Codec : uint32_t {
   MeshoptVertices,   ///< EXT_ and KHR_meshopt_compression, mode ATTRIBUTES
   MeshoptTriangles,  ///< TRIANGLES
   MeshoptIndices,    ///< INDICES
-  Draco              ///< KHR_draco_mesh_compression
+  Draco,             ///< KHR_draco_mesh_compression
+  DracoCounts        ///< the counts of its stream
 };
 enum class MeshoptFilter : uint32_t { None, Octahedral, Quaternion, Exponential, Color };
 
@@ -24,6 +25,12 @@ struct CodecAttribute {
   uint32_t components = 0;
 };
 inline constexpr size_t kMostCodecAttributes = 32;
+
+/// The output of DracoCounts.
+struct StreamCounts {
+  uint64_t vertices = 0;
+  uint64_t indices = 0;
+};
 
 /// Draco's output: indices of 32 bits, three per triangle, then one attribute after the other, each from the
 /// next multiple of four bytes on.
@@ -40,6 +47,7 @@ struct CodecRequest {
 
 /// Decode into `output`, which they fill. Throw std::runtime_error if the bytes are not those of the request.
 void decodeDraco(const CodecRequest& request, std::span<const uint8_t> input, std::span<uint8_t> output);
+void countDraco(std::span<const uint8_t> input, std::span<uint8_t> output);
 void decodeMeshopt(const CodecRequest& request, std::span<const uint8_t> input, std::span<uint8_t> output);
 
 }  // namespace fragtrace

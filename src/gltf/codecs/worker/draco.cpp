@@ -2,8 +2,10 @@
 #include <draco/compression/decode.h>
 
 #include <cstring>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "gltf/codecs/worker/decode.h"
 
@@ -53,15 +55,27 @@ size_t writeAttribute(const draco::Mesh& mesh, const CodecAttribute& wanted, std
   }
 }
 
-}  // namespace
-
-void decodeDraco(const CodecRequest& request, std::span<const uint8_t> input, std::span<uint8_t> output) {
+std::unique_ptr<draco::Mesh> meshOf(std::span<const uint8_t> input) {
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(input.data()), input.size());
   draco::Decoder decoder;
-  const auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
+  auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
   expect(decoded.ok(), "cannot be decoded: " + decoded.status().error_msg_string());
-  const draco::Mesh& mesh = *decoded.value();
+  return std::move(decoded).value();
+}
+
+}  // namespace
+
+void countDraco(std::span<const uint8_t> input, std::span<uint8_t> output) {
+  const std::unique_ptr<draco::Mesh> mesh = meshOf(input);
+  const StreamCounts counts{mesh->num_points(), uint64_t(mesh->num_faces()) * 3};
+  expect(output.size() == sizeof counts, "has no room for its counts");
+  std::memcpy(output.data(), &counts, sizeof counts);
+}
+
+void decodeDraco(const CodecRequest& request, std::span<const uint8_t> input, std::span<uint8_t> output) {
+  const std::unique_ptr<draco::Mesh> decoded = meshOf(input);
+  const draco::Mesh& mesh = *decoded;
   expect(mesh.num_points() == request.count, "has " + std::to_string(mesh.num_points()) + " vertices, not " +
                                                  std::to_string(request.count) + " as its accessors");
   expect(uint64_t(mesh.num_faces()) * 3 == request.indexCount,

@@ -10,8 +10,12 @@ namespace fragtrace {
 extern "C" void fragtraceWork(std::span<const uint8_t> input, WorkOutput& output) {
   if (input.empty()) return;
   const auto request = takeMessage<CodecRequest>(input);
-  request.codec == Codec::Draco ? decodeDraco(request, input, output.room)
-                                : decodeMeshopt(request, input, output.room);
+  if (request.codec == Codec::Draco)
+    decodeDraco(request, input, output.room);
+  else if (request.codec == Codec::DracoCounts)
+    countDraco(input, output.room);
+  else
+    decodeMeshopt(request, input, output.room);
   output.used = output.room.size();
 }
 

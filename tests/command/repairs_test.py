@@ -1,0 +1,247 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Files with an odd value that other programs open, one row each: they are drawn as their right twin is, with one warning that names the
+place, and `--strict` refuses them with it (docs/gltf.md, What is refused)."""
+import json
+import struct
+
+from made_files import base, changed
+from materials_test import data_uri, png
+from support import Case, main, run
+
+NAN = float("nan")
+NULL = "\0null"  # `changed` takes away what is None
+LIGHTS = "/extensions/KHR_lights_punctual/lights"
+PICTURE = png(2, 2, [255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255])
+BASE_COLOR = {"/materials/0/pbrMetallicRoughness/baseColorTexture": {"index": 0}}
+UNLIT = {"/extensionsUsed": ["KHR_materials_unlit"], "/materials/0/extensions": {"KHR_materials_unlit": {}}}
+
+
+def textured(**image):
+    return {**UNLIT, "/images": [image or {"uri": data_uri("image/png", PICTURE)}], "/textures": [{"source": 0}], **BASE_COLOR}
+
+
+def light(**members):
+    return {"/extensionsUsed": ["KHR_lights_punctual"], "/extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 9}, members]}},
+            "/nodes/1": {"extensions": {"KHR_lights_punctual": {"light": 1}}, "translation": [0.5, 0.5, 2]}, "/scenes/0/nodes": [0, 1]}
+
+
+def spot(inner, outer):
+    return light(type="spot", intensity=30, spot={"innerConeAngle": inner, "outerConeAngle": outer})
+
+
+def camera(**members):
+    return {"/cameras": [members], "/nodes/1": {"camera": 0, "translation": [0.5, 0.5, 3]}, "/scenes/0/nodes": [0, 1]}
+
+
+def data(target, layout, values, component, kind, count, normalized=False, at=2, **view):
+    """A buffer with a view and an accessor, both with the index `at`, for what is to refer to it: an attribute, or a place."""
+    packed = struct.pack("<" + layout, *values)
+    accessor = {"bufferView": at, "componentType": component, "type": kind, "count": count}
+    return {"/buffers/1": {"byteLength": len(packed), "uri": data_uri("application/octet-stream", packed)},
+            f"/bufferViews/{at}": {"buffer": 1, "byteLength": len(packed), **view},
+            target if target.startswith("/") else "/meshes/0/primitives/0/attributes/" + target: at,
+            f"/accessors/{at}": accessor | ({"normalized": True} if normalized else {})}
+
+
+COLORS = [255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 0]
+TURN = {"/animations": [{"channels": [{"sampler": 0, "target": {"node": 0, "path": "rotation"}}], "samplers": [{"input": 2, "output": 3}]}]}
+TURNED = {"/nodes/0/rotation": [0, 0.5 ** 0.5, 0, 0.5 ** 0.5]}
+TIME = ["--animation-time", "0.5"]
+CORNERS = [0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0]
+TRIANGLE = data("/meshes/0/primitives/0/indices", "3H", [0, 1, 2], 5123, "SCALAR", 3)
+INSTANCES = "/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes"
+STILL = {**data("/animations/0/samplers/0/output", "8f", [0] * 8, 5126, "VEC4", 2, at=3)}
+SKINNED = {"/nodes/0/skin": 0, "/nodes/1": {"translation": [0.3, 0, 0]}, "/skins": [{"joints": [1]}], "/scenes/0/nodes": [0, 1]}
+SINGLE_KEY = {"/animations": [{"channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
+                               "samplers": [{"input": 2, "output": 9, "interpolation": "CUBICSPLINE"}]}], "/accessors/2/count": 1}
+VIEW = {"/buffers/1": {"byteLength": len(PICTURE), "uri": data_uri("image/png", PICTURE)}, "/bufferViews/3": {"buffer": 1, "byteLength": len(PICTURE)}}
+ENCODED = base()[0]["buffers"][0]["uri"]
+
+
+def instances(rotation):
+    return {"/extensionsUsed": ["EXT_mesh_gpu_instancing"], INSTANCES: {}, **data(INSTANCES + "/ROTATION", "4f", rotation, 5126, "VEC4", 1)}
+
+
+# Name: parts, what is put where, what is put into the twin, where the warning is and what it says, options.
+ROWS = {
+    "spot: inner = outer": ((), spot(0.4, 0.4), spot(0.39999, 0.4), LIGHTS + "/1/spot/innerConeAngle", "a hard edge"),
+    "spot: inner > outer": ((), spot(0.6, 0.4), spot(0.39999, 0.4), LIGHTS + "/1/spot/innerConeAngle", "a hard edge"),
+    "spot: inner < 0": ((), spot(-0.1, 0.4), spot(0, 0.4), LIGHTS + "/1/spot/innerConeAngle", "below 0"),
+    "spot: outer > pi / 2": ((), spot(0, 2), spot(0, 1.5707963), LIGHTS + "/1/spot/outerConeAngle", "above pi / 2"),
+    "light of an unknown type": ((), light(type="area"), {}, LIGHTS + "/1/type", '"area" is no kind of light; the light is left out'),
+    "light type in capitals": ((), light(type="Point"), light(type="point"), LIGHTS + "/1/type", "is read as point"),
+    "light without a type": ((), light(intensity=3), {}, LIGHTS + "/1", '"type" is missing; the light is left out'),
+    "light of negative range": ((), light(type="point", range=-1), light(type="point"), LIGHTS + "/1/range", "taken as absent"),
+    "light of negative intensity": ((), light(type="point", intensity=-1), {}, LIGHTS + "/1", "the light is left out"),
+    "camera of an unknown type": ((), camera(type="panorama"), {}, "/cameras/0/type", '"panorama" is no kind of camera; the camera is left out'),
+    "camera without a type": ((), camera(perspective={"yfov": 1, "znear": 1}), {}, "/cameras/0", '"type" is missing; the camera is left out'),
+    "camera without a lens": ((), camera(type="orthographic"), {}, "/cameras/0", '"orthographic" is missing; the camera is left out'),
+    "camera without a field of view": ((), camera(type="perspective", perspective={"znear": 1}), {}, "/cameras/0/perspective", '"yfov" is missing'),
+    "camera of no field of view": ((), camera(type="perspective", perspective={"yfov": 0, "znear": 1}), {}, "/cameras/0/perspective/yfov",
+                                   "the camera is left out"),
+    "unknown alpha mode": ((), {"/materials/0/alphaMode": "CUTOUT"}, {}, "/materials/0/alphaMode", '"CUTOUT" is no alpha mode'),
+    "byteStride 0": ((), {"/bufferViews/0/byteStride": 0}, {}, "/bufferViews/0/byteStride", "is 0"),
+    "byteStride 2": ((), {"/bufferViews/1/byteStride": 2}, {}, "/bufferViews/1/byteStride", "is not a multiple of 4"),
+    "byteStride 3": ((), data("COLOR_0", "12B", COLORS, 5121, "VEC3", 4, True, byteStride=3), data("COLOR_0", "12B", COLORS, 5121, "VEC3", 4, True),
+                     "/bufferViews/2/byteStride", "is not a multiple of 4"),
+    "byteStride 6": ((), data("COLOR_0", "12H", [257 * c for c in COLORS], 5123, "VEC3", 4, True, byteStride=6),
+                     data("COLOR_0", "12B", COLORS, 5121, "VEC3", 4, True), "/bufferViews/2/byteStride", "is not a multiple of 4"),
+    "rounded matrix": ((), {"/nodes/0/matrix": [1, 0, 0, 1e-8, 0, 1, 0, 0, 0, 0, 1, 0, 0.5, 0, 0, 0.9999999]}, {"/nodes/0/translation": [0.5, 0, 0]},
+                       "/nodes/0/matrix", "but for rounding"),
+    "broken matrix": ((), {"/nodes/1": {"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -1, 0, 0, 0, 0]}, "/scenes/0/nodes": [0, 1]}, {},
+                      "/nodes/1/matrix", "the node is left out"),
+    "image with both": (("texcoord",), {**textured(uri="gone.png", bufferView=3, mimeType="image/png"), **VIEW}, textured(), "/images/0", "has both"),
+    "image with neither": (("texcoord",), {**UNLIT, "/images": [{"mimeType": "image/png"}], "/textures": [{"source": 0}], **BASE_COLOR},
+                           {**UNLIT, "/materials/0/pbrMetallicRoughness/baseColorFactor": [1, 0, 1, 1]}, "/images/0", "has neither"),
+    "texture without an image": (("texcoord",), {**UNLIT, "/textures": [{}], **BASE_COLOR},
+                                 {**UNLIT, "/materials/0/pbrMetallicRoughness/baseColorFactor": [1, 0, 1, 1]}, "/textures/0", "has no picture"),
+    "missing texture": (("texcoord",), textured(uri="gone.png"), {**UNLIT, "/materials/0/pbrMetallicRoughness/baseColorFactor": [1, 0, 1, 1]},
+                        "/images/0/uri", "gone.png cannot be opened"),
+    "backslash": (("texcoord",), textured(uri="maps\\wood.png"), textured(), "/images/0/uri", "has backslashes"),
+    "escaped backslash": (("texcoord",), textured(uri="maps%5Cwood.png"), textured(), "/images/0/uri", "has backslashes"),
+    "null in a material": ((), {"/materials/0/alphaCutoff": NULL, "/materials/0/emissiveFactor": NULL}, {},
+                           "/materials/0/alphaCutoff", "is null"),
+    "null in an extension": ((), {"/extensionsUsed": ["KHR_materials_ior"], "/materials/0/extensions": {"KHR_materials_ior": {"ior": None}}}, {},
+                             "/materials/0/extensions/KHR_materials_ior/ior", "is null"),
+    "null as an extension": ((), {"/materials/0/extensions": {"KHR_materials_unlit": None}}, {}, "/materials/0/extensions/KHR_materials_unlit", "is null"),
+    "null in a node": ((), {"/nodes/0": {"mesh": 0, "name": None, "skin": None, "camera": None, "children": None, "rotation": None}}, {},
+                       "/nodes/0/camera", "(5 times"),
+    "null in an accessor": ((), {"/accessors/0/byteOffset": NULL, "/accessors/0/sparse": NULL}, {}, "/accessors/0/byteOffset", "is null"),
+    "null in a primitive": ((), {"/meshes/0/primitives/0/mode": NULL, "/meshes/0/primitives/0/targets": NULL}, {},
+                            "/meshes/0/primitives/0/mode", "is null"),
+    "null among children": ((), {"/nodes/0/children": [None]}, {}, "/nodes/0/children/0", "is null"),
+    "null as the scene": ((), {"/scene": NULL}, {}, "/scene", "is null"),
+    "null as a material": ((), {"/materials": [None]}, {"/materials": [{}]}, "/materials/0", "is null"),
+    "null as an unused mesh": ((), {"/meshes/1": NULL}, {}, "/meshes/1", "is null"),
+    "nulls as a rotation": ((), {"/nodes/0/rotation": [None] * 4}, {}, "/nodes/0/rotation", "not an array of numbers"),
+    "text for a number": ((), {"/materials/0/pbrMetallicRoughness/metallicFactor": "half"}, {}, "/materials/0/pbrMetallicRoughness/metallicFactor",
+                          "is not a number; it is taken as absent"),
+    "colours in bytes": ((), data("COLOR_0", "12B", COLORS, 5121, "VEC3", 4), data("COLOR_0", "12B", COLORS, 5121, "VEC3", 4, True),
+                         "/meshes/0/primitives/0/attributes/COLOR_0", "integers that are not normalized"),
+    "colours in shorts": ((), data("COLOR_0", "12H", [257 * c for c in COLORS], 5123, "VEC3", 4), data("COLOR_0", "12B", COLORS, 5121, "VEC3", 4, True),
+                          "/meshes/0/primitives/0/attributes/COLOR_0", "integers that are not normalized"),
+    "weights in bytes": (("joints",), {**SKINNED, **data("WEIGHTS_0", "16B", [255, 0, 0, 0] * 4, 5121, "VEC4", 4, at=3)},
+                         {**SKINNED, **data("WEIGHTS_0", "16f", [1, 0, 0, 0] * 4, 5126, "VEC4", 4, at=3)},
+                         "/meshes/0/primitives/0/attributes/WEIGHTS_0", "integers that are not normalized"),
+    "empty mesh": ((), {"/meshes/1": {"primitives": []}, "/nodes/1": {"mesh": 1}, "/scenes/0/nodes": [0, 1]}, {}, "/meshes/1/primitives", "is empty"),
+    "empty primitive": ((), {"/meshes/0/primitives/1": {"attributes": {}}}, {}, "/meshes/0/primitives/1", "without vertices"),
+    "primitive of no vertices": ((), {"/accessors/2": {"componentType": 5126, "count": 0, "type": "VEC3"},
+                                      "/meshes/0/primitives/1": {"attributes": {"POSITION": 2}}}, {}, "/meshes/0/primitives/1", "without vertices"),
+    "primitive of no indices": ((), {"/accessors/2": {"componentType": 5123, "count": 0, "type": "SCALAR"},
+                                     "/meshes/0/primitives/1": {"attributes": {"POSITION": 0}, "indices": 2}}, {}, "/meshes/0/primitives/1",
+                                "make no whole triangle"),
+    "empty buffer": ((), {"/buffers/1": {"byteLength": 0, "uri": "data:"}}, {}, "/buffers/1/byteLength", "is empty"),
+    "empty buffer view": ((), {"/bufferViews/2": {"buffer": 0, "byteLength": 0}}, {}, "/bufferViews/2/byteLength", "is empty"),
+    "unknown mode": ((), {"/meshes/0/primitives/1": {"attributes": {"POSITION": 0}, "mode": 9}}, {}, "/meshes/0/primitives/1/mode",
+                     "the primitive is left out"),
+    "accessor past its view": ((), {"/accessors/2": {"bufferView": 0, "componentType": 5126, "count": 99, "type": "VEC3"},
+                                    "/meshes/0/primitives/1": {"attributes": {"POSITION": 2}}}, {}, "/accessors/2", "the primitive is left out"),
+    "vertex that is not finite": ((), {**data("POSITION", "12f", CORNERS[:9] + [NAN, 1, 0], 5126, "VEC3", 4)}, TRIANGLE,
+                                  "/meshes/0/primitives/0/attributes/POSITION", "is left out with its triangles"),
+    "vertices that are not finite": ((), {**data("POSITION", "15f", CORNERS[:9] + [1, float("inf"), 0, NAN, NAN, NAN], 5126, "VEC3", 5)},
+                                     TRIANGLE, "/meshes/0/primitives/0/attributes/POSITION", "(2 times"),
+    "rotation of zeros": ((), {"/nodes/0/rotation": [0, 0, 0, 0]}, {}, "/nodes/0/rotation", "zeros"),
+    "rotation of an instance of zeros": ((), instances([0, 0, 0, 0]), {}, INSTANCES + "/ROTATION", "zeros"),
+    "animated rotation of zeros": (("time",), {**TURN, **STILL}, {}, "/animations/0/channels/0/sampler", "zeros", *TIME),
+    "spline of one key": (("time",), {**SINGLE_KEY, **data("/animations/0/samplers/0/output", "9f", [0, 0, 0, 0.5, 0, 0, 0, 0, 0], 5126, "VEC3", 3, at=3)},
+                          {"/nodes/0/translation": [0.5, 0, 0]}, "/animations/0/samplers/0/input", "the only key of a spline", *TIME),
+    "base64 with escapes": ((), {"/buffers/0/uri": ENCODED.replace("A", "%41")}, {}, "/buffers/0/uri", "base64 with escapes"),
+    "base64 with white space": ((), {"/buffers/0/uri": ENCODED.replace("AAA", "A\nA\t A ")}, {}, "/buffers/0/uri", "white space"),
+    "base64 with escaped padding": ((), {"/buffers/0/uri": ENCODED.rstrip("=") + "%3D%3D"}, {}, "/buffers/0/uri", "base64 with escapes"),
+    "empty URI of an image": (("texcoord",), {**textured(uri="", bufferView=3, mimeType="image/png"), **VIEW}, textured(), "/images/0/uri", "is empty"),
+    "wrap mode CLAMP": (("texcoord",), {**textured(), "/samplers": [{"wrapS": 10496}], "/textures/0/sampler": 0},
+                        {**textured(), "/samplers": [{"wrapS": 33071}], "/textures/0/sampler": 0}, "/samplers/0/wrapS", "CLAMP_TO_EDGE"),
+    "unknown wrap mode": (("texcoord",), {**textured(), "/samplers": [{"wrapT": 1}], "/textures/0/sampler": 0}, textured(), "/samplers/0/wrapT", "REPEAT"),
+    "interpolation in small letters": (("time", "turn"), {**TURN, "/animations/0/samplers/0/interpolation": "linear"}, TURN,
+                                       "/animations/0/samplers/0/interpolation", "is read as LINEAR", *TIME),
+    "unknown interpolation": (("time", "turn"), {**TURN, "/animations/0/samplers/0/interpolation": "CATMULLROM"}, {},
+                              "/animations/0/samplers/0/interpolation", "the channel is left out", *TIME),
+    "channel of a sampler that is not there": (("time", "turn"), {**TURN, "/animations/0/channels/0/sampler": 3}, {}, "/animations/0/channels/0/sampler",
+                                               "the channel is left out", *TIME),
+    "animated matrix": (("time", "turn"), {**TURN, "/nodes/0/matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.5, 0, 0, 1]},
+                        {**TURN, "/nodes/0/translation": [0.5, 0, 0]}, "/animations/0/channels/0/target", "a node with a matrix", *TIME),
+    "unused camera": ((), {"/cameras": [{"type": "fisheye"}]}, {}, "/cameras/0/type", "the camera is left out"),
+    "unused light": ((), {"/extensionsUsed": ["KHR_lights_punctual"], "/extensions": {"KHR_lights_punctual": {"lights": [{"type": "area"}]}}}, {},
+                     LIGHTS + "/0/type", "the light is left out"),
+    "unused material with a missing texture": ((), {"/images": [{"uri": "gone.png"}], "/textures": [{"source": 0}],
+                                                    "/materials/1": {"emissiveTexture": {"index": 0}}}, {}, "/images/0/uri", "no drawn material has it"),
+    "unused node with a broken reference": ((), {"/nodes/1": {"mesh": 9}}, {}, "/nodes/1/mesh", "past the 1 elements"),
+    "unused accessor with a broken reference": ((), {"/accessors/2": {"bufferView": 9, "componentType": 5126, "count": 1, "type": "VEC3"}}, {},
+                                                "/accessors/2/bufferView", "past the 2 elements"),
+    "unused loop of nodes": ((), {"/nodes/1": {"children": [2]}, "/nodes/2": {"children": [1]}}, {}, None, None),
+    "unused buffer that is missing": ((), {"/buffers/1": {"byteLength": 4, "uri": "gone.bin"}}, {}, "/buffers/1/uri", "nothing uses it"),
+    "node named twice by the scene": ((), {"/scenes/0/nodes": [0, 0]}, {}, "/scenes/0/nodes", "drawn once"),
+}
+
+
+class Repairs(Case):
+    def write(self, name, root):
+        path = self.folder / (name + ".gltf")
+        path.write_text(json.dumps(root).replace(json.dumps(NULL), "null"))
+        return path
+
+    def picture(self, scene, *options):
+        """Returns the picture's bytes and the lines on stderr."""
+        path = scene.with_suffix(".pfm")
+        result = run("render", scene, "-o", path, "--resolution", "16,12", "--spp", 1, "--stage", "phong", *options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return path.read_bytes(), [line for line in result.stderr.splitlines() if ": warning: " in line]
+
+    def is_drawn_as(self, scene, twin, place, says, *options):
+        picture, lines = self.picture(scene, *options)
+        self.assertEqual(picture, twin)
+        self.assertEqual(len(lines), 0 if says is None else 1, lines)
+        strict = run("info", "--strict", scene, *options)
+        self.assertEqual(strict.returncode, 0 if says is None else 3, strict.stderr)
+        if says is None:
+            return
+        for line in (lines[0], strict.stderr):
+            self.assertIn(f"{scene}: {place}: ", line)
+            self.assertIn(says, line)
+
+    def test_each_is_drawn_as_its_twin_with_one_warning(self):
+        (self.folder / "maps").mkdir()
+        (self.folder / "maps" / "wood.png").write_bytes(PICTURE)
+        twins = {}
+        for name, (parts, broken, right, place, says, *options) in ROWS.items():
+            with self.subTest(name):
+                key = json.dumps([parts, right, options])
+                if key not in twins:
+                    twins[key], lines = self.picture(self.write("right", changed(parts, right)), *(options if "/animations" in right else ()))
+                    self.assertEqual(lines, [])
+                self.is_drawn_as(self.write("broken", changed(parts, broken)), twins[key], place, says, *options)
+
+    def test_names_that_are_no_utf_8(self):
+        twin, _ = self.picture(self.write("right", base()[0]))
+        for name in (b"\xa9 Preis", b"\xc3", b"\xed\xa0\x80", b"\\ud83d", b"\xf5x", b"\xe2\x82\xff"):
+            root = base()[0]
+            root["nodes"][0]["name"] = "NAME"
+            scene = self.folder / "broken.gltf"
+            scene.write_bytes(json.dumps(root).encode().replace(b"NAME", name))
+            self.is_drawn_as(scene, twin, "/nodes/0/name", "no UTF-8")
+            self.assertIn("\ufffd", json.loads(run("info", "--json", "--nodes", scene, errors="strict").stdout)["nodes"][0]["name"])
+        root["nodes"][0]["name"] = "\U0001f600 \u00e4"  # a pair of surrogates, as json.dumps writes it
+        self.assertEqual(self.picture(self.write("right", root)), (twin, []))
+
+    def test_an_empty_uri_of_a_glb_is_its_own_chunk(self):
+        root = base()[0]
+        data = struct.pack("<12f6H", 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 1, 2, 2, 1, 3)
+        twin, _ = self.picture(self.write("right", root))
+        root["buffers"] = [{"byteLength": len(data), "uri": ""}]
+        text = json.dumps(root).encode()
+        text += b" " * (-len(text) % 4)
+        scene = self.folder / "broken.glb"
+        scene.write_bytes(b"glTF" + struct.pack("<3I", 2, 28 + len(text) + len(data), len(text)) + b"JSON" + text + struct.pack("<I", len(data)) + b"BIN\0" + data)
+        self.is_drawn_as(scene, twin, "/buffers/0/uri", "is empty")
+
+    def test_a_file_of_which_nothing_is_left_is_refused_with_the_first_reason(self):
+        for changes, place in (({"/nodes/0/matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -1, 0, 0, 0, 0]}, "/nodes/0/matrix"),
+                               ({"/accessors/0/count": 99}, "/accessors/0"), ({"/bufferViews/0/byteLength": 999}, "/bufferViews/0"),
+                               ({"/meshes/0/primitives/0/mode": 9}, "/meshes/0/primitives/0/mode")):
+            scene = self.write("broken", changed((), changes))
+            self.fails(3, "info", scene, says=[f"{scene}: {place}: "])
+
+
+if __name__ == "__main__":
+    main()
