@@ -103,7 +103,9 @@ class PrimitiveReader {
       takeMemory(document_, place,
                  count * sizeof(glm::vec<components, float>) + (sums.empty() ? count * sizeof(sums[0]) : 0));
       sums.resize(count, glm::vec<components, double>(0.0));
-      const auto deltas = readVectors<components>(document_, found->second, place);
+      const bool isColor = std::string_view(attribute) == "COLOR_0";
+      const auto deltas = readVectors<components>(document_, found->second, place,
+                                                  isColor ? Integers::Fractions : Integers::Numbers);
       for (size_t i = 0; i < count; ++i)
         sums[i] += pose_.weights[t] * glm::vec<components, double>(deltas[i]);
     }

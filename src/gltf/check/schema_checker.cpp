@@ -153,9 +153,13 @@ class Checker {
     for (size_t i = 0; i < value.size(); ++i) {
       if (value[i].is_object()) continue;
       if (object == nullptr) return note("is not an array of objects");
+      const std::string place = place_ + pointerTo(i);
       const std::string is = value[i].is_null() ? "is null" : "is not an object";
+      const bool isUsed = context_.isUsed(place);
+      const bool needsNone = std::string_view(object->empty) == "{}";
       emptyObject(root_, *object, value[i], i);
-      context_.diagnostics.warn(place_ + pointerTo(i), is + ", and taken as one without members");
+      needsNone ? context_.diagnostics.warn(place, is + ", and taken as one without members")
+                : context_.diagnostics.warnLoss(place, is, object->name, isUsed);
     }
     return true;
   }
