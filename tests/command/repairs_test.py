@@ -235,6 +235,17 @@ class Repairs(Case):
         scene.write_bytes(b"glTF" + struct.pack("<3I", 2, 28 + len(text) + len(data), len(text)) + b"JSON" + text + struct.pack("<I", len(data)) + b"BIN\0" + data)
         self.is_drawn_as(scene, twin, "/buffers/0/uri", "is empty")
 
+    def test_a_kind_has_one_line(self):
+        """Primitives that are lost for reasons that differ in their numbers alone."""
+        root = changed((), {f"/accessors/{2 + i}": {"bufferView": 0, "componentType": 5126, "count": 99 + i, "type": "VEC3"} for i in range(6)})
+        root["meshes"][0]["primitives"] += [{"attributes": {"POSITION": 2 + i}} for i in range(6)]
+        scene = self.write("broken", root)
+        _, lines = self.picture(scene)
+        self.assertEqual([line.split(": ", 3)[2:] for line in lines],
+                         [[f"{scene}", "/accessors/2: 99 elements reach past the 48 bytes of buffer view 0; the primitive is left out (6 times; "
+                           "also at /accessors/3, /accessors/4, /accessors/5 and 2 more places)"]])
+        self.fails(3, "render", "--strict", scene, "-o", self.folder / "x.pfm", says=["/accessors/2: 99 elements", "--strict refuses it"])
+
     def test_a_file_of_which_nothing_is_left_is_refused_with_the_first_reason(self):
         for changes, place in (({"/nodes/0/matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -1, 0, 0, 0, 0]}, "/nodes/0/matrix"),
                                ({"/accessors/0/count": 99}, "/accessors/0"), ({"/bufferViews/0/byteLength": 999}, "/bufferViews/0"),

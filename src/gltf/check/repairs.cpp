@@ -56,7 +56,8 @@ bool isOneOf(const Element& element, const char* member, std::initializer_list<c
 }
 
 void mendUri(const Element& element) {
-  if (memberOf(element.value, "uri") == "") element.takeAsAbsent("uri", "is empty");
+  const json& uri = memberOf(element.value, "uri");
+  if (uri.is_string() && uri.get_ref<const std::string&>().empty()) element.takeAsAbsent("uri", "is empty");
 }
 
 void mendBuffer(const Element& buffer) {

@@ -38,19 +38,19 @@ Edges referencesOf(const json& root, std::span<const Rule> rules, const SceneSel
     if (index.is_number_unsigned())
       edges[std::string(ownerOf(place))].push_back(target + pointerTo(index.get<uint64_t>()));
   };
+  const auto noteAll = [&](const char* pattern, const std::string& target) {
+    forEachAt(root, pattern, "",
+              [&](const json& index, const std::string& place) { note(index, place, target); });
+  };
   for (const Rule& rule : rules) {
     if (rule.kind != Kind::Index) continue;
     const bool isOfVariant = std::string_view(rule.pattern).find("/mappings/") != std::string_view::npos;
     if (isOfVariant && selection.materialVariant.empty()) continue;
-    forEachAt(root, rule.pattern, "",
-              [&](const json& index, const std::string& place) { note(index, place, rule.target); });
+    noteAll(rule.pattern, rule.target);
   }
   // A sphere's material and shape stand in extras, which are the author's own elsewhere.
-  for (const auto& [pattern, target] :
-       {std::pair("/nodes/*/extras/material", "/materials"),
-        std::pair("/nodes/*/extras/shape", "/extensions/KHR_implicit_shapes/shapes")})
-    forEachAt(root, pattern, "",
-              [&](const json& index, const std::string& place) { note(index, place, target); });
+  noteAll("/nodes/*/extras/material", "/materials");
+  noteAll("/nodes/*/extras/shape", "/extensions/KHR_implicit_shapes/shapes");
   return edges;
 }
 

@@ -23,6 +23,17 @@ namespace {
 
 constexpr size_t kNamedPlaces = 4;
 
+/// A reason without the numbers in it, except those of names, which stand in quotes.
+std::string kindOf(std::string_view reason) {
+  std::string kind;
+  bool isQuoted = false;
+  for (const char c : reason) {
+    isQuoted = isQuoted != (c == '"');
+    if (isQuoted || c < '0' || c > '9') kind += c;
+  }
+  return kind;
+}
+
 }  // namespace
 
 std::string Diagnostics::line(std::string_view place, std::string_view reason) const {
@@ -56,7 +67,7 @@ void Diagnostics::warnLoss(std::string_view place, std::string_view reason, cons
 }
 
 void Diagnostics::warn(std::string_view place, std::string_view reason, size_t count) {
-  const auto [known, isNew] = warningOf_.try_emplace(std::string(reason), warnings_.size());
+  const auto [known, isNew] = warningOf_.try_emplace(kindOf(reason), warnings_.size());
   if (isNew) warnings_.push_back({std::string(reason), {}, 0, 0});
   Warning& warning = warnings_[known->second];
   warning.count += count;

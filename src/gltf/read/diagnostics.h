@@ -107,8 +107,8 @@ class Diagnostics {
     }
   }
 
-  /// Notes something that is skipped or repaired. The same reason at several places makes one line with a
-  /// count and the first place.
+  /// Notes something that is skipped or repaired. The same reason at several places, but for its numbers,
+  /// makes one line with a count and the first place.
   void warn(std::string_view place, std::string_view reason, size_t count = 1);
 
   /// One line for each reason, in the order of their first appearance.
@@ -129,7 +129,7 @@ class Diagnostics {
   std::string file_;
   std::vector<std::string> set_;  ///< places of the user's numbers
   std::vector<Warning> warnings_;
-  std::unordered_map<std::string, size_t> warningOf_;  ///< index of a warning by its reason
+  std::unordered_map<std::string, size_t> warningOf_;  ///< index of a warning by its kind
   std::optional<std::string> firstLoss_;
 };
 

@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <set>
 #include <stdexcept>
 
 #include "base/errors.h"
-#include "base/text.h"
 #include "gltf/read/diagnostics.h"
 #include "image/limits.h"
 
@@ -187,12 +187,19 @@ bool isMissing(const FileAccess& access, std::string_view uri) {
 
 std::string alsoMissing(const FileAccess& access, const std::vector<std::string>& uris,
                         std::string_view one) {
-  std::vector<std::string> names;
+  constexpr size_t kLongest = 1000;  // of a message
+  std::set<std::string_view> named = {one};
+  std::string text;
+  size_t left = 0;
   for (const std::string& uri : uris) {
-    if (uri != one && isMissing(access, uri) && std::ranges::find(names, uri) == names.end())
-      names.push_back(uri);
+    if (!isMissing(access, uri) || !named.insert(uri).second) continue;
+    if (text.size() + uri.size() > kLongest)
+      ++left;
+    else
+      text += (text.empty() ? "; also missing: " : ", ") + uri;
   }
-  return names.empty() ? "" : "; also missing: " + joined(names);
+  if (left == 0) return text;
+  return (text.empty() ? "; also missing: " : text + " and ") + std::to_string(left) + " more";
 }
 
 std::vector<uint8_t> readUri(const FileAccess& access, std::string_view uri, const MemoryBudget& memory) {
