@@ -192,11 +192,10 @@ void noteNames(json& root, Document& document) {
 /// complaint.
 std::vector<ImageSource> takeImages(json& root) {
   std::vector<ImageSource> sources;
-  json& images = arrayIn(root, "images");
-  for (size_t i = 0; i < images.size(); ++i) {
-    sources.push_back({images[i].value("uri", std::string()), images[i].value("bufferView", -1),
-                       images[i].value("mimeType", std::string())});
-    images[i] = {{"uri", "image"}};
+  for (json& image : arrayIn(root, "images")) {
+    sources.push_back({image.value("uri", std::string()), image.value("bufferView", -1),
+                       image.value("mimeType", std::string())});
+    image = {{"uri", "image"}};
   }
   return sources;
 }

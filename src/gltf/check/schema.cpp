@@ -296,7 +296,7 @@ bool matches(std::string_view pattern, std::string_view pointer) {
 
 IsUsed applySchema(json& root, const SceneSelection& selection, Diagnostics& diagnostics) {
   if (!root.is_object()) diagnostics.refuse("", "is not glTF: the JSON is not an object");
-  const IsUsed isUsed = [&root, selection, used = std::make_shared<Owners>()](std::string_view place) {
+  IsUsed isUsed = [&root, selection, used = std::make_shared<Owners>()](std::string_view place) {
     if (used->empty()) *used = usedObjects(root, rules(), selection);  // few documents ask for it
     return used->contains(ownerOf(place));
   };
