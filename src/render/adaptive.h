@@ -39,8 +39,9 @@ struct AdaptiveRun {
   static size_t blocksOf(glm::ivec2 size);
 };
 
-/// The seed of the second half of an adaptive picture. The function is not its own inverse, so two seeds
-/// never give the same picture.
+/// The seed of the second half of an adaptive picture: odd where the seed is even, and even where it is odd
+/// (seedOfPicture in session/picture/sequence.cpp rests on this). The function is not its own inverse, so two
+/// seeds never give the same picture.
 uint32_t seedOfOtherHalf(uint32_t seed);
 
 /// Draws two halves of the samples in rounds. The number of samples doubles in blocks of 8 x 8 pixels, so

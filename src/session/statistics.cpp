@@ -102,6 +102,7 @@ std::string statisticsText(const Statistics& s) {
   json["render_ms"] = s.times.renderMs;
   json["frame_ms"] = timesJson(s.times.frameMs);
   json["spp"] = s.spp;
+  json["seed"] = s.seed;
   json["samples_per_pixel"] = samplesPerPixel(s);
   json["fewest_samples"] = s.film.fewestSamples;
   json["most_samples"] = s.film.mostSamples;

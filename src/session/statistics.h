@@ -55,6 +55,7 @@ struct Statistics {
   double compileMs = 0.0;
   RenderTimes times;
   int spp = 0;
+  uint32_t seed = 0;
   glm::ivec2 size{0};            ///< size of the drawn part
   std::optional<Region> region;  ///< the drawn part of the picture, if one was asked for
   int parts = 1;                 ///< number of parts in which it was drawn

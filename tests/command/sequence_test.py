@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Sequences of pictures (--frames, --turntable). Each picture is that of a single command. What does not change is
+"""Sequences of pictures (--frames, --turntable). Each picture is that of a single command with its seed. What does not change is
 kept, and a message names each picture that failed."""
 import base64
 import json
@@ -9,6 +9,7 @@ import signal
 import struct
 import subprocess
 import time
+from statistics import correlation
 
 from support import FRAGTRACE, SCENES, Case, Exr, main, run
 
@@ -51,6 +52,9 @@ class Sequences(Case):
         self.assertEqual(result.returncode, status, result.stderr)
         return result
 
+    def seed(self, number):
+        return int(Exr(self.folder / f"x.{number:02}.exr").texts["fragtrace:seed"])
+
     def single(self, *options):
         path = self.folder / "single.exr"
         self.renders(self.scene, "-o", path, "--quiet", *SMALL, *options)
@@ -64,7 +68,28 @@ class Sequences(Case):
         pictures = [(self.folder / f"x.{k:02}.exr").read_bytes() for k in (0, 3, 6)]
         self.assertEqual(len(set(pictures)), 3)
         for k, picture in zip((0, 3, 6), pictures):
-            self.assertEqual(picture, self.single("--animation-time", k / 8, *layers), k)
+            self.assertEqual(picture, self.single("--animation-time", k / 8, "--seed", self.seed(k), *layers), k)
+
+    def test_noise_does_not_stand_still(self):
+        """Nothing moves here. Each picture has a seed of its own, whichever pictures are asked for; picture 0 has that of the option."""
+        self.scene = self.moving("still.gltf", ((0.0, (0, 0, 0)), (1.0, (0, 0, 0))), SCENES / "cornell-box.gltf")
+        self.draw("--frames", "0:3", "--seed", 7, "--stats", self.folder / "s.##.json")
+        pictures = [(self.folder / f"x.{k:02}.exr").read_bytes() for k in range(4)]
+        seeds = [self.seed(k) for k in range(4)]
+        self.assertEqual([json.loads((self.folder / f"s.{k:02}.json").read_text())["seed"] for k in range(4)], seeds)
+        self.assertEqual((seeds[0], len(set(seeds))), (7, 4))
+        self.assertEqual({seed % 2 for seed in seeds}, {1}, "those of second halves are even")
+        self.draw("--frames", "2:3", "--seed", 7)
+        self.assertEqual([(self.folder / f"x.{k:02}.exr").read_bytes() for k in range(4)], pictures)
+        self.renders(self.scene, "-o", self.folder / "single.exr", "--quiet", *SMALL[:2], "--spp", 512, "--seed", 1)
+        reference = Exr(self.folder / "single.exr").luminances()
+        # Without the lamp, whose edges outweigh all other noise.
+        noise_of = lambda k: [a - b for a, b in zip(Exr(self.folder / f"x.{k:02}.exr").luminances(), reference) if b < 1]
+        first, *others = map(noise_of, range(4))
+        for k, noise in enumerate(others, 1):
+            self.assertLess(abs(correlation(first, noise)), 0.1, k)
+        self.renders(self.scene, "-o", self.folder / "t.#.exr", *SMALL, "--turntable", 2)
+        self.assertEqual([Exr(self.folder / f"t.{k}.exr").texts["fragtrace:seed"] for k in range(2)], ["0", str(seeds[1] ^ 7)])
 
     def test_the_scene_is_read_once(self):
         """It may come through a pipe; the camera for all frames is chosen from the same document."""
@@ -127,7 +152,7 @@ class Sequences(Case):
         self.assertIn("picture 2: ", result.stderr)
         self.assertIn("1 of 5 pictures failed", result.stderr)
         self.assertEqual(sorted(p.name for p in self.folder.glob("x.*")), ["x.00.exr", "x.01.exr", "x.03.exr", "x.04.exr"])
-        self.assertEqual((self.folder / "x.00.exr").read_bytes(), (self.folder / "x.03.exr").read_bytes())
+        self.assertEqual((self.folder / "x.03.exr").read_bytes(), self.single("--animation-time", 0, "--seed", self.seed(3)))
 
     def test_an_interrupted_sequence_leaves_whole_pictures_only(self):
         process = subprocess.Popen([FRAGTRACE, "render", self.scene, "-o", self.folder / "x.##.exr", "--resolution", "40,30", "--spp", "3000", "--quiet",

@@ -149,6 +149,7 @@ std::optional<Image> drawSamples(const PictureJob& job, DrawingPlan& plan, Devic
   Image picture = drawPicture(job, plan, stats, keeper);
   stats.phases.push_back(drawTimer.end());
   stats.spp = options.sampling.spp;
+  stats.seed = options.sampling.seed;
   sayDriverLog(options, device);
   if (interrupts() > most) return std::nullopt;
   sayWhatWentWrong(options, stats.film);

@@ -55,10 +55,20 @@ int frameCount(const SequenceOptions& sequence) {
   return (range.last - range.first) / range.step + 1;
 }
 
+uint32_t seedOfPicture(uint32_t seed, int number) {
+  // Each step is a permutation of 31 bits that leaves 0 alone. The lowest bit stays the seed's.
+  constexpr uint32_t kBits = 0x7fffffffu;
+  uint32_t bits = uint32_t(number);
+  bits = (bits ^ bits >> 15) * 0x2c1b3c6du & kBits;
+  bits = (bits ^ bits >> 12) * 0x297a2d39u & kBits;
+  return seed ^ (bits ^ bits >> 15) << 1;
+}
+
 SequenceFrame frameOf(const RenderOptions& options, int index) {
   const SequenceOptions& sequence = options.output.sequence;
   const FrameRange range = rangeOf(sequence);
   SequenceFrame frame{range.first + index * range.step, options, 0.0};
+  frame.options.sampling.seed = seedOfPicture(options.sampling.seed, frame.number);
   frame.options.output.file = numberedName(options.output.file, frame.number);
   if (!options.output.statsFile.empty())
     frame.options.output.statsFile = numberedName(options.output.statsFile, frame.number);

@@ -35,6 +35,11 @@ bool isStream(const OutputOptions& output);
 
 int frameCount(const SequenceOptions& sequence);
 
+/// The seed of a picture of a sequence with that seed: picture 0 has the seed itself, and no two pictures
+/// have the same. None is the seed of an adaptive picture's second half (seedOfOtherHalf), which is even
+/// where the picture's seed is odd, and odd where it is even.
+uint32_t seedOfPicture(uint32_t seed, int number);
+
 /// The picture of that index, from 0; the options are of a sequence. Small scenes do not become shader text
 /// in it, so that one program draws all pictures.
 SequenceFrame frameOf(const RenderOptions& options, int index);
