@@ -74,3 +74,42 @@ class Exr:
 
     def luminances(self):
         return [sum(w * c for w, c in zip(WEIGHTS, pixel)) for pixel in zip(*map(self.values, "RGB"))]
+
+
+def write_exr(path, width, height, layers, **more):
+    """Writes uncompressed scan lines of floats; a value of a layer is a number, or a list of all pixels."""
+    return write_parts(path, (width, height), [{"layers": layers, **more}])
+
+
+def write_parts(path, size, parts):
+    """Writes parts of a picture of that size: `layers`, and perhaps a `name`, a `window` (left, top, right, bottom) and `chromaticities`."""
+    text = lambda s: s.encode() + b"\0"
+    attribute = lambda name, kind, data: text(name) + text(kind) + struct.pack("<I", len(data)) + data
+    headers, bodies = b"", []
+    for part in parts:
+        names = sorted(part["layers"])
+        left, top, right, bottom = part.get("window", (0, 0, size[0] - 1, size[1] - 1))
+        width, height = right - left + 1, bottom - top + 1
+        attributes = [
+            ("channels", "chlist", b"".join(text(name) + struct.pack("<iiii", 2, 0, 1, 1) for name in names) + b"\0"),
+            ("compression", "compression", b"\0"), ("dataWindow", "box2i", struct.pack("<4i", left, top, right, bottom)),
+            ("displayWindow", "box2i", struct.pack("<4i", 0, 0, size[0] - 1, size[1] - 1)), ("lineOrder", "lineOrder", b"\0"),
+            ("pixelAspectRatio", "float", struct.pack("<f", 1)), ("screenWindowCenter", "v2f", struct.pack("<2f", 0, 0)),
+            ("screenWindowWidth", "float", struct.pack("<f", 1))]
+        if "chromaticities" in part:
+            attributes.append(("chromaticities", "chromaticities", struct.pack("<8f", *part["chromaticities"])))
+        if "name" in part:
+            attributes += [("name", "string", part["name"].encode()), ("type", "string", b"scanlineimage"), ("chunkCount", "int", struct.pack("<i", height))]
+        headers += b"".join(attribute(*one) for one in attributes) + b"\0"
+        value = lambda name, i: part["layers"][name] if isinstance(part["layers"][name], (int, float)) else part["layers"][name][i]
+        bodies.append([struct.pack("<iI", top + y, 4 * width * len(names)) + b"".join(struct.pack("<f", value(n, y * width + x)) for n in names for x in range(width))
+                       for y in range(height)])
+    several = len(parts) > 1
+    data = struct.pack("<II", 20000630, 2 | 0x1000 * several) + headers + b"\0" * several
+    blocks = [(struct.pack("<I", p) if several else b"") + line for p, lines in enumerate(bodies) for line in lines]
+    place = len(data) + 8 * len(blocks)
+    for block in blocks:
+        data += struct.pack("<Q", place)
+        place += len(block)
+    Path(path).write_bytes(data + b"".join(blocks))
+    return path

@@ -17,6 +17,7 @@
 #include "session/outputs.h"
 #include "session/picture/denoised_file.h"
 #include "session/picture/picture_file.h"
+#include "session/say.h"
 
 namespace fragtrace {
 
@@ -39,6 +40,7 @@ int runDenoise(const std::filesystem::path& file, RenderOptions options) {
   // Such files hold values as a display shows them, for which the filters are not made.
   if (read.wasEncoded)
     throw InputError(file.string() + ": is no picture of linear radiance (.exr, .hdr, .pfm)");
+  sayNotes(options, file, read.image);
   const Image drawn = asDrawn(read.image);
   DenoiseStatistics stats;
   Image result = denoisedFile(drawn, file, options, oidn, stats);

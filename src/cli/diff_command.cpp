@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/report.h"
 #include "cli/commands.h"
 #include "image/compare/bias.h"
 #include "image/compare/difference.h"
@@ -51,13 +52,20 @@ std::string describe(const BiasTest& test, int side) {
   return text + "\n";
 }
 
+/// Reads a picture, and says how its values were changed.
+Image readSaid(const std::filesystem::path& path) {
+  Image image = readImage(path);
+  for (const std::string& note : image.notes) reportMessage(path.string() + ": " + note);
+  return image;
+}
+
 Comparison compareFiles(const DiffOptions& options) {
   if (options.metric == Metric::Flip) {
     FlipError error = flipError(readDisplayImage(options.picture), readDisplayImage(options.reference));
     return {error.mean, {}, std::move(error.map)};
   }
-  const Image picture = readImage(options.picture);
-  const Image reference = readImage(options.reference);
+  const Image picture = readSaid(options.picture);
+  const Image reference = readSaid(options.reference);
   if (options.metric == Metric::Bias) {
     BiasTest test = testBias(picture, reference, options.tile);
     return {test.chance, describe(test, options.tile), std::move(test.map)};

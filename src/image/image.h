@@ -38,6 +38,7 @@ struct Image {
       std::nullopt;  ///< the same: data window in display window; none: a whole
   /// The same: attributes of OpenEXR's own that are numbers, by kNumberAttributes.
   std::map<std::string, std::vector<float>> numbers = {};
+  std::vector<std::string> notes = {};  ///< how reading changed the stored values, for messages
 
   size_t channelCount() const { return channels.size(); }
   float* pixel(int x, int y) { return values.data() + (size_t(y) * width + x) * channels.size(); }
@@ -53,15 +54,16 @@ struct TexelImage {
   std::shared_ptr<const void> memory;  ///< keeps the values alive
 };
 
-/// Reads a picture file (.pfm by our own code, the rest through the image library). Values are as stored:
-/// .exr, .hdr and .pfm linear floats, 8 and 16 bit files scaled to 0..1 and left sRGB-encoded, alpha
-/// unassociated there. Throws InputError, also when it would take more than `memoryLimit` bytes.
+/// Reads a picture file (.pfm by our own code, the rest through the image library). .exr, .hdr and .pfm give
+/// linear floats of Rec. 709 as their headers say (image/files/as_shown.h); 8 and 16 bit files are scaled to
+/// 0..1 and left sRGB-encoded, alpha unassociated there. Throws InputError, also when it would take more than
+/// `memoryLimit` bytes.
 Image readImage(const std::filesystem::path& path, uint64_t memoryLimit = defaultMemoryLimit());
 
 /// The larger picture that a part lies in, where it does: the rest is 0. readImage() gives this.
 Image wholeOf(Image part);
 
-/// Reads as readImage() does, but of an .exr that holds only a part of a picture (its data window) that part
+/// Reads as readImage() does, but of an .exr that holds only a part of a picture (its data windows) that part
 /// alone, with its placement.
 Image readStoredImage(const std::filesystem::path& path, uint64_t memoryLimit = defaultMemoryLimit());
 

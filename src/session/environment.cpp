@@ -15,22 +15,23 @@ namespace fragtrace {
 
 namespace {
 
-/// Throws InputError for the first pixel that is NaN or infinite. Values below 0, which filters leave and
-/// which are no light, become 0. Returns how many did.
-size_t settleRadiance(Image& image, const std::filesystem::path& path) {
-  size_t negative = 0;
-  for (size_t i = 0; i < image.values.size(); ++i) {
-    float& value = image.values[i];
-    if (value < 0.0f && std::isfinite(value)) {
-      value = 0.0f;
-      ++negative;
-    }
-    if (std::isfinite(value)) continue;
-    const size_t pixel = i / image.channelCount();
-    throw InputError(path.string() + ": pixel (" + std::to_string(pixel % size_t(image.width)) + ", " +
-                     std::to_string(pixel / size_t(image.width)) + ") is not finite");
+/// Numbers of values that were no light.
+struct NoLight {
+  size_t negative = 0, infinite = 0, noNumber = 0;
+};
+
+/// Values below 0, which filters leave, and values that are no number become 0. Infinite ones become what the
+/// formats of 16 bits hold at most.
+NoLight settleRadiance(Image& image) {
+  constexpr float kBrightest = 65504.0f;
+  NoLight found;
+  for (float& value : image.values) {
+    if (std::isfinite(value) && value >= 0.0f) continue;
+    const bool isInfinite = value > 0.0f;
+    ++(isInfinite ? found.infinite : std::isnan(value) ? found.noNumber : found.negative);
+    value = isInfinite ? kBrightest : 0.0f;
   }
-  return negative;
+  return found;
 }
 
 void warn(const RenderOptions& options, const std::string& what, std::vector<std::string>& warnings) {
@@ -81,13 +82,17 @@ Environment makeEnvironment(const RenderOptions& options, std::future<LinearImag
   if (map.valid()) {
     LinearImage read = map.get();
     environment.kind = Surroundings::Map;
+    sayNotes(options, options.light.hdriFile, read.image);
+    if (read.image.channelCount() < 3) throw InputError(options.light.hdriFile.string() + ": has no colour");
     environment.image = std::move(read.image);
     Image& image = environment.image;
-    if (image.channelCount() < 3) throw InputError(options.light.hdriFile.string() + ": has no colour");
-    const size_t negative = settleRadiance(image, options.light.hdriFile);
-    if (negative > 0)
-      warn(options, ": " + countText(negative, "value") + " below 0, which is no light, taken as 0",
-           warnings);
+    const NoLight found = settleRadiance(image);
+    const auto warnOf = [&](size_t count, const char* what) {
+      if (count > 0) warn(options, ": " + countText(count, "value") + what, warnings);
+    };
+    warnOf(found.negative, " below 0, which is no light, taken as 0");
+    warnOf(found.infinite, " without bound, taken as 65504");
+    warnOf(found.noNumber, " that is no number, taken as 0");
     if (read.wasEncoded)
       warn(options, ": holds no light above 1, so no sun and no lamp; an .hdr, .exr or .pfm does", warnings);
     // Mirror balls and faces of cubes are square; there is one reading of an environment here.

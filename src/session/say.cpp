@@ -38,6 +38,10 @@ void say(const RenderOptions& options, const std::string& text) {
   if (state.listener) state.listener(text);
 }
 
+void sayNotes(const RenderOptions& options, const std::filesystem::path& path, const Image& image) {
+  for (const std::string& note : image.notes) say(options, path.string() + ": " + note);
+}
+
 void passOnWhatIsSaid(std::function<void(const std::string&)> listener) {
   Listening& state = listening();
   const std::lock_guard lock(state.mutex);

@@ -6,12 +6,11 @@ import json
 import math
 import os
 import shutil
-import struct
 import subprocess
 import sys
 from pathlib import Path
 
-from support import FRAGTRACE, SCENES, Case, Exr, main, read_pfm, run
+from support import FRAGTRACE, SCENES, Case, Exr, main, read_pfm, run, write_exr
 
 BOX = SCENES / "cornell-box.gltf"
 FAKE = FRAGTRACE.parent / "fake_oidn/libOpenImageDenoise.so.2"
@@ -24,25 +23,6 @@ def surroundings(**variables):
     """No library, but what these say."""
     hidden = ("FRAGTRACE_OIDN_LIBRARY", "VIRTUAL_ENV", "HOME", "FAKE_OIDN")
     return {**{k: v for k, v in os.environ.items() if k not in hidden}, **variables}
-
-
-def write_exr(path, width, height, layers):
-    """Uncompressed scan lines of floats; a value of a layer is a number, or a list of all pixels."""
-    names = sorted(layers)
-    text = lambda s: s.encode() + b"\0"
-    attribute = lambda name, kind, data: text(name) + text(kind) + struct.pack("<I", len(data)) + data
-    channels = b"".join(text(name) + struct.pack("<iiii", 2, 0, 1, 1) for name in names) + b"\0"
-    box = struct.pack("<4i", 0, 0, width - 1, height - 1)
-    header = struct.pack("<II", 20000630, 2) + b"".join((
-        attribute("channels", "chlist", channels), attribute("compression", "compression", b"\0"), attribute("dataWindow", "box2i", box),
-        attribute("displayWindow", "box2i", box), attribute("lineOrder", "lineOrder", b"\0"), attribute("pixelAspectRatio", "float", struct.pack("<f", 1)),
-        attribute("screenWindowCenter", "v2f", struct.pack("<2f", 0, 0)), attribute("screenWindowWidth", "float", struct.pack("<f", 1)))) + b"\0"
-    size = 4 * width * len(names)
-    value = lambda name, i: layers[name] if isinstance(layers[name], (int, float)) else layers[name][i]
-    lines = [struct.pack("<II", y, size) + b"".join(struct.pack("<f", value(n, y * width + x)) for n in names for x in range(width)) for y in range(height)]
-    first = len(header) + 8 * height
-    path.write_bytes(header + b"".join(struct.pack("<Q", first + y * (size + 8)) for y in range(height)) + b"".join(lines))
-    return path
 
 
 class OidnCase(Case):
@@ -290,11 +270,15 @@ class DenoiseFiles(OidnCase):
             self.assertEqual(self.denoises(raw, name, *shown).read_bytes(), expected)
 
     def test_values_that_are_no_radiance(self):
-        """A value that is not finite counts as 0; pictures without light stay as they are."""
+        """A pixel that is not finite is filled from its neighbours; pictures without light stay as they are."""
         values = [math.nan, math.inf, -math.inf, -2.0, 1.0, 1.0]
         path = self.folder / "in.exr"
         write_exr(path, 3, 2, {c: values for c in "RGB"})
-        self.near(Exr(self.denoises(path, "o.exr", "--denoise", "oidn")).values("R"), [0, 0, 0, -2, 1, 1])
+        self.near(Exr(self.denoises(path, "o.exr", "--denoise", "oidn")).values("R"), [-0.5, 0, 1, -2, 1, 1])
+        # What lies deeper is filled from what was filled before it.
+        write_exr(path, 4, 1, {c: [math.inf, math.nan, math.nan, 3.0] for c in "RGB"})
+        (self.folder / "o.exr").unlink()
+        self.near(Exr(self.denoises(path, "o.exr", "--denoise", "oidn")).values("R"), [3, 3, 3, 3])
         path.unlink()
         (self.folder / "o.exr").unlink()
         for value in (0.0, -1.0):

@@ -19,7 +19,7 @@ from array import array
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from exr import WEIGHTS, Exr  # noqa: E402, F401
+from exr import WEIGHTS, Exr, write_exr, write_parts  # noqa: E402, F401
 from skips import EXTENDED, at_length, main  # noqa: E402, F401
 
 FRAGTRACE = Path(sys.argv[1]).resolve()

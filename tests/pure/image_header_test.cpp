@@ -65,6 +65,7 @@ TEST(ImageHeaders, SayTheSizeThatTheDecoderFinds) {
   expectSize(samples::kProgressiveJpeg, 32, 32);
   expectSize(samples::kRgbaWebP, 2, 1);
   expectSize(bytesOf("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 1\n12345678"), 1, 2);
+  expectSize(bytesOf("#?RADIANCE\n\n-X 2 +Y 1\n12345678"), 2, 1);
   expectSize(exr(window(0, 0, 19, 9), window(0, 0, 31, 15), std::string(16, 'x')), 32, 16);
 }
 
@@ -90,8 +91,10 @@ TEST(ImageHeaders, OpenExrWindowsThatWrapRoundOrLieOutsideAreRefused) {
     EXPECT_NE(refusalOf(exr(bad, good, rest)), "");
     EXPECT_NE(refusalOf(exr(good, bad, rest)), "");
   }
-  EXPECT_EQ(refusalOf(exr(window(0, 0, 16, 15), good, rest)),
-            "its data window is not inside its display window");
+  EXPECT_EQ(refusalOf(exr(window(0, 0, 16, 15), good, rest)), "");
+  EXPECT_EQ(readImageHeader(exr(window(0, 0, 16, 15), good, rest)).overscan, glm::ivec2(17, 16));
+  EXPECT_EQ(refusalOf(exr(window(16, 0, 16, 15), good, rest)),
+            "its data window is outside of its display window");
   EXPECT_EQ(refusalOf(exr(good, good, rest, 2 | 0x800)), "deep OpenEXR pictures are not supported");
   EXPECT_NE(refusalOf(exr(good, good, rest, 2 | 0x200)), "");
   EXPECT_NE(
@@ -104,7 +107,7 @@ TEST(ImageHeaders, HdrLinesMustBeThere) {
   EXPECT_EQ(refusalOf(bytesOf(head + "-Y 100000 +X 1\nxxxx")), "the file is truncated");
   EXPECT_NE(refusalOf(bytesOf(head + "-Y 100000 +X 100000\n" + std::string(400000, 'x'))), "");
   for (const char* resolution :
-       {"-Y -5 +X 5\n", "-Y 5\n", "+X 5 -Y 5\n", "-Y 99999999999 +X 1\n", "\n", "-Y +X\n"})
+       {"-Y -5 +X 5\n", "-Y 5\n", "+X 5 -X 5\n", "-Z 5 +X 5\n", "-Y 99999999999 +X 1\n", "\n", "-Y +X\n"})
     EXPECT_NE(refusalOf(bytesOf(head + resolution + std::string(100, 'x'))), "") << resolution;
   EXPECT_NE(refusalOf(bytesOf("#?RADIANCE\n")), "");
 }

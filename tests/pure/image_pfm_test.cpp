@@ -33,6 +33,11 @@ TEST(ImagePfm, LittleEndianGreyIsRead) {
   EXPECT_EQ(image.values, (std::vector<float>{2, 1}));
 }
 
+TEST(ImagePfm, ValuesAreMultipliedByTheScale) {
+  EXPECT_EQ(decodePfm(fileOf("Pf 2 1 -2.5\n" + kLittleTwo + kLittleOne)).values,
+            (std::vector<float>{5, 2.5}));
+}
+
 TEST(ImagePfm, DataThatLooksLikeWhiteSpaceIsKept) {
   const Image image = decodePfm(fileOf("Pf\n1 1\n-1\n" + std::string("\n\n\n\n")));
   EXPECT_EQ(image.values.size(), 1U);

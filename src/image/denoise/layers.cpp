@@ -49,13 +49,14 @@ std::optional<FoundLayer> findLayer(const Image& file, std::initializer_list<con
   return std::nullopt;
 }
 
-/// Does the same, but only after that prefix.
+/// Does the same, but only after that prefix, or after any if the colours have none: they may be of one part
+/// of an .exr, and the guides of others.
 std::optional<FoundLayer> findGuide(const Image& file, const std::string& prefix,
                                     std::initializer_list<const char*> names) {
   for (const char* name : names) {
     if (const auto channels = channelsOf(file, prefix + name)) return FoundLayer{*channels, prefix};
   }
-  return std::nullopt;
+  return prefix.empty() ? findLayer(file, names) : std::nullopt;
 }
 
 std::optional<FoundLayer> findColor(const Image& file) {

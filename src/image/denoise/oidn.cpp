@@ -27,6 +27,49 @@ bool hasLayer(const Image& image, const LayerNames& names) {
   return std::ranges::all_of(names, [&](const char* name) { return findChannel(image, name).has_value(); });
 }
 
+/// Gives each pixel with a value that is not finite the mean of its neighbours that are, in rings from the
+/// edge of such a region inwards; 0 where nothing is finite.
+void fillFromNeighbours(Triples& pixels, int width, int height) {
+  enum State : uint8_t { Known, Unknown, Next };
+  std::vector<State> states(pixels.size() / 3, Known);
+  const auto isFinite = [](float value) { return std::isfinite(value); };
+  for (size_t i = 0; i < states.size(); ++i) {
+    if (!std::all_of(&pixels[3 * i], &pixels[3 * i] + 3, isFinite)) states[i] = Unknown;
+  }
+  const auto forNeighbours = [&](size_t i, auto visit) {
+    const int x = int(i % size_t(width)), y = int(i / size_t(width));
+    for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, height - 1); ++ny) {
+      for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, width - 1); ++nx)
+        visit(size_t(ny) * size_t(width) + size_t(nx));
+    }
+  };
+  std::vector<size_t> ring, next;
+  const auto addUnknown = [&](size_t i) {
+    if (std::exchange(states[i], states[i] == Unknown ? Next : states[i]) == Unknown) next.push_back(i);
+  };
+  for (size_t i = 0; i < states.size(); ++i) {
+    bool isEdge = false;
+    if (states[i] == Unknown) forNeighbours(i, [&](size_t n) { isEdge = isEdge || states[n] == Known; });
+    if (isEdge) addUnknown(i);
+  }
+  while (!next.empty()) {
+    ring = std::exchange(next, {});
+    for (const size_t i : ring) {
+      std::array<double, 3> sum{};
+      int count = 0;
+      forNeighbours(i, [&](size_t n) {
+        if (states[n] != Known) return;
+        for (size_t c = 0; c < 3; ++c) sum[c] += pixels[3 * n + c];
+        ++count;
+      });
+      for (size_t c = 0; c < 3; ++c) pixels[3 * i + c] = float(sum[c] / count);
+    }
+    for (const size_t i : ring) states[i] = Known;
+    for (const size_t i : ring) forNeighbours(i, addUnknown);
+  }
+  for (float& value : pixels) value = std::isfinite(value) ? value : 0.0f;
+}
+
 Triples triplesOf(const Image& image, const LayerNames& names) {
   std::array<size_t, 3> index{};
   for (size_t c = 0; c < 3; ++c) {
@@ -37,11 +80,9 @@ Triples triplesOf(const Image& image, const LayerNames& names) {
   Triples triples;
   triples.reserve(image.values.size() / image.channelCount() * 3);
   for (size_t first = 0; first < image.values.size(); first += image.channelCount()) {
-    for (const size_t c : index) {
-      const float value = image.values[first + c];
-      triples.push_back(std::isfinite(value) ? value : 0.0f);
-    }
+    for (const size_t c : index) triples.push_back(image.values[first + c]);
   }
+  fillFromNeighbours(triples, image.width, image.height);
   return triples;
 }
 

@@ -43,6 +43,7 @@ struct Window {
   int64_t left, top, right, bottom;
   int64_t width() const { return right - left + 1; }
   int64_t height() const { return bottom - top + 1; }
+  bool operator==(const Window&) const = default;
 };
 
 Window windowOf(Bytes value) {
@@ -108,6 +109,20 @@ Attributes takeAttributes(Bytes& bytes) {
   return result;
 }
 
+/// Returns the number of blocks of a part; `isTiled`: the file says that its only part has tiles.
+int64_t blocksOf(const Attributes& part, bool isTiled, bool isMultiPart) {
+  const auto blocks = [](int64_t size, int64_t block) { return (size + block - 1) / block; };
+  if (isTiled && !part.tiles) refuse();
+  return isTiled || (isMultiPart && part.tiles)
+             ? blocks(part.data->width(), part.tiles->width) * blocks(part.data->height(), part.tiles->height)
+             : blocks(part.data->height(), linesOf(*part.compression));
+}
+
+void extend(Window& window, const Window& other) {
+  window = {std::min(window.left, other.left), std::min(window.top, other.top),
+            std::max(window.right, other.right), std::max(window.bottom, other.bottom)};
+}
+
 }  // namespace
 
 ImageHeader readExrHeader(Bytes bytes) {
@@ -116,26 +131,33 @@ ImageHeader readExrHeader(Bytes bytes) {
   const auto version = uint32_t(takeInt(bytes));
   if ((version & 0xff) != 2) throw std::runtime_error("its OpenEXR version is not supported");
   if ((version & kDeep) != 0) throw std::runtime_error("deep OpenEXR pictures are not supported");
-  const Attributes found = takeAttributes(bytes);
-  if (!found.data || !found.display || !found.compression || found.channelCount == 0) refuse();
-
-  const Window& data = *found.data;
-  const Window& display = *found.display;
-  if (data.left < display.left || data.top < display.top || data.right > display.right ||
-      data.bottom > display.bottom)
-    throw std::runtime_error("its data window is not inside its display window");
+  const bool isMultiPart = (version & kMultiPart) != 0;
+  std::optional<Window> data, display;
+  int64_t blocks = 0;
+  int channelCount = 0;
+  do {
+    const Attributes part = takeAttributes(bytes);
+    if (!part.data || !part.display || !part.compression || part.channelCount == 0) refuse();
+    if (display && !(*part.display == *display)) throw std::runtime_error("its parts differ in their sizes");
+    display = part.display;
+    extend(data ? *data : data.emplace(*part.data), *part.data);
+    blocks += blocksOf(part, (version & kTiled) != 0, isMultiPart);
+    channelCount += part.channelCount;
+    checkImageSize(data->width(), data->height(), channelCount);
+  } while (isMultiPart && !bytes.empty() && bytes[0] != 0);
 
   // Each block has an entry of 8 bytes in a table, and is itself at least a header of 8.
   constexpr int64_t kLeastOfABlock = 16;
-  const auto blocks = [](int64_t size, int64_t block) { return (size + block - 1) / block; };
-  const bool tiled = (version & kTiled) != 0 || ((version & kMultiPart) != 0 && found.tiles);
-  if (tiled && !found.tiles) refuse();
-  const int64_t count =
-      tiled ? blocks(data.width(), found.tiles->width) * blocks(data.height(), found.tiles->height)
-            : blocks(data.height(), linesOf(*found.compression));
-  if (count > int64_t(bytes.size()) / kLeastOfABlock) throw std::runtime_error("the file is truncated");
-  checkImageSize(display.width(), display.height(), found.channelCount);
-  return {ImageFormat::OpenExr, int(display.width()), int(display.height()), found.channelCount};
+  if (blocks > int64_t(bytes.size()) / kLeastOfABlock) throw std::runtime_error("the file is truncated");
+  if (data->left > display->right || data->right < display->left || data->top > display->bottom ||
+      data->bottom < display->top)
+    throw std::runtime_error("its data window is outside of its display window");
+  checkImageSize(display->width(), display->height(), channelCount);
+  ImageHeader header{ImageFormat::OpenExr, int(display->width()), int(display->height()), channelCount};
+  if (data->left < display->left || data->top < display->top || data->right > display->right ||
+      data->bottom > display->bottom)
+    header.overscan = {int(data->width()), int(data->height())};
+  return header;
 }
 
 }  // namespace fragtrace

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <stdexcept>
 #include <string_view>
 
+#include "base/text.h"
 #include "image/files/pfm.h"
 #include "image/limits.h"
 
@@ -78,6 +80,34 @@ ImageHeader webpHeader(Bytes bytes) {
   return checked(ImageFormat::WebP, width, height, kMostTextureChannels);
 }
 
+std::string_view takeWord(std::string_view& text) {
+  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+  const std::string_view word = text.substr(0, text.find(' '));
+  text.remove_prefix(word.size());
+  return word;
+}
+
+/// Multiplies the form's exposures by those of a line such as "EXPOSURE=2.5" or "COLORCORR= 1 1 0.9".
+void addExposure(HdrForm& form, std::string_view line) {
+  const bool isOne = line.starts_with("EXPOSURE=");
+  if (!isOne && !line.starts_with("COLORCORR=")) return;
+  line.remove_prefix(line.find('=') + 1);
+  double factor = 0.0;
+  for (size_t c = 0; c < 3; ++c) {
+    if (c == 0 || !isOne) factor = numberOfAll<double>(takeWord(line)).value_or(1.0);
+    if (factor > 0.0 && std::isfinite(factor)) form.exposure[c] *= factor;
+  }
+}
+
+/// Takes an axis of the resolution, such as "-Y 512". Returns its size; `name` becomes "-Y".
+int takeAxis(std::string_view& resolution, std::string_view& name) {
+  name = takeWord(resolution);
+  const auto size = numberOfAll<int>(takeWord(resolution));
+  if (!size || name.size() != 2 || (name[0] != '-' && name[0] != '+') || (name[1] != 'X' && name[1] != 'Y'))
+    throw std::runtime_error("the HDR header has no resolution such as -Y 512 +X 1024");
+  return *size;
+}
+
 ImageHeader hdrHeader(Bytes bytes) {
   // By Ward, "Real Pixels", a file has lines of text up to an empty one, the resolution, and the scan lines.
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -85,23 +115,21 @@ ImageHeader hdrHeader(Bytes bytes) {
   const size_t end = empty == text.npos ? text.npos : text.find('\n', empty + 2);
   if (end == text.npos) refuseTruncated();
   std::string_view resolution = text.substr(empty + 2, end - empty - 2);
-  const auto takeSize = [&resolution](std::string_view down, std::string_view up) {
-    int size = 0;
-    if (!resolution.starts_with(down) && !resolution.starts_with(up))
-      throw std::runtime_error("the HDR header has no resolution such as -Y 512 +X 1024");
-    resolution.remove_prefix(down.size());
-    const auto [rest, error] =
-        std::from_chars(resolution.data(), resolution.data() + resolution.size(), size);
-    if (error != std::errc{}) throw std::runtime_error("the HDR header has no resolution");
-    resolution.remove_prefix(size_t(rest - resolution.data()));
-    return size;
-  };
-  const int height = takeSize("-Y ", "+Y ");
-  const int width = takeSize(" +X ", " -X ");
+  std::string_view lines, along;
+  const int lineCount = takeAxis(resolution, lines);
+  const int lineLength = takeAxis(resolution, along);
+  if (lines[1] == along[1]) throw std::runtime_error("the HDR header has no resolution of two axes");
+  HdrForm form{.columns = lines[1] == 'X',
+               .fromRight = lines == "-X" || along == "-X",
+               .fromBottom = lines == "+Y" || along == "+Y"};
+  for (size_t at = 0; at < empty; at = std::min(text.find('\n', at), empty) + 1)
+    addExposure(form, text.substr(at, std::min(text.find('\n', at), empty) - at));
   // A run says at most how often a pixel of four bytes is repeated, so that each line has one.
   constexpr int64_t kLeastOfALine = 4;
-  const ImageHeader header = checked(ImageFormat::Hdr, width, height, 3);
-  if (int64_t(bytes.size() - end) < header.height * kLeastOfALine) refuseTruncated();
+  ImageHeader header = form.columns ? checked(ImageFormat::Hdr, lineCount, lineLength, 3)
+                                    : checked(ImageFormat::Hdr, lineLength, lineCount, 3);
+  header.hdr = form;
+  if (int64_t(bytes.size() - end) < lineCount * kLeastOfALine) refuseTruncated();
   return header;
 }
 

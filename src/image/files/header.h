@@ -2,7 +2,10 @@
 // The header of an encoded picture, read by our own code before any library sees the file.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <span>
 
 #include "image/format.h"
@@ -11,12 +14,29 @@ namespace fragtrace {
 
 inline constexpr int kMostTextureChannels = 4;
 
+/// What the header of an .hdr says about its pixels.
+struct HdrForm {
+  bool columns = false;  ///< scan lines are columns of the picture
+  bool fromRight = false;
+  bool fromBottom = false;
+  std::array<double, 3> exposure{1.0, 1.0, 1.0};  ///< by which red, green and blue were multiplied
+};
+
 struct ImageHeader {
   ImageFormat format = ImageFormat::Png;
   int width = 0;  ///< the width; of an .exr, that of its display window
   int height = 0;
-  int channelCount = 0;  ///< the largest number of channels after decoding
+  int channelCount = 0;    ///< the largest number of channels after decoding; of an .exr, of all parts
+  glm::ivec2 overscan{0};  ///< size of the data windows of an .exr of which a part is outside; 0: none is
+  HdrForm hdr = {};
 };
+
+/// Returns how many values a decoder may hold at once.
+inline uint64_t decodedValues(const ImageHeader& header) {
+  const uint64_t pixels = uint64_t(header.width) * uint64_t(header.height);
+  const uint64_t stored = uint64_t(header.overscan.x) * uint64_t(header.overscan.y);
+  return std::max(pixels, stored) * uint64_t(header.channelCount);
+}
 
 /// Parses the header and checks that the file is long enough for it. Throws std::runtime_error with the
 /// reason: unknown format, truncated, a size that is not supported, more work than the file's length can
@@ -24,8 +44,8 @@ struct ImageHeader {
 ImageHeader readImageHeader(std::span<const uint8_t> bytes);
 
 /// Does the same for an OpenEXR file, whose libraries in the distribution believe its header before they read
-/// on: that of the first part. Refuses a file without an attribute that is needed or with a wrong one, one
-/// whose data window is not inside the display window, one that is shorter than its table of blocks, and deep
+/// on: those of all parts. Refuses a file without an attribute that is needed or with a wrong one, one whose
+/// data windows are outside of the display window, one that is shorter than its tables of blocks, and deep
 /// pictures.
 ImageHeader readExrHeader(std::span<const uint8_t> bytes);
 

@@ -55,6 +55,7 @@ PfmHeader readPfmHeader(std::span<const uint8_t> bytes) {
   if (scale == 0 || !std::isfinite(scale) || bytes.empty())
     throw std::runtime_error("the PFM header is wrong");
   header.littleEndian = scale < 0;
+  header.scale = float(std::abs(scale));
   header.rows = bytes.subspan(bytes.size() > 1 && bytes[0] == '\r' && bytes[1] == '\n' ? 2 : 1);
   checkImageSize(header.width, header.height, header.channelCount);
   const size_t rowBytes = size_t(header.width) * size_t(header.channelCount) * sizeof(float);
@@ -77,7 +78,7 @@ Image decodePfm(std::span<const uint8_t> bytes) {
   for (int y = 0; y < image.height; ++y) {
     const uint8_t* row = header.rows.data() + size_t(image.height - 1 - y) * rowValues * sizeof(float);
     for (size_t i = 0; i < rowValues; ++i)
-      image.pixel(0, y)[i] = loadFloat(row + i * sizeof(float), header.littleEndian);
+      image.pixel(0, y)[i] = loadFloat(row + i * sizeof(float), header.littleEndian) * header.scale;
   }
   return image;
 }

@@ -15,14 +15,15 @@ struct PfmHeader {
   int height = 0;
   int channelCount = 0;  ///< 3, or 1
   bool littleEndian = false;
+  float scale = 1.0f;             ///< by which values are multiplied
   std::span<const uint8_t> rows;  ///< the bottom one first
 };
 
 /// Throws std::runtime_error with the reason when the header is wrong or values are missing.
 PfmHeader readPfmHeader(std::span<const uint8_t> bytes);
 
-/// Reads "PF" (R, G, B) and "Pf" (Y) of either byte order; the magnitude of the scale is ignored.
-/// Throws std::runtime_error with the reason when the header is wrong or values are missing.
+/// Reads "PF" (R, G, B) and "Pf" (Y) of either byte order, with values multiplied by the scale. Throws
+/// std::runtime_error with the reason when the header is wrong or values are missing.
 Image decodePfm(std::span<const uint8_t> bytes);
 
 /// Little-endian "PF" of the colour channels, or "Pf" for a grey picture; alpha is dropped.

@@ -36,7 +36,7 @@ Worker& ktx2Worker() {
 WorkResult decode(PictureTask task, Bytes bytes, const ImageHeader& header, uint64_t room) {
   constexpr uint64_t kLibrary = uint64_t(512) << 20;
   constexpr uint64_t kValuesASecond = 10'000'000;
-  const uint64_t values = uint64_t(header.width) * uint64_t(header.height) * uint64_t(header.channelCount);
+  const uint64_t values = decodedValues(header);
   const PictureMessage request{.task = task,
                                .format = header.format,
                                .width = header.width,
@@ -73,7 +73,9 @@ bool isAsPromised(const PictureMessage& picture, const ImageHeader& header) {
 
 }  // namespace
 
-Image decodeByProcess(Bytes bytes, const ImageHeader& header) {
+Image decodeByProcess(Bytes bytes, const ImageHeader& asShown) {
+  ImageHeader header = asShown;
+  if (header.hdr.columns) std::swap(header.width, header.height);
   const uint64_t pixels = uint64_t(header.width) * uint64_t(header.height);
   constexpr uint64_t kRoomForTexts = 1 << 16;  // beside those that stand in the file
   const WorkResult result =

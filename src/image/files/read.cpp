@@ -8,6 +8,7 @@
 
 #include "base/errors.h"
 #include "image/display/tone_map.h"
+#include "image/files/as_shown.h"
 #include "image/files/header.h"
 #include "image/files/pfm.h"
 #include "image/files/process.h"
@@ -35,9 +36,9 @@ Image decodeStored(std::span<const uint8_t> bytes, const std::filesystem::path& 
     const ImageHeader header = readImageHeader(bytes);
     if (header.format == ImageFormat::Ktx2)
       throw std::runtime_error("a KTX2 picture is read as a texture only");
-    const uint64_t values = uint64_t(header.width) * uint64_t(header.height) * uint64_t(header.channelCount);
-    MemoryBudget(memoryLimit).take(bytes.size() + values * sizeof(float));
-    return header.format == ImageFormat::Pfm ? decodePfm(bytes) : decodeByProcess(bytes, header);
+    MemoryBudget(memoryLimit).take(bytes.size() + decodedValues(header) * sizeof(float));
+    return asShown(header.format == ImageFormat::Pfm ? decodePfm(bytes) : decodeByProcess(bytes, header),
+                   header);
   });
 }
 
@@ -55,8 +56,14 @@ bool isLinear(std::span<const uint8_t> bytes) {
 Image wholeOf(Image part) {
   if (!part.placement) return part;
   const auto [corner, size] = *part.placement;
-  Image whole{
-      size.x, size.y, part.channels, {}, std::move(part.attributes), std::nullopt, std::move(part.numbers)};
+  Image whole{size.x,
+              size.y,
+              part.channels,
+              {},
+              std::move(part.attributes),
+              std::nullopt,
+              std::move(part.numbers),
+              std::move(part.notes)};
   whole.values.resize(size_t(size.x) * size_t(size.y) * whole.channelCount());
   const size_t row = size_t(part.width) * part.channelCount();
   for (int y = 0; y < part.height; ++y)

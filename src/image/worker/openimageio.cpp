@@ -8,8 +8,10 @@
 #include <regex>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "image/limits.h"
+#include "image/worker/exr_parts.h"
 #include "image/worker/library.h"
 
 namespace fragtrace {
@@ -64,8 +66,16 @@ struct OpenPicture {
     checkImageSize(spec.width, spec.height, spec.nchannels);
   }
 
+  /// Goes to a part of an .exr.
+  void select(int part) {
+    if (!input->seek_subimage(part, 0)) throw std::runtime_error(oneLine(input->geterror()));
+    spec = input->spec();
+    checkImageSize(spec.width, spec.height, spec.nchannels);
+  }
+
   void read(const OIIO::TypeDesc& type, void* values, OIIO::stride_t pixelStride, OIIO::stride_t rowStride) {
-    if (!input->read_image(0, 0, 0, spec.nchannels, type, values, pixelStride, rowStride))
+    if (!input->read_image(input->current_subimage(), 0, 0, spec.nchannels, type, values, pixelStride,
+                           rowStride))
       throw std::runtime_error(oneLine(input->geterror()));
     // libjpeg's warnings are errors here, except for extraneous bytes, which leave the picture whole.
     if (!input->has_error()) return;
@@ -122,29 +132,79 @@ void unassociate(std::span<Value> values, double one) {
   }
 }
 
+/// The place of a part of an .exr in the picture, its display window.
+Region placeOf(const OIIO::ImageSpec& spec) {
+  return {{spec.x - spec.full_x, spec.y - spec.full_y}, {spec.width, spec.height}};
+}
+
+/// The part of a rectangle that lies in the picture.
+Region cut(const Region& region, const glm::ivec2& whole) {
+  const glm::ivec2 corner = glm::clamp(region.corner, glm::ivec2(0), whole);
+  return {corner, glm::max(glm::min(region.corner + region.size, whole) - corner, glm::ivec2(0))};
+}
+
+Region around(const Region& a, const Region& b) {
+  const glm::ivec2 corner = glm::min(a.corner, b.corner);
+  return {corner, glm::max(a.corner + a.size, b.corner + b.size) - corner};
+}
+
+/// Reads all parts of an .exr as one picture. Pixels outside of the display window are left out.
+Image readParts(OpenPicture& picture) {
+  std::vector<OIIO::ImageSpec> specs;
+  std::vector<ExrPart> parts;
+  for (int i = 0; picture.input->seek_subimage(i, 0); ++i) {
+    specs.push_back(picture.input->spec());
+    parts.push_back(
+        {specs[size_t(i)].get_string_attribute("oiio:subimagename"), specs[size_t(i)].channelnames});
+  }
+  picture.input->geterror();  // that there are no more parts
+  const std::vector<size_t> order = orderOfParts(parts);
+  const OIIO::ImageSpec& first = specs[order[0]];
+  const glm::ivec2 whole(std::max(first.full_width, 1), std::max(first.full_height, 1));
+  Region data = placeOf(first);
+  for (const OIIO::ImageSpec& spec : specs) data = around(data, placeOf(spec));
+  data = cut(data, whole);
+
+  Image image;
+  image.width = data.size.x;
+  image.height = data.size.y;
+  if (data.size != whole) image.placement = {data.corner, whole};
+  image.channels = channelsOfParts(parts, order);
+  checkImageSize(whole.x, whole.y, int(image.channelCount()));
+  image.values.resize(size_t(image.width) * size_t(image.height) * image.channelCount());
+  size_t channel = 0;
+  for (const size_t part : order) {
+    const OIIO::ImageSpec& spec = specs[part];
+    image.attributes.merge(stringAttributes(spec));
+    image.numbers.merge(numberAttributes(spec));
+    picture.select(int(part));
+    const size_t count = size_t(spec.nchannels);
+    std::vector<float> values(size_t(spec.width) * size_t(spec.height) * count);
+    picture.read(OIIO::TypeFloat, values.data(), OIIO::AutoStride, OIIO::AutoStride);
+    const Region place = placeOf(spec), seen = cut(place, whole);
+    for (int y = 0; y < seen.size.y; ++y) {
+      for (int x = 0; x < seen.size.x; ++x) {
+        const glm::ivec2 from = seen.corner - place.corner + glm::ivec2(x, y);
+        const glm::ivec2 to = seen.corner - data.corner + glm::ivec2(x, y);
+        std::copy_n(&values[(size_t(from.y) * size_t(spec.width) + size_t(from.x)) * count], count,
+                    image.pixel(to.x, to.y) + channel);
+      }
+    }
+    channel += count;
+  }
+  return image;
+}
+
 }  // namespace
 
 Image decodeFloats(std::span<const uint8_t> bytes, ImageFormat format) {
   OpenPicture picture(bytes, format);
+  if (format == ImageFormat::OpenExr) return readParts(picture);
   const OIIO::ImageSpec& spec = picture.spec;
-
-  // An EXR file may hold only a window of its picture.
   Image image;
   image.width = spec.width;
   image.height = spec.height;
-  const Placement placed{{spec.x - spec.full_x, spec.y - spec.full_y},
-                         {std::max(spec.full_width, 1), std::max(spec.full_height, 1)}};
-  if (glm::any(glm::lessThan(placed.corner, glm::ivec2(0))) ||
-      spec.width > placed.whole.x - placed.corner.x || spec.height > placed.whole.y - placed.corner.y)
-    throw std::runtime_error("its data window is not inside its display window");
-  checkImageSize(placed.whole.x, placed.whole.y, spec.nchannels);
-  if (placed.whole != glm::ivec2(spec.width, spec.height)) image.placement = placed;
-
   image.channels = spec.channelnames;
-  if (format == ImageFormat::OpenExr) {
-    image.attributes = stringAttributes(spec);
-    image.numbers = numberAttributes(spec);
-  }
   image.values.resize(size_t(image.width) * size_t(image.height) * image.channelCount());
   picture.read(OIIO::TypeFloat, image.values.data(), OIIO::AutoStride, OIIO::AutoStride);
   if (format == ImageFormat::WebP && spec.nchannels == 4) unassociate<float>(image.values, 1);
