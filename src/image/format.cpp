@@ -44,6 +44,8 @@ std::optional<ImageFormat> formatOfBytes(std::span<const uint8_t> bytes) {
   if (beginsWith(bytes, "RIFF") && bytes.size() >= 12 && beginsWith(bytes.subspan(8), "WEBP"))
     return ImageFormat::WebP;
   if (beginsWith(bytes, "\xabKTX 20\xbb\r\n\x1a\n")) return ImageFormat::Ktx2;
+  // ISO/IEC 23008-12: the box of the file's type names its brand.
+  if (bytes.size() >= 12 && beginsWith(bytes.subspan(4), "ftypavif")) return ImageFormat::Avif;
   if (beginsWith(bytes, "PF") || beginsWith(bytes, "Pf")) return ImageFormat::Pfm;
   return std::nullopt;
 }

@@ -11,7 +11,7 @@
 
 namespace fragtrace {
 
-enum class ImageFormat { Png, Jpeg, OpenExr, Hdr, WebP, Pfm, Ktx2 };
+enum class ImageFormat { Png, Jpeg, OpenExr, Hdr, WebP, Pfm, Ktx2, Avif };
 
 /// The extension of a file's name with its dot, in small letters.
 std::string extensionOf(const std::filesystem::path& path);

@@ -11,13 +11,14 @@
 
 #include "base/text.h"
 #include "image/channels.h"
+#include "image/files/exr_parts.h"
 
 namespace fragtrace {
 
 namespace {
 
 /// Puts each pixel of scan lines where the header says.
-Image turned(Image stored, const ImageHeader& header) {
+Image asTurned(Image stored, const ImageHeader& header) {
   const HdrForm& form = header.hdr;
   if (!form.columns && !form.fromRight && !form.fromBottom) return stored;
   Image image = stored;
@@ -126,7 +127,7 @@ void convertToRec709(Image& image) {
 }  // namespace
 
 Image asShown(Image stored, const ImageHeader& header) {
-  Image image = turned(std::move(stored), header);
+  Image image = namedParts(asTurned(std::move(stored), header));
   takeExposureBack(image, header.hdr.exposure);
   convertToRec709(image);
   if (header.overscan != glm::ivec2(0))

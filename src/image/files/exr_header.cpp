@@ -110,7 +110,7 @@ Attributes takeAttributes(Bytes& bytes) {
 }
 
 /// Returns the number of blocks of a part; `isTiled`: the file says that its only part has tiles.
-int64_t blocksOf(const Attributes& part, bool isTiled, bool isMultiPart) {
+int64_t blockCountOf(const Attributes& part, bool isTiled, bool isMultiPart) {
   const auto blocks = [](int64_t size, int64_t block) { return (size + block - 1) / block; };
   if (isTiled && !part.tiles) refuse();
   return isTiled || (isMultiPart && part.tiles)
@@ -141,7 +141,7 @@ ImageHeader readExrHeader(Bytes bytes) {
     if (display && !(*part.display == *display)) throw std::runtime_error("its parts differ in their sizes");
     display = part.display;
     extend(data ? *data : data.emplace(*part.data), *part.data);
-    blocks += blocksOf(part, (version & kTiled) != 0, isMultiPart);
+    blocks += blockCountOf(part, (version & kTiled) != 0, isMultiPart);
     channelCount += part.channelCount;
     checkImageSize(data->width(), data->height(), channelCount);
   } while (isMultiPart && !bytes.empty() && bytes[0] != 0);

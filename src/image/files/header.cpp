@@ -5,6 +5,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 
@@ -80,7 +82,61 @@ ImageHeader webpHeader(Bytes bytes) {
   return checked(ImageFormat::WebP, width, height, kMostTextureChannels);
 }
 
-std::string_view takeWord(std::string_view& text) {
+/// A box of ISO/IEC 14496-12: its type and its content.
+struct IsoBox {
+  std::string_view type;
+  Bytes content;
+};
+
+/// Takes the next box off the bytes; none where they hold no whole one.
+std::optional<IsoBox> takeIsoBox(Bytes& bytes) {
+  constexpr size_t kHeader = 8;
+  if (bytes.size() < kHeader) return std::nullopt;
+  const size_t size = size_t(bytes[0]) << 24 | size_t(bytes[1]) << 16 | size_t(bytes[2]) << 8 | bytes[3];
+  const size_t whole = size == 0 ? bytes.size() : size;  // 0: up to the end
+  if (whole < kHeader || whole > bytes.size()) return std::nullopt;
+  const IsoBox box{{reinterpret_cast<const char*>(bytes.data()) + 4, 4},
+                   bytes.subspan(kHeader, whole - kHeader)};
+  bytes = bytes.subspan(whole);
+  return box;
+}
+
+/// The content of the first box with that path; empty: there is none. A box `meta` has 4 bytes before its
+/// boxes.
+Bytes isoBoxAt(Bytes bytes, std::initializer_list<std::string_view> path) {
+  for (const std::string_view type : path) {
+    std::optional<IsoBox> box = takeIsoBox(bytes);
+    while (box && box->type != type) box = takeIsoBox(bytes);
+    if (!box) return {};
+    bytes = box->content.subspan(type == "meta" ? std::min<size_t>(4, box->content.size()) : 0);
+  }
+  return bytes;
+}
+
+/// Takes the largest extent among the properties of the file's items, which is that of the picture: others
+/// are of its alpha, of its tiles or of a thumbnail.
+ImageHeader avifHeader(Bytes bytes) {
+  Bytes properties = isoBoxAt(bytes, {"meta", "iprp", "ipco"});
+  int64_t width = 0, height = 0;
+  bool isTurned = false;
+  while (const std::optional<IsoBox> box = takeIsoBox(properties)) {
+    constexpr size_t kExtent = 12;  // version and flags, width, height
+    if (box->type == "irot" && !box->content.empty()) isTurned = box->content[0] % 2 != 0;
+    if (box->type != "ispe" || box->content.size() < kExtent) continue;
+    const auto number = [&](size_t at) {
+      const Bytes& b = box->content;
+      return int64_t(b[at]) << 24 | b[at + 1] << 16 | b[at + 2] << 8 | b[at + 3];
+    };
+    if (number(4) * number(8) <= width * height) continue;
+    width = number(4);
+    height = number(8);
+  }
+  if (width == 0) refuseTruncated();
+  return isTurned ? checked(ImageFormat::Avif, height, width, kMostTextureChannels)
+                  : checked(ImageFormat::Avif, width, height, kMostTextureChannels);
+}
+
+std::string_view cutWord(std::string_view& text) {
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
   const std::string_view word = text.substr(0, text.find(' '));
   text.remove_prefix(word.size());
@@ -94,15 +150,15 @@ void addExposure(HdrForm& form, std::string_view line) {
   line.remove_prefix(line.find('=') + 1);
   double factor = 0.0;
   for (size_t c = 0; c < 3; ++c) {
-    if (c == 0 || !isOne) factor = numberOfAll<double>(takeWord(line)).value_or(1.0);
+    if (c == 0 || !isOne) factor = numberOfAll<double>(cutWord(line)).value_or(1.0);
     if (factor > 0.0 && std::isfinite(factor)) form.exposure[c] *= factor;
   }
 }
 
 /// Takes an axis of the resolution, such as "-Y 512". Returns its size; `name` becomes "-Y".
 int takeAxis(std::string_view& resolution, std::string_view& name) {
-  name = takeWord(resolution);
-  const auto size = numberOfAll<int>(takeWord(resolution));
+  name = cutWord(resolution);
+  const auto size = numberOfAll<int>(cutWord(resolution));
   if (!size || name.size() != 2 || (name[0] != '-' && name[0] != '+') || (name[1] != 'X' && name[1] != 'Y'))
     throw std::runtime_error("the HDR header has no resolution such as -Y 512 +X 1024");
   return *size;
@@ -227,7 +283,7 @@ ImageHeader readImageHeader(Bytes bytes) {
   if (bytes.empty()) throw std::runtime_error("it is empty");
   const auto format = formatOfBytes(bytes);
   if (!format)
-    throw std::runtime_error("it is no PNG, JPEG, WebP, KTX2, OpenEXR, Radiance HDR or PFM picture");
+    throw std::runtime_error("it is no PNG, JPEG, WebP, AVIF, KTX2, OpenEXR, Radiance HDR or PFM picture");
   switch (*format) {
     case ImageFormat::Png:
       return pngHeader(bytes);
@@ -237,6 +293,8 @@ ImageHeader readImageHeader(Bytes bytes) {
       return webpHeader(bytes);
     case ImageFormat::Hdr:
       return hdrHeader(bytes);
+    case ImageFormat::Avif:
+      return avifHeader(bytes);
     case ImageFormat::OpenExr:
       return readExrHeader(bytes);
     case ImageFormat::Ktx2:

@@ -34,8 +34,8 @@ auto decodeNamed(const std::string& name, Decode decode) {
 Image decodeStored(std::span<const uint8_t> bytes, const std::filesystem::path& path, uint64_t memoryLimit) {
   return decodeNamed(path.string(), [&] {
     const ImageHeader header = readImageHeader(bytes);
-    if (header.format == ImageFormat::Ktx2)
-      throw std::runtime_error("a KTX2 picture is read as a texture only");
+    if (header.format == ImageFormat::Ktx2 || header.format == ImageFormat::Avif)
+      throw std::runtime_error("a KTX2 or AVIF picture is read as a texture only");
     MemoryBudget(memoryLimit).take(bytes.size() + decodedValues(header) * sizeof(float));
     return asShown(header.format == ImageFormat::Pfm ? decodePfm(bytes) : decodeByProcess(bytes, header),
                    header);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "image/limits.h"
-#include "image/worker/exr_parts.h"
+#include "image/worker/avif.h"
 #include "image/worker/library.h"
 
 namespace fragtrace {
@@ -31,6 +31,7 @@ const char* formatName(ImageFormat format) {
       return "webp";
     case ImageFormat::Pfm:
     case ImageFormat::Ktx2:
+    case ImageFormat::Avif:
       break;
   }
   throw std::runtime_error("the image library is not for this format");
@@ -148,20 +149,14 @@ Region around(const Region& a, const Region& b) {
   return {corner, glm::max(a.corner + a.size, b.corner + b.size) - corner};
 }
 
-/// Reads all parts of an .exr as one picture. Pixels outside of the display window are left out.
+/// Reads all parts of an .exr as one picture, whose channels have the names PART\nCHANNEL where there are
+/// several (image/files/exr_parts.h). Pixels outside of the display window are left out.
 Image readParts(OpenPicture& picture) {
   std::vector<OIIO::ImageSpec> specs;
-  std::vector<ExrPart> parts;
-  for (int i = 0; picture.input->seek_subimage(i, 0); ++i) {
-    specs.push_back(picture.input->spec());
-    parts.push_back(
-        {specs[size_t(i)].get_string_attribute("oiio:subimagename"), specs[size_t(i)].channelnames});
-  }
+  for (int i = 0; picture.input->seek_subimage(i, 0); ++i) specs.push_back(picture.input->spec());
   picture.input->geterror();  // that there are no more parts
-  const std::vector<size_t> order = orderOfParts(parts);
-  const OIIO::ImageSpec& first = specs[order[0]];
-  const glm::ivec2 whole(std::max(first.full_width, 1), std::max(first.full_height, 1));
-  Region data = placeOf(first);
+  const glm::ivec2 whole(std::max(specs[0].full_width, 1), std::max(specs[0].full_height, 1));
+  Region data = placeOf(specs[0]);
   for (const OIIO::ImageSpec& spec : specs) data = around(data, placeOf(spec));
   data = cut(data, whole);
 
@@ -169,11 +164,15 @@ Image readParts(OpenPicture& picture) {
   image.width = data.size.x;
   image.height = data.size.y;
   if (data.size != whole) image.placement = {data.corner, whole};
-  image.channels = channelsOfParts(parts, order);
+  for (const OIIO::ImageSpec& spec : specs) {
+    const std::string part = std::string(spec.get_string_attribute("oiio:subimagename")) + "\n";
+    for (const std::string& name : spec.channelnames)
+      image.channels.push_back(specs.size() > 1 ? part + name : name);
+  }
   checkImageSize(whole.x, whole.y, int(image.channelCount()));
   image.values.resize(size_t(image.width) * size_t(image.height) * image.channelCount());
   size_t channel = 0;
-  for (const size_t part : order) {
+  for (size_t part = 0; part < specs.size(); ++part) {
     const OIIO::ImageSpec& spec = specs[part];
     image.attributes.merge(stringAttributes(spec));
     image.numbers.merge(numberAttributes(spec));
@@ -213,6 +212,7 @@ Image decodeFloats(std::span<const uint8_t> bytes, ImageFormat format) {
 
 void decodeTexels(std::span<const uint8_t> bytes, ImageFormat format, int width, int height,
                   std::span<uint16_t> rgba) {
+  if (format == ImageFormat::Avif) return decodeAvif(bytes, width, height, rgba);
   OpenPicture picture(bytes, format);
   const int stored = picture.spec.nchannels;
   if (stored > 4) throw std::runtime_error("it has more than four channels");

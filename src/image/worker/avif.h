@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// AVIF by libheif, which OpenImageIO links: it reads such pictures from files alone, and this process opens
+// none.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace fragtrace {
+
+/// Fills `rgba`, which holds width x height texels. Throws std::runtime_error where the picture has another
+/// size, and where there is no libheif, or none with a decoder of AV1: then the reason names the package.
+void decodeAvif(std::span<const uint8_t> bytes, int width, int height, std::span<uint16_t> rgba);
+
+}  // namespace fragtrace
