@@ -69,7 +69,7 @@ struct TextureTransform {
 /// A material's use of a texture; texture == kMissIndex means the factor alone.
 struct TextureRef {
   uint32_t texture = kMissIndex;
-  uint32_t texcoord = 0;  ///< n of TEXCOORD_n, 0 or 1
+  uint32_t texcoord = 0;  ///< 0 or 1: place among Material::texcoordSets
   TextureTransform transform{};
   bool lost = false;  ///< its picture could not be read: there is no texture
   bool present() const { return texture != kMissIndex; }
@@ -89,13 +89,13 @@ struct PerlinNormal {
 /// An index that reflects everything: the reflectance at normal incidence is within 4e-6 of 1.
 inline constexpr float kInfiniteIor = 1e6f;
 
-/// Material of glTF 2.0 with the extensions named in docs/design/surfaces.md; defaults are the
-/// specification's.
+/// Material of glTF 2.0 with the extensions of docs/design/surfaces.md; defaults are the specification's.
 struct Material {
   std::string name;
   uint32_t number = 0;                    ///< number of the glTF material, from 1; the default one comes last
   std::string place{};                    ///< JSON pointer; empty: the default one
   std::vector<std::string> extensions{};  ///< extensions that the file gives the material
+  std::array<uint32_t, 2> texcoordSets{0, 1};  ///< n of the TEXCOORD_n that its textures have
   glm::vec4 baseColorFactor{1.0f};
   float metallicFactor = 1.0f;
   float roughnessFactor = 1.0f;
@@ -251,8 +251,7 @@ enum class LightType : uint8_t { Point, Spot, Directional };
 /// A punctual light; intensity is taken as radiometric (nothing is divided by 683).
 struct Light {
   LightType type = LightType::Point;
-  glm::vec3 intensity{1.0f};  ///< colour * intensity: irradiance on a facing surface at a distance of 1 in
-                              ///< local space, W/m^2; directional: anywhere
+  glm::vec3 intensity{1.0f};  ///< irradiance on a facing surface 1 away in local space; directional: anywhere
   glm::vec3 position{0.0f};   ///< local space
   glm::vec3 direction{0, 0, -1};                         ///< unit, the way the light shines
   float range = std::numeric_limits<float>::infinity();  ///< local space
@@ -260,6 +259,7 @@ struct Light {
   float outerConeAngle = 0.7853981634f;
   uint32_t source = 0;  ///< index into Scene::lightSources
   std::string node{};   ///< the name of the node that places it, or else its JSON pointer
+  std::string place{};  ///< that pointer
 };
 
 /// A punctual light as the file describes it; nodes place it.

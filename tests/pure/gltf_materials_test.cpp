@@ -121,14 +121,41 @@ TEST(GltfMaterials, TexturesKeepTheirOwnSamplerAndShareTheirImage) {
   EXPECT_EQ(scene.materials[0].normalScale, 0.5f);
 }
 
-TEST(GltfMaterials, TextureCoordinatesBeyondTheSecondSetWarn) {
+TEST(GltfMaterials, TexturesChooseTwoSetsOfCoordinatesAmongAll) {
   GltfBuilder builder;
   builder.root["images"] = {{{"uri", kPixelUri}}};
   builder.root["textures"] = {{{"source", 0}}};
-  builder.root["materials"] = {{{"emissiveTexture", {{"index", 0}, {"texCoord", 2}}}}};
+  const auto with = [](json base, json emissive, json normal) {
+    json material = json::object();
+    const auto texture = [](const json& set) { return json{{"index", 0}, {"texCoord", set}}; };
+    if (!base.is_null()) material["pbrMetallicRoughness"]["baseColorTexture"] = texture(base);
+    if (!emissive.is_null()) material["emissiveTexture"] = texture(emissive);
+    if (!normal.is_null()) material["normalTexture"] = texture(normal);
+    return material;
+  };
+  builder.root["materials"] = {with(0, 1, nullptr), with(2, nullptr, 2), with(5, 0, nullptr),
+                               with(1, 7, nullptr), with(3, 2, nullptr), with(0, 2, 4)};
+  builder.root["materials"][1]["occlusionTexture"] = {{"index", 0}, {"texCoord", 1}};
   const Scene scene = load(builder);
-  EXPECT_EQ(scene.materials.at(0).emissiveTexture.texcoord, 0u);
-  EXPECT_TRUE(anyWarningHas(scene, "/materials/0/emissiveTexture"));
+  const auto setOf = [&](size_t material, TextureRef Material::*ref) {
+    const Material& m = scene.materials.at(material);
+    return m.texcoordSets.at((m.*ref).texcoord);
+  };
+  EXPECT_EQ(scene.materials[0].texcoordSets, (std::array<uint32_t, 2>{0, 1}));
+  EXPECT_EQ(setOf(0, &Material::emissiveTexture), 1u);
+  EXPECT_EQ(setOf(1, &Material::baseColorTexture), 2u);
+  EXPECT_EQ(setOf(1, &Material::normalTexture), 2u);
+  EXPECT_EQ(setOf(2, &Material::baseColorTexture), 5u);
+  EXPECT_EQ(setOf(2, &Material::emissiveTexture), 0u);
+  EXPECT_EQ(setOf(3, &Material::baseColorTexture), 1u);
+  EXPECT_EQ(setOf(3, &Material::emissiveTexture), 7u);
+  EXPECT_EQ(setOf(4, &Material::baseColorTexture), 3u);
+  EXPECT_EQ(setOf(4, &Material::emissiveTexture), 2u);
+  EXPECT_EQ(setOf(5, &Material::emissiveTexture), 0u) << "a third set";
+  EXPECT_TRUE(anyWarningHas(scene,
+                            "/materials/5: has textures of more than two sets of coordinates; TEXCOORD_0 is "
+                            "taken in place of TEXCOORD_2"));
+  EXPECT_EQ(scene.warnings.size(), 1u);
 }
 
 TEST(GltfMaterials, AnAttenuationDistanceThatIsNotAbove0LosesNoLight) {

@@ -49,6 +49,7 @@ std::optional<Light> lightAt(Document& document, const PlacedNode& node, const L
   }
   light.source = uint32_t(index);
   light.node = nameOrPlace(source.name, "nodes", node.index);
+  light.place = pointerTo("nodes", node.index);
   light.intensity = intensityOf(sourceOf(described), space);
   for (int c = 0; c < 3; ++c) {
     if (!std::isfinite(light.intensity[c]) || light.intensity[c] < 0.0f) {

@@ -46,11 +46,7 @@ TextureRef MaterialPart::texture(int index, int texcoord, const tinygltf::Value&
     texcoord = int(numberOf(transform, "texCoord", texcoord));
     result.transform = below(name + "/extensions/KHR_texture_transform", transform).transformOf();
   }
-  if (texcoord > 1) {
-    warn(name, "only TEXCOORD_0 and 1 are supported, TEXCOORD_0 is taken");
-  } else {
-    result.texcoord = uint32_t(texcoord);
-  }
+  result.texcoord = uint32_t(texcoord);
   return result;
 }
 

@@ -63,6 +63,34 @@ void markLost(Material& m) {
   if (m.emissiveTexture.lost) m.emissiveFactor = glm::vec3(0.0f);
 }
 
+/// Chooses the two sets of texture coordinates that the material has: 0 and 1, or a higher one in the place
+/// of one of these that no texture asks for. Texture::texcoord, the number of a set, becomes the place of
+/// one.
+void chooseTexcoords(Material& m, Diagnostics& diagnostics) {
+  std::array<bool, 2> taken{m.perlinNormal.amplitude != 0.0f, false};
+  const auto isDrawn = [&](const TextureRefRow& row) {
+    return (m.*row.ref).present() && row.ref != &Material::occlusionTexture;
+  };
+  for (const TextureRefRow& row : kTextureRefs) {
+    if (isDrawn(row) && (m.*row.ref).texcoord <= 1) taken[(m.*row.ref).texcoord] = true;
+  }
+  for (const TextureRefRow& row : kTextureRefs) {
+    uint32_t& set = (m.*row.ref).texcoord;
+    const uint32_t wanted = set;
+    set = wanted == m.texcoordSets[1] ? 1 : 0;
+    if (!isDrawn(row) || m.texcoordSets[set] == wanted) continue;
+    set = taken[1] ? 0 : 1;
+    if (taken[set]) {
+      diagnostics.warn(m.place, "has textures of more than two sets of coordinates; TEXCOORD_" +
+                                    std::to_string(m.texcoordSets[set]) + " is taken in place of TEXCOORD_" +
+                                    std::to_string(wanted));
+      continue;
+    }
+    m.texcoordSets[set] = wanted;
+    taken[set] = true;
+  }
+}
+
 Material readMaterial(Document& document, TextureTable& textures, size_t index) {
   const tinygltf::Material& source = document.model.materials[index];
   const MaterialPart part(document.diagnostics, textures, pointerTo("materials", index), kNothing);
@@ -80,6 +108,7 @@ Material readMaterial(Document& document, TextureTable& textures, size_t index) 
   markLost(result);
   const tinygltf::Value& perlin = memberOf(source.extras, "perlinNormal");
   if (perlin.IsObject()) readPerlinNormal(part.below("extras/perlinNormal", perlin), result.perlinNormal);
+  chooseTexcoords(result, document.diagnostics);
   return result;
 }
 

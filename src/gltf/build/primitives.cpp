@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/build/primitives.h"
 
-#include <array>
 #include <cmath>
 #include <glm/gtx/norm.hpp>
 #include <numeric>
@@ -229,41 +228,38 @@ class PrimitiveReader {
     warnMended("NORMAL", count, "a normal without a direction is replaced by that of its triangles");
   }
 
-  bool isAskedForByTexture(uint32_t set) const {
-    return std::ranges::any_of(kTextureRefs, [&](const TextureRefRow& texture) {
+  bool needsTexcoord(uint32_t place) const {
+    const bool isAskedFor = std::ranges::any_of(kTextureRefs, [&](const TextureRefRow& texture) {
       const TextureRef& ref = material_.*texture.ref;
-      return ref.present() && ref.texcoord == set;
+      return ref.present() && ref.texcoord == place;
     });
-  }
-
-  bool needsTexcoord(uint32_t set) const {
-    if (isAskedForByTexture(set)) return true;
+    if (isAskedFor) return true;
     const bool tangentsAreMade = material_.anisotropic() && accessorOf("TANGENT") < 0;
-    return (set == 0 && hasPerlin()) || (set == tangentTexture().texcoord && tangentsAreMade);
+    return (place == 0 && hasPerlin()) || (place == tangentTexture().texcoord && tangentsAreMade);
   }
 
   bool hasPerlin() const { return material_.perlinNormal.amplitude != 0.0f; }
 
   void readTexcoords() {
-    constexpr std::array<const char*, 2> kNames = {"TEXCOORD_0", "TEXCOORD_1"};
-    for (uint32_t set = 0; set < kNames.size(); ++set) {
-      if (!needsTexcoord(set)) continue;
-      const int accessor = matchingAccessor(kNames[set]);
-      auto& texcoords = set == 0 ? result_.vertices.texcoord0 : result_.vertices.texcoord1;
+    for (uint32_t place = 0; place < material_.texcoordSets.size(); ++place) {
+      if (!needsTexcoord(place)) continue;
+      const std::string name = "TEXCOORD_" + std::to_string(material_.texcoordSets[place]);
+      const int accessor = matchingAccessor(name.c_str());
+      auto& texcoords = place == 0 ? result_.vertices.texcoord0 : result_.vertices.texcoord1;
       if (accessor < 0) {
-        diagnostics_.warn(place_, std::string(kNames[set]) + " is needed and missing, (0, 0) is taken");
+        diagnostics_.warn(place_, name + " is needed and missing, (0, 0) is taken");
         texcoords.assign(result_.vertices.position.size(), glm::vec2(0.0f));
         continue;
       }
-      texcoords = readVectors<2>(document_, accessor, placeOf(kNames[set]));
-      morph<2>(kNames[set], texcoords);
+      texcoords = readVectors<2>(document_, accessor, placeOf(name.c_str()));
+      morph<2>(name.c_str(), texcoords);
       size_t count = 0;
       for (glm::vec2& texcoord : texcoords) {
         if (isFinite(texcoord)) continue;
         texcoord = glm::vec2(0.0f);
         ++count;
       }
-      warnMended(kNames[set], count, "a texture coordinate that is not finite is replaced by (0, 0)");
+      warnMended(name.c_str(), count, "a texture coordinate that is not finite is replaced by (0, 0)");
     }
   }
 

@@ -16,6 +16,7 @@ namespace fragtrace {
 namespace {
 
 constexpr const char* kBasisu = "KHR_texture_basisu";
+constexpr const char* kAvif = "EXT_texture_avif";
 constexpr double kTexturesPart = 0.4;  // share of a load that is done when they are read
 
 Wrap wrapOf(int mode) {
@@ -75,7 +76,7 @@ EncodedImage readImage(Document& document, int index) {
       place, [&] { return headerOf(result.bytes, isFile ? source.uri : ""); });
   if (header.format == ImageFormat::Pfm || header.format == ImageFormat::Hdr ||
       header.format == ImageFormat::OpenExr)
-    document.diagnostics.lose(place, "is no picture that a texture may have: PNG, JPEG, WebP, KTX2");
+    document.diagnostics.lose(place, "is no picture that a texture may have: PNG, JPEG, WebP, KTX2, AVIF");
   result.width = header.width;
   result.height = header.height;
   if (std::max(header.width, header.height) > document.textureSide) {
@@ -97,18 +98,18 @@ int sourceIn(const tinygltf::Texture& texture, const char* extension, int otherw
 }
 
 /// Returns the index of a texture's picture, or -1. The picture of EXT_texture_webp takes precedence over the
-/// fallback. The picture of KHR_texture_basisu is used only without a fallback, since its compression has
-/// lost more and not every build decodes it.
+/// fallback. Those of EXT_texture_avif and KHR_texture_basisu are used only without a fallback, since not
+/// every system decodes them, and the compression of the second has lost more.
 int sourceOf(const tinygltf::Texture& texture) {
   const int source = sourceIn(texture, "EXT_texture_webp", texture.source);
-  return source >= 0 ? source : sourceIn(texture, kBasisu, -1);
+  return source >= 0 ? source : sourceIn(texture, kAvif, sourceIn(texture, kBasisu, -1));
 }
 
 /// Returns true where the file does without the texture: it has only a KTX2 picture, and the file does not
 /// require that extension.
 bool isDispensable(const tinygltf::Model& model, const tinygltf::Texture& texture) {
   const std::vector<std::string>& required = model.extensionsRequired;
-  return sourceIn(texture, "EXT_texture_webp", texture.source) < 0 &&
+  return sourceIn(texture, "EXT_texture_webp", sourceIn(texture, kAvif, texture.source)) < 0 &&
          std::ranges::find(required, kBasisu) == required.end();
 }
 

@@ -24,6 +24,7 @@ constexpr Extension kOtherExtensions[] = {
     {"KHR_meshopt_compression", Partly, "codecs/meshopt_views.cpp", {"/buffers/*", "/bufferViews/*"}},
     {"KHR_texture_transform", Supported, "build/material_part.cpp", {kTextureInfo, kNowhere}},
     {"EXT_texture_webp", Supported, "build/textures.cpp", {"/textures/*", kNowhere}},
+    {"EXT_texture_avif", Supported, "build/textures.cpp", {"/textures/*", kNowhere}},
     {"KHR_texture_basisu", Partly, "build/textures.cpp", {"/textures/*", kNowhere}},
     {"EXT_mesh_gpu_instancing", Supported, "build/instancing.cpp", kInNodes},
     {"KHR_node_visibility", Supported, "build/nodes.cpp", kInNodes},

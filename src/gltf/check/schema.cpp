@@ -90,6 +90,8 @@ constexpr Rule kRules[] = {
     {"/textures/*/extensions", Kind::Object},
     {"/textures/*/extensions/KHR_texture_basisu", Kind::Object},
     {"/textures/*/extensions/KHR_texture_basisu/source", Kind::Index, "/images"},
+    {"/textures/*/extensions/EXT_texture_avif", Kind::Object},
+    {"/textures/*/extensions/EXT_texture_avif/source", Kind::Index, "/images"},
     {"/textures/*/extensions/EXT_texture_webp", Kind::Object},
     {"/textures/*/extensions/EXT_texture_webp/source", Kind::Index, "/images"},
 
