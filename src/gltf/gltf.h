@@ -17,6 +17,11 @@ namespace fragtrace {
 /// Called with what is done and the part of the work that is behind, 0..1; what it throws ends loading.
 using GltfProgress = std::function<void(const std::string& step, double part)>;
 
+/// A picture with an open shutter: its moment, and the first and the last key of what is played, in seconds.
+struct OpenShutter {
+  double moment = 0.0, firstKey = 0.0, lastKey = 0.0;
+};
+
 struct GltfOptions {
   std::optional<glm::dvec3> recenterOn{};      ///< world position that becomes the local origin
   std::optional<glm::dvec3> cameraPosition{};  ///< else the origin is chosen for a camera there,
@@ -24,7 +29,8 @@ struct GltfOptions {
   SceneSelection selection{};
   Instancing instancing = Instancing::Flatten;
   InputLimits limits{};
-  bool readsVolume = true;  ///< the grid of densities that a node brings
+  std::optional<OpenShutter> shutter{};  ///< the time of the selection is one while it is open
+  bool readsVolume = true;               ///< the grid of densities that a node brings
   GltfProgress progress{};
 };
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace fragtrace {
 
@@ -30,10 +31,11 @@ inline constexpr int kLargestTextureSide = 65535;         // the shader's slots 
 /// The limits that the user sets for input files.
 struct InputLimits {
   uint64_t memoryBytes = defaultMemoryLimit();
-  int textureSide = kLargestTextureSide;  ///< wider or higher textures are scaled down to this
-  bool allowExternalFiles = false;        ///< URIs may lead out of the scene's folder
-  bool drawMissingTextures = true;        ///< a picture that cannot be read is warned of, and marked
-  bool strict = false;                    ///< what is only warned of is refused
+  int textureSide = kLargestTextureSide;         ///< wider or higher textures are scaled down to this
+  bool allowExternalFiles = false;               ///< URIs may lead out of the scene's folder
+  bool drawMissingTextures = true;               ///< a picture that cannot be read is warned of, and marked
+  bool strict = false;                           ///< what is only warned of is refused
+  std::vector<std::string> ignoredExtensions{};  ///< drawn without, although the scene requires them
 
   bool operator==(const InputLimits&) const = default;
 };

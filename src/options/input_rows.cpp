@@ -51,19 +51,16 @@ OptionRow timeRow() {
   return row;
 }
 
-OptionRow hiddenRow() {
-  OptionRow row = memberRow(
-      "--hide",
-      "name or index of a node to hide, together with everything below it; can be given several times; "
-      "`fragtrace info --nodes` lists the nodes",
-      FRAGTRACE_MEMBER(selection.hiddenNodes), {.effect = Effect::Picture, .renewal = Renewal::Scene});
-  row.examples = {"/nodes/3"};
-  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
-    app.add_option(r.name, raw.options.selection.hiddenNodes, r.help)
-        ->type_name("NODE")
-        ->allow_extra_args(false);
+/// A list of texts, of which each is given by an option of its own.
+template <typename Member>
+OptionRow listRow(const char* name, std::string help, Member member, const char* example, const char* type) {
+  OptionRow row =
+      memberRow(name, std::move(help), member, {.effect = Effect::Picture, .renewal = Renewal::Scene});
+  row.examples = {example};
+  row.add = [member, type](CLI::App& app, const OptionRow& r, RawRender& raw) {
+    app.add_option(r.name, member(raw.options), r.help)->type_name(type)->allow_extra_args(false);
   };
-  row.words = [](const RenderOptions& o) { return o.selection.hiddenNodes; };
+  row.words = [member](const RenderOptions& o) { return member(o); };
   return row;
 }
 
@@ -205,14 +202,20 @@ std::vector<OptionRow> inputRows() {
       word("--scene", "name or index of the scene; by default the one that the file chooses",
            FRAGTRACE_MEMBER(selection.scene), kScene),
       timeRow(),
-      word("--animation", "name or index of the animation for --animation-time; by default the first",
+      word("--animation",
+           "name or index of the animation, at --animation-time or at its first moment; by default the "
+           "first; 'all' "
+           "plays all at once",
            FRAGTRACE_MEMBER(selection.animation), kScene),
       word(
           "--material-variant",
           "name or index of the material variant; `fragtrace info` lists the variants; `render` draws all of "
           "them by 'all', each to --output with its name in place of #",
           FRAGTRACE_MEMBER(selection.materialVariant), kScene),
-      hiddenRow(),
+      listRow("--hide",
+              "name or index of a node to hide, together with everything below it; can be given several "
+              "times; `fragtrace info --nodes` lists the nodes",
+              FRAGTRACE_MEMBER(selection.hiddenNodes), "/nodes/3", "NODE"),
       setRow(),
       upRow(),
       memoryRow(),
@@ -225,6 +228,11 @@ std::vector<OptionRow> inputRows() {
       flag("--allow-external-files", "let the scene refer to files outside its folder",
            FRAGTRACE_MEMBER(limits.allowExternalFiles),
            {.effect = Effect::Report, .renewal = Renewal::Scene}),
+      listRow(
+          "--ignore-required",
+          "draw a scene although this extension, which it requires, is not supported; can be given several "
+          "times",
+          FRAGTRACE_MEMBER(limits.ignoredExtensions), "CESIUM_RTC", "EXTENSION"),
   };
 }
 

@@ -2,6 +2,7 @@
 #include "scene/parts.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/errors.h"
 #include "base/text.h"
@@ -72,6 +73,14 @@ size_t indexOfPart(const char* option, const std::string& wanted, const std::vec
   const std::string known = listOfParts(names);
   throw UsageError(std::string(option) + ": " + inQuotes(wanted) + " is not in the file, which has " +
                    (known.empty() ? "none" : known));
+}
+
+std::vector<size_t> chosenAnimations(const std::string& wanted, const std::vector<std::string>& names) {
+  std::vector<size_t> all(names.size());
+  std::iota(all.begin(), all.end(), size_t(0));
+  if (wanted.empty()) return {all.begin(), all.begin() + std::min<std::ptrdiff_t>(1, std::ssize(all))};
+  if (wanted == kAllAnimations && !all.empty() && !findPart(wanted, names)) return all;
+  return {indexOfPart("--animation", wanted, names)};
 }
 
 }  // namespace fragtrace

@@ -29,4 +29,12 @@ std::optional<size_t> findPart(const std::string& wanted, const std::vector<std:
 /// Does the same, but throws UsageError, which begins with `option` and lists the names.
 size_t indexOfPart(const char* option, const std::string& wanted, const std::vector<std::string>& names);
 
+/// The word by which the user asks for all animations at once.
+inline constexpr const char* kAllAnimations = "all";
+
+/// The indices of the animations that the user named: the first where none is named, all of them by
+/// kAllAnimations, unless one is called so. None where the file has none and none is named. Throws
+/// UsageError.
+std::vector<size_t> chosenAnimations(const std::string& wanted, const std::vector<std::string>& names);
+
 }  // namespace fragtrace

@@ -45,9 +45,13 @@ std::vector<double> timesOf(const Scene& scene, const RenderOptions& options) {
 }  // namespace
 
 std::optional<double> animationLength(const Scene& scene, const SceneSelection& selection) {
-  const std::string& name = selection.animation;
-  const size_t index = name.empty() ? 0 : indexOfPart("--animation", name, scene.animationNames);
-  return index < scene.animationSeconds.size() ? scene.animationSeconds[index] : std::nullopt;
+  std::optional<double> length;
+  for (const size_t index : chosenAnimations(selection.animation, scene.animationNames)) {
+    const std::optional<double>& seconds = scene.animationSeconds[index];
+    if (!seconds) return std::nullopt;
+    length = std::max(length.value_or(0.0), *seconds);
+  }
+  return length;
 }
 
 CameraOverrides overridesOfAllPoses(const RenderOptions& options, std::shared_ptr<KeptDocument>& kept) {

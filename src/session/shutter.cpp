@@ -27,6 +27,7 @@ class MomentReader {
                std::shared_ptr<KeptDocument>& document)
       : loaded_(loaded), options_(options), document_(document), seconds_(shutterSeconds(options)) {
     options_.camera.sceneOrigin = loaded.scene.space.origin;
+    if (document_) keys_ = keyTimesOf(*document_);
   }
 
   /// Returns false if the scene has other triangles at that time, 0..1.
@@ -34,6 +35,7 @@ class MomentReader {
     if (moments_.contains(time)) return true;
     GltfOptions loading = gltfOptionsOf(options_);
     loading.selection.animationTime = opens() + time * seconds_;
+    if (!keys_.empty()) loading.shutter = {*options_.selection.animationTime, keys_.front(), keys_.back()};
     loading.readsVolume = false;
     Scene scene = loadGltf(options_.scene, loading, &document_);
     addStrokes(scene, loaded_.camera, loaded_.size, options_.camera.lineWidth);
@@ -55,11 +57,9 @@ class MomentReader {
   /// Reads the scene at the keys of its animation, and halfway between two of them.
   bool readKeys() {
     std::vector<double> times{0.0};
-    if (document_) {
-      for (const double key : keyTimesOf(*document_)) {
-        const double time = (key - opens()) / seconds_;
-        if (time > 1e-9 && time < 1.0 - 1e-9) times.push_back(time);
-      }
+    for (const double key : keys_) {
+      const double time = (key - opens()) / seconds_;
+      if (time > 1e-9 && time < 1.0 - 1e-9) times.push_back(time);
     }
     times.push_back(1.0);
     const size_t step = times.size() / kMostKeys + 1;
@@ -92,6 +92,7 @@ class MomentReader {
   RenderOptions options_;
   std::shared_ptr<KeptDocument>& document_;
   double seconds_;
+  std::vector<double> keys_;  ///< times of the animation's keys, rising
   Moments moments_;
 };
 

@@ -218,7 +218,7 @@ bool changePicture(ViewState& state, const Control& control, const Movement& m) 
       playOrPause(state);
       return true;
     case Action::NextAnimation: {
-      const int count = state.scene ? int(state.scene->animationNames.size()) : 0;
+      const int count = animationCount(state);
       if (count > 0) showAnimation(state, (shownAnimation(state) + control.argument + count) % count, 0.0);
       return true;
     }

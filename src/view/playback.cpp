@@ -8,22 +8,36 @@
 
 namespace fragtrace {
 
+int animationCount(const ViewState& state) {
+  const size_t count = state.scene ? state.scene->animationNames.size() : 0;
+  return int(count + (count > 1 ? 1 : 0));
+}
+
 int shownAnimation(const ViewState& state) {
-  if (!state.scene || state.scene->animationNames.empty()) return -1;
+  if (animationCount(state) == 0) return -1;
+  const std::vector<std::string>& names = state.scene->animationNames;
   const std::string& wanted = state.sides[0].selection.animation;
-  return wanted.empty() ? 0 : int(findPart(wanted, state.scene->animationNames).value_or(0));
+  const std::optional<size_t> found = findPart(wanted, names);
+  if (!found && wanted == kAllAnimations) return animationCount(state) - 1;
+  return int(found.value_or(0));
 }
 
 double animationLength(const ViewState& state) {
   const int shown = shownAnimation(state);
   if (shown < 0) return 0.0;
-  const double seconds = state.scene->animationSeconds[size_t(shown)].value_or(1.0);
+  const std::vector<std::optional<double>>& all = state.scene->animationSeconds;
+  double seconds = 0.0;
+  for (size_t i = 0; i < all.size(); ++i) {
+    if (size_t(shown) == i || size_t(shown) == all.size()) seconds = std::max(seconds, all[i].value_or(1.0));
+  }
   return seconds > 0.0 ? seconds : 1.0;
 }
 
 void showAnimation(ViewState& state, int animation, double seconds) {
-  if (!state.scene || animation < 0 || size_t(animation) >= state.scene->animationNames.size()) return;
-  for (RenderOptions& side : state.sides) side.selection.animation = std::to_string(animation);
+  if (animation < 0 || animation >= animationCount(state)) return;
+  const bool isAll = size_t(animation) == state.scene->animationNames.size();
+  for (RenderOptions& side : state.sides)
+    side.selection.animation = isAll ? kAllAnimations : std::to_string(animation);
   const double time = std::clamp(seconds, 0.0, animationLength(state));
   for (RenderOptions& side : state.sides) side.selection.animationTime = time;
   state.scene->options.selection = state.sides[0].selection;

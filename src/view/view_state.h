@@ -136,7 +136,10 @@ bool isUsable(const ViewState& state, Action action);
 /// Does what the control says, if that is usable, or returns what is left to be done.
 Errand apply(ViewState& state, const Control& control, const Movement& movement = {});
 
-/// The index of the animation that is shown or would be played; -1: the scene has none.
+/// The number of choices: the scene's animations, and all at once where there are several.
+int animationCount(const ViewState& state);
+
+/// The index of the choice that is shown or would be played; -1: the scene has none.
 int shownAnimation(const ViewState& state);
 
 /// Length of the animation in seconds; 1 if the file does not say.

@@ -159,11 +159,57 @@ class Poses(Case):
         self.assertEqual(self.difference(self.render("after.exr", scene, "--animation-time", "1e9"), last), 0.0)
 
 
+class SeveralAnimations(Case):
+    """Two triangles, of which each has an animation."""
+
+    def scene(self, names=("left", "right")):
+        gltf = Gltf()
+        triangle = gltf.accessor("VEC3", [(0, 0, 0), (1, 0, 0), (0, 1, 0)])
+        times = [gltf.accessor("SCALAR", [0, last]) for last in (1, 2)]
+        for accessor, last in zip(times, (1, 2)):
+            gltf.root["accessors"][accessor].update(min=[0], max=[last])
+        ways = [gltf.accessor("VEC3", [(x, 0, 0), (x, 1, 0)]) for x in (-2, 2)]
+        gltf.root["meshes"] = [{"primitives": [{"attributes": {"POSITION": triangle}}]}]
+        gltf.root["nodes"] = [{"mesh": 0}, {"mesh": 0}]
+        gltf.root["scenes"] = [{"nodes": [0, 1]}]
+        gltf.root["animations"] = [{"name": name, "samplers": [{"input": times[i], "output": ways[i]}],
+                                    "channels": [{"sampler": 0, "target": {"node": i, "path": "translation"}}]} for i, name in enumerate(names)]
+        return gltf.write(self.folder / "two.gltf")
+
+    def bounds(self, *options, names=("left", "right")):
+        """Left, top and right of what is drawn, and what is said."""
+        result = run("info", self.scene(names), "--json", *options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        bounds = json.loads(result.stdout)["scene"]["bounds"]
+        return [bounds["min"][0], bounds["max"][1], bounds["max"][0]], result.stderr
+
+    def test_all_play_at_once(self):
+        self.assertEqual(self.bounds("--animation-time", 1, "--animation", "all"), ([-2, 2, 3], ""))
+        self.assertEqual(self.bounds("--animation-time", 1, "--animation", "all", names=("one", "all"))[0], [0, 1.5, 3])  # one that is called so
+
+    def test_what_is_not_played_is_said(self):
+        place, said = self.bounds("--animation-time", 1)
+        self.assertEqual(place, [-2, 2, 1])
+        self.assertIn("/animations: not played: 1 of 2 (--animation all plays all at once", said)
+        self.assertEqual(self.bounds("--animation-time", 1, "--animation", "left")[1], "")
+        self.assertEqual(self.bounds()[1], "")
+
+    def test_a_name_alone_shows_the_first_moment(self):
+        self.assertEqual(self.bounds(), ([0, 1, 1], ""))
+        self.assertEqual(self.bounds("--animation", "right"), ([0, 1, 3], ""))
+        self.assertEqual(self.bounds("--animation", "all"), ([-2, 1, 3], ""))
+
+    def test_a_film_of_all_is_as_long_as_the_longest(self):
+        result = run("render", self.scene(), "-o", self.folder / "x.#.png", *SMALL[:4], "--animation", "all", "--frames", "46:49", "--stage", "flat")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("the animation ends after 2 s, at picture 48", result.stderr)
+
+
 class Selections(Case):
     def test_parts_that_are_not_in_the_file_are_named_with_those_that_are(self):
         scene = animated(self.folder / "tube.gltf")
         for options, text in ((["--animation", "walk", "--animation-time", "0"], 'has 0 "bend"'),
-                              (["--animation", "bend"], "--animation-time"), (["--scene", "1"], "has 0"),
+                              (["--scene", "1"], "has 0"),
                               (["--material-variant", "x"], "has none"), (["--animation-time", "-1"], "from 0 on"),
                               (["--animation-time", "nan"], "from 0 on"), (["--animation-time", "inf"], "from 0 on")):
             result = run("info", scene, *options)

@@ -186,6 +186,64 @@ class Shutter(Case):
         self.assertEqual(motion["segments"], 4)
         self.assertGreater(motion["pixels_off"], 0.1)
 
+    def seen(self, scene, time, *options, shutter=360, fps=8):
+        """The first and the last column in which the sphere is seen, and the pixels that it covers."""
+        self.renders(scene, "-o", self.folder / "x.exr", "--quiet", *SIZE, "--animation-time", time, "--fps", fps, "--shutter", shutter, "--stage", "flat", "--spp", 256,
+                     "--no-background", "--hide", "ground", *options)
+        alpha = Exr(self.folder / "x.exr").layers["A"]
+        columns = [x for x in range(WIDTH) if any(row[x] > 0 for row in alpha)]
+        return columns[0], columns[-1], sum(map(sum, alpha))
+
+    def test_the_ends_of_an_animation_are_as_blurred_as_its_middle(self):
+        scene = animated_sphere(self.folder / "moving.gltf", translation=((-0.6, 0.2, 0), (0.6, 0.2, 0)))
+        left, right, light = self.seen(scene, 0.5, fps=2)
+        for time in (0.0, 1.0):
+            first, last, covered = self.seen(scene, time, fps=2)
+            self.assertAlmostEqual(last - first, right - left, delta=1, msg=time)
+            self.assertAlmostEqual(covered / light, 1, delta=0.02, msg=time)
+        sharp = self.seen(scene, 0.0, shutter=0)
+        self.assertAlmostEqual(sum(self.seen(scene, 0.0, fps=2)[:2]), sum(sharp[:2]), delta=2)  # as far before as after
+        self.assertEqual(self.seen(scene, 1.3, fps=2), self.seen(scene, 1.3, shutter=0))
+
+    def test_a_cut_does_not_smear(self):
+        """Steps, and keys at the same time, change between two pictures. Each shows its own side."""
+        for times, values, kind in (((0, 0.5), (-0.6, 0.6), "STEP"), ((0, 0.5, 0.5, 1), (-0.6, -0.6, 0.6, 0.6), "LINEAR")):
+            scene = animated_sphere(self.folder / "cut.gltf", translation=((0, 0, 0), (0, 0, 0)))
+            root = json.loads(scene.read_text())
+            data = struct.pack(f"<{len(times)}f", *times) + b"".join(struct.pack("<3f", v, 0.2, 0) for v in values)
+            (self.folder / "cut.bin").write_bytes(data)
+            root["buffers"][-1]["byteLength"] = len(data)
+            root["bufferViews"][-2:] = [{"buffer": len(root["buffers"]) - 1, "byteLength": 4 * len(times)},
+                                        {"buffer": len(root["buffers"]) - 1, "byteOffset": 4 * len(times), "byteLength": 12 * len(times)}]
+            root["accessors"][-2].update(count=len(times), min=[times[0]], max=[times[-1]])
+            root["accessors"][-1].update(count=len(times))
+            root["animations"][0]["samplers"][-1]["interpolation"] = kind
+            scene.write_text(json.dumps(root))
+            for time in (0.45, 0.5):
+                self.assertEqual(self.seen(scene, time), self.seen(scene, time, shutter=0), (kind, time))
+            self.assertNotEqual(self.seen(scene, 0.45)[0], self.seen(scene, 0.5)[0])
+
+    def test_a_node_that_is_toggled_stops_nothing_else(self):
+        """It is there, or not, as at the picture's moment."""
+        scene = animated_sphere(self.folder / "toggled.gltf", translation=((-0.6, 0.2, 0), (0.6, 0.2, 0)))
+        root = json.loads(scene.read_text())
+        node = next(i for i, n in enumerate(root["nodes"]) if n.get("name") == "ground")
+        root["nodes"][node]["extensions"] = {"KHR_node_visibility": {"visible": True}}
+        root["extensionsUsed"] += ["KHR_node_visibility", "KHR_animation_pointer"]
+        root["bufferViews"].append({"buffer": len(root["buffers"]), "byteLength": 2})
+        root["buffers"].append({"byteLength": 2, "uri": "data:application/octet-stream;base64,AQA="})
+        animation = root["animations"][0]
+        pointer = {"pointer": f"/nodes/{node}/extensions/KHR_node_visibility/visible"}
+        animation["channels"].append({"sampler": len(animation["samplers"]), "target": {"path": "pointer", "extensions": {"KHR_animation_pointer": pointer}}})
+        animation["samplers"].append({"input": animation["samplers"][0]["input"], "output": len(root["accessors"]), "interpolation": "STEP"})
+        root["accessors"].append({"bufferView": len(root["bufferViews"]) - 1, "componentType": 5121, "count": 2, "type": "SCALAR"})
+        (self.folder / "t.gltf").write_text(json.dumps(root))
+        stats = self.folder / "s.json"
+        for time, triangles in ((0.97, 2), (1.0, 0)):
+            self.renders(self.folder / "t.gltf", "-o", self.folder / "x.pfm", "--quiet", *SIZE, "--animation-time", time, "--fps", 8, "--shutter", 360, "--spp", 1, "--stats", stats)
+            written = json.loads(stats.read_text())
+            self.assertEqual((written["scene"]["triangles"], written["motion"]["segments"], written["warnings"]), (triangles, 1, []), time)
+
     def test_what_stands_still(self):
         """After its end an animation stands still: the picture is that without a shutter, and statistics say so."""
         stats = self.folder / "stats.json"

@@ -236,7 +236,8 @@ TEST(GltfFiles, UnknownExtensionIsRefusedOnlyIfRequired) {
   builder.root["extensionsRequired"] = {"KHR_materials_ior", "VENDOR_unknown"};
   EXPECT_EQ(
       refusalOf(builder),
-      "test.gltf: /extensionsRequired/1: the extension \"VENDOR_unknown\" is required and not supported");
+      "test.gltf: /extensionsRequired/1: the extension \"VENDOR_unknown\" is required and not supported "
+      "(--ignore-required draws the scene without it)");
 }
 
 TEST(GltfFiles, AFileWithoutGeometryIsAnEmptyScene) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -137,6 +138,7 @@ Keyframes readKeyframes(Document& document, const Channel& channel, const Number
   }
   takeMemory(document, place, count * (isArray ? 1 : rule.width) * sizeof(float));
   keys.isRotation = channel.target.starts_with("/nodes/") && channel.target.ends_with("/rotation");
+  keys.isScale = channel.target.starts_with("/nodes/") && channel.target.ends_with("/scale");
   const bool isFraction = keys.isRotation || channel.target.ends_with("/weights");
   keys.values = readComponents(document, channel.output, isArray ? 1 : int(rule.width), place,
                                isFraction ? Integers::Fractions : Integers::Numbers);
@@ -158,7 +160,41 @@ void checkRotations(const Keyframes& keys, const Channel& channel, Diagnostics& 
                      count);
 }
 
-void applyChannel(Document& document, const Channel& channel, double seconds, json& root) {
+/// The keys from the last cut before a moment to the next one after it.
+Keyframes pieceAt(const Keyframes& keys, double moment) {
+  const auto isCut = [&](size_t key) {
+    return keys.interpolation == Interpolation::Step || keys.times[key] == keys.times[key - 1];
+  };
+  const auto next = std::upper_bound(keys.times.begin(), keys.times.end(), moment);
+  size_t first = size_t(std::max<std::ptrdiff_t>(next - keys.times.begin(), 1)) - 1;
+  size_t end = first + 1;
+  while (first > 0 && !isCut(first)) --first;
+  while (end < keys.times.size() && !isCut(end)) ++end;
+  const size_t perKey = keys.width * (keys.interpolation == Interpolation::CubicSpline ? 3 : 1);
+  Keyframes piece{keys.interpolation, keys.isRotation, keys.isScale, keys.width, {}, {}};
+  piece.times.assign(keys.times.begin() + std::ptrdiff_t(first), keys.times.begin() + std::ptrdiff_t(end));
+  piece.values.assign(keys.values.begin() + std::ptrdiff_t(first * perKey),
+                      keys.values.begin() + std::ptrdiff_t(end * perKey));
+  return piece;
+}
+
+/// What leads from `at` as far as `value` does, the other way. A scale keeps its sign.
+std::vector<double> mirroredAt(const Keyframes& keys, const std::vector<double>& at,
+                               std::vector<double> value) {
+  if (keys.isRotation) {
+    const glm::dquat q(at[3], at[0], at[1], at[2]);
+    const glm::dquat turned = q * glm::conjugate(glm::dquat(value[3], value[0], value[1], value[2])) * q;
+    return {turned.x, turned.y, turned.z, turned.w};
+  }
+  for (size_t i = 0; i < value.size(); ++i) {
+    value[i] = 2.0 * at[i] - value[i];
+    if (keys.isScale && value[i] * at[i] <= 0.0) value[i] = at[i];
+  }
+  return value;
+}
+
+void applyChannel(Document& document, const Channel& channel, double seconds,
+                  const std::optional<OpenShutter>& shutter, json& root) {
   const std::optional<NumberRule> rule =
       channel.target.empty() ? std::nullopt : numberRuleIn(root, channel.target);
   if (!rule) {
@@ -169,7 +205,7 @@ void applyChannel(Document& document, const Channel& channel, double seconds, js
   const Keyframes keys = readKeyframes(document, channel, *rule);
   document.keyTimes.insert(document.keyTimes.end(), keys.times.begin(), keys.times.end());
   if (keys.isRotation) checkRotations(keys, channel, document.diagnostics);
-  std::vector<double> values = valuesAt(keys, seconds);
+  std::vector<double> values = shutter ? valuesWhileOpen(keys, seconds, *shutter) : valuesAt(keys, seconds);
   if (keys.isRotation && lengthOf(values) == 0.0) {
     document.diagnostics.warn(channel.place + "/sampler", "a quaternion of zeros is read as no rotation");
     values = {0.0, 0.0, 0.0, 1.0};
@@ -204,10 +240,25 @@ std::vector<double> valuesAt(const Keyframes& keys, double seconds) {
   return values;
 }
 
-void applyAnimation(Document& document, const Animation& animation, double seconds, json& root) {
+std::vector<double> valuesWhileOpen(const Keyframes& keys, double seconds, const OpenShutter& shutter) {
+  constexpr double kSame = 1e-6;  // as near as the time of a picture and a key of floats are
+  const Keyframes piece = pieceAt(keys, shutter.moment);
+  const double first = piece.times.front();
+  const double last = piece.times.back();
+  const bool isCutBefore = first != keys.times.front() || first <= shutter.firstKey + kSame;
+  const bool isCutAfter = last != keys.times.back() || last >= shutter.lastKey - kSame;
+  const bool isBefore = isCutBefore && seconds < first && shutter.moment >= first - kSame;
+  const bool isAfter = isCutAfter && seconds > last && shutter.moment <= last + kSame;
+  if (!isBefore && !isAfter) return valuesAt(piece, seconds);
+  const double at = isBefore ? first : last;
+  return mirroredAt(keys, valuesAt(piece, at), valuesAt(piece, 2.0 * at - seconds));
+}
+
+void applyAnimation(Document& document, const Animation& animation, double seconds,
+                    const std::optional<OpenShutter>& shutter, json& root) {
   for (const Channel& channel : animation.channels) {
     document.diagnostics.keepRest("the channel", [&] {
-      applyChannel(document, channel, seconds, root);
+      applyChannel(document, channel, seconds, shutter, root);
       return true;
     });
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <vector>
 
 #include "gltf/read/document.h"
@@ -16,6 +17,7 @@ enum class Interpolation { Step, Linear, CubicSpline };
 struct Keyframes {
   Interpolation interpolation = Interpolation::Linear;
   bool isRotation = false;  ///< unit quaternions, x y z w
+  bool isScale = false;
   size_t width = 1;
   std::vector<float> times;  ///< seconds, never falling
   std::vector<float> values;
@@ -25,9 +27,15 @@ struct Keyframes {
 /// last counts.
 std::vector<double> valuesAt(const Keyframes& keys, double seconds);
 
+/// The numbers at a time while a shutter is open. At a cut, which keys at the same time make and each key of
+/// steps, the motion at the picture's moment continues as it would without the cut: the same way, mirrored at
+/// the cut. So it does before the first key of all that is played and after the last one.
+std::vector<double> valuesWhileOpen(const Keyframes& keys, double seconds, const OpenShutter& shutter);
+
 /// Writes what the animation makes of the file at that time into the document: node transforms, morph
 /// weights, and all else that the loader reads as numbers (KHR_animation_pointer). What it cannot drive is
 /// warned about. Throws InputError.
-void applyAnimation(Document& document, const Animation& animation, double seconds, nlohmann::json& root);
+void applyAnimation(Document& document, const Animation& animation, double seconds,
+                    const std::optional<OpenShutter>& shutter, nlohmann::json& root);
 
 }  // namespace fragtrace

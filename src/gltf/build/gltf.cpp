@@ -149,7 +149,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
   std::shared_ptr<KeptDocument> read = kept != nullptr ? std::move(*kept) : nullptr;
   if (!read) read = std::make_shared<KeptDocument>(readDocument(path, options));
   const bool keeps = kept != nullptr && !read->animations.empty();
-  Document document = posed(keeps ? lend(*read) : std::move(*read), options.selection);
+  Document document = posed(keeps ? lend(*read) : std::move(*read), options);
   Scene scene;
   scene.extensionsUsed = document.model.extensionsUsed;
   scene.refersToFiles = document.refersToFiles;

@@ -18,6 +18,7 @@
 #include "gltf/read/accessor.h"
 #include "gltf/read/container.h"
 #include "gltf/read/json.h"
+#include "scene/parts.h"
 
 namespace fragtrace {
 namespace {
@@ -31,13 +32,14 @@ json& arrayIn(json& root, const char* name) {
   return array;
 }
 
-void checkExtensions(json& root, Diagnostics& diagnostics) {
+void checkExtensions(json& root, const std::vector<std::string>& ignored, Diagnostics& diagnostics) {
   const json& required = arrayIn(root, "extensionsRequired");
   for (size_t i = 0; i < required.size(); ++i) {
     const auto& name = required[i].get_ref<const std::string&>();
-    if (!isApplied(name)) {
+    if (!isApplied(name) && std::ranges::find(ignored, name) == ignored.end()) {
       diagnostics.refuse(pointerTo("extensionsRequired", i),
-                         "the extension " + inQuotes(name) + " is required and not supported");
+                         "the extension " + inQuotes(name) +
+                             " is required and not supported (--ignore-required draws the scene without it)");
     }
   }
   const json& used = arrayIn(root, "extensionsUsed");
@@ -294,17 +296,22 @@ tinygltf::Model parseModel(json& root, Buffers& buffers, const Diagnostics& diag
   return model;
 }
 
-/// Writes the animated values into the JSON.
-void pose(const std::vector<Animation>& animations, const SceneSelection& selection, json& root,
+/// Writes the animated values into the JSON. Where an animation is named without a time, the time is 0.
+void pose(const std::vector<Animation>& animations, const GltfOptions& options, json& root,
           Document& document) {
-  if (animations.empty() && selection.animation.empty()) {
+  const SceneSelection& selection = options.selection;
+  const std::vector<size_t> chosen = chosenAnimations(selection.animation, document.animationNames);
+  if (chosen.empty()) {
     document.diagnostics.warn("", "has no animation that a time could be of");
     return;
   }
-  const size_t index = selection.animation.empty()
-                           ? 0
-                           : indexOfPart("--animation", selection.animation, document.animationNames);
-  applyAnimation(document, animations[index], *selection.animationTime, root);
+  if (selection.animation.empty() && animations.size() > 1)
+    document.diagnostics.warn("/animations",
+                              "not played: " + std::to_string(animations.size() - 1) + " of " +
+                                  std::to_string(animations.size()) +
+                                  " (--animation all plays all at once, --animation NAME another one)");
+  for (const size_t index : chosen)
+    applyAnimation(document, animations[index], selection.animationTime.value_or(0.0), options.shutter, root);
 }
 
 /// Parses the JSON again, which has changed, so that readers of the model need not know of that.
@@ -333,7 +340,7 @@ KeptDocument readDocument(const std::filesystem::path& path, const GltfOptions& 
   checkLeastVersion(root, diagnostics);
   checkPlacesOfExtensions(root, diagnostics);
   mendValues(root, isUsed, diagnostics);
-  checkExtensions(root, diagnostics);
+  checkExtensions(root, options.limits.ignoredExtensions, diagnostics);
   noteNames(root, document);
   applySelection(root, options.selection, diagnostics);
   Worker codecs(kGeometryCodecs);
@@ -352,12 +359,12 @@ KeptDocument readDocument(const std::filesystem::path& path, const GltfOptions& 
   return {std::move(document), std::move(root), std::move(animations)};
 }
 
-Document posed(KeptDocument read, const SceneSelection& selection) {
-  if (!selection.animationTime && !selection.animation.empty())
-    throw UsageError("--animation: needs --animation-time");
+Document posed(KeptDocument read, const GltfOptions& options) {
+  const SceneSelection& selection = options.selection;
+  const bool isPosed = selection.animationTime || !selection.animation.empty();
   writeNumbers(read.root, selection.set, read.document.diagnostics);
-  if (selection.animationTime) pose(read.animations, selection, read.root, read.document);
-  if (selection.animationTime || !selection.set.empty()) parseAgain(read.root, read.document);
+  if (isPosed) pose(read.animations, options, read.root, read.document);
+  if (isPosed || !selection.set.empty()) parseAgain(read.root, read.document);
   return std::move(read.document);
 }
 

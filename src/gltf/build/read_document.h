@@ -20,8 +20,8 @@ struct KeptDocument {
 /// Reads and checks the document; pictures beside it are not read yet. Throws InputError.
 KeptDocument readDocument(const std::filesystem::path& path, const GltfOptions& options);
 
-/// The document in the pose of the selection. Throws InputError and UsageError.
-Document posed(KeptDocument read, const SceneSelection& selection);
+/// The document in the pose of the options. Throws InputError and UsageError.
+Document posed(KeptDocument read, const GltfOptions& options);
 
 /// A copy for posed(). It takes buffers and pictures with it, since they are large: takeBack() returns them.
 KeptDocument lend(KeptDocument& kept);

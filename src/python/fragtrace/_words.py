@@ -59,8 +59,8 @@ def words_of(scene, keywords):
             if np.shape(value) != (2,):
                 raise _core.UsageError(f"resolution: {value!r} is not (width, height)")
             words.append("--resolution=" + "x".join(spelled(side) for side in value))
-        elif name in ("hide", "set") and isinstance(value, (list, tuple)):
-            words += [f"--{name}={one}" for one in value]  # names may hold commas, and numbers do
+        elif name in ("hide", "set", "ignore_required") and isinstance(value, (list, tuple)):
+            words += [f"--{option}={one}" for one in value]  # names may hold commas, and numbers do
         elif value is True:
             words.append("--" + option)
         elif value is not None and value is not False:

@@ -73,10 +73,12 @@ void drawSampling(ViewState& state, Places& places) {
 void drawAnimation(ViewState& state, Places& places) {
   const int shown = shownAnimation(state);
   const std::vector<std::string>& names = state.scene->animationNames;
-  const auto nameOf = [&](int i) { return partText(size_t(i), names[size_t(i)]); };
+  const auto nameOf = [&](int i) {
+    return size_t(i) < names.size() ? partText(size_t(i), names[size_t(i)]) : "all at once";
+  };
   label(places, "Clip");
   if (ImGui::BeginCombo("##clip", nameOf(shown).c_str())) {
-    for (int i = 0; i < int(names.size()); ++i) {
+    for (int i = 0; i < animationCount(state); ++i) {
       if (ImGui::Selectable(nameOf(i).c_str(), i == shown)) showAnimation(state, i, 0.0);
     }
     ImGui::EndCombo();
