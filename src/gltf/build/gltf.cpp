@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <new>
 #include <set>
 
 #include "base/errors.h"
 #include "base/text.h"
 #include "bvh/contacts.h"
+#include "bvh/open_panes.h"
 #include "gltf/build/flatten.h"
 #include "gltf/build/materials.h"
 #include "gltf/build/meshes.h"
@@ -87,9 +89,18 @@ void recentre(const GltfOptions& options, const Diagnostics& diagnostics, Scene&
   space.unit = std::ldexp(1.0, std::max(exponent, -900) - kReachBits);
 }
 
+/// Says which parts have no inside.
+void warnThinned(const std::map<std::string, size_t>& thinned, Diagnostics& diagnostics) {
+  for (const auto& [place, count] : thinned)
+    diagnostics.warn(place,
+                     "has a thickness, and is on a part that bounds no solid; such a part is drawn as a "
+                     "thin wall",
+                     count);
+}
+
 /// The default material was appended last, and goes again if nothing uses it.
-void dropUnusedDefaultMaterial(Scene& scene) {
-  const auto last = uint32_t(scene.materials.size() - 1);
+void dropUnusedDefaultMaterial(Scene& scene, uint32_t last) {
+  if (last + 1 != scene.materials.size()) return;
   const auto usesLast = [last](const auto& part) { return part.material == last; };
   if (last > 0 && std::ranges::none_of(scene.triangles, usesLast) &&
       std::ranges::none_of(scene.spheres, usesLast) && std::ranges::none_of(scene.strokes, usesLast)) {
@@ -189,6 +200,8 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
   scene.bounds.include(boundsOf(spheres));
   recentre(options, document.diagnostics, scene);
   flatten(meshes.flat, meshes.shared, scene);
+  const auto defaultMaterial = uint32_t(scene.materials.size() - 1);
+  warnThinned(thinOpenPanes(scene), document.diagnostics);
   partFromGlass(scene);
   markLampsInSurfaces(scene);
   if (scene.strokes.empty()) settleCreases(scene);  // else addStrokes() does it
@@ -204,7 +217,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
         document.diagnostics.keepRest("the light", [&] { return lightAt(document, node, scene.space); });
     if (light && *light) scene.lights.push_back(**light);
   }
-  dropUnusedDefaultMaterial(scene);
+  dropUnusedDefaultMaterial(scene, defaultMaterial);
   settle(document.diagnostics, options, scene);
   return scene;
 }
