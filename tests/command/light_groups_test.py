@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """The light of some lamps alone: --aov light:NAME."""
 import json
+from pathlib import Path
 
 from support import SCENES, Case, Exr, main
 
@@ -62,6 +63,23 @@ class LightGroups(Case):
         dark = ["--set", "/materials/3/emissiveFactor=0,0,0", "--set", "/materials/1/pbrMetallicRoughness/baseColorFactor=0,0,0,1", "--no-default-light"]
         alone = self.drawn(self.scene(), [], *dark, spp=1024, size="12,8")
         self.assertAlmostEqual(sum(self.values(exr, "key")) / sum(self.values(alone)), 1, delta=0.02)
+
+    def test_lights_of_one_name_are_told_apart_by_their_places(self):
+        scene = Path(self.scene() + ".gltf")
+        gltf = json.loads(scene.read_text())
+        gltf["scenes"][0]["nodes"].append(len(gltf["nodes"]))
+        gltf["nodes"].append({"name": "bulb", "extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [-0.4, 0.2, 0.6]})
+        scene.write_text(json.dumps(gltf))
+        first, second = len(gltf["nodes"]) - 2, len(gltf["nodes"]) - 1
+        options = ["-o", self.folder / "x.exr", "--resolution", "12,8", "--spp", 4, "--aov"]
+        result = self.renders(scene, *options, f"light:/nodes/{first},light:key,light:rest")
+        self.assertIn(f"--aov light:key: one layer of 2 lights of that name, each of which is light:/nodes/{first}, light:/nodes/{second}", result.stderr)
+        one, other, _ = self.adds_up(Exr(self.folder / "x.exr"), [f"_nodes_{first}", "key", "rest"])
+        self.renders(scene, *options, "light:key", "--quiet")
+        both = sum(self.values(Exr(self.folder / "x.exr"), "key"))
+        self.assertAlmostEqual((one + other) / both, 1, delta=1e-4)
+        self.assertGreater(min(one, other), 0.1 * both)
+        self.fails(2, "render", scene, "-o", self.folder / "y.exr", "--aov", "light:nobody", says=[f"/nodes/{first}, ", f"/nodes/{second}, ", "environment, key"])
 
     def test_what_the_scene_has_not_is_refused(self):
         def refused(groups, *options, says):

@@ -125,6 +125,7 @@ void sayWhatWentWrong(const RenderOptions& options, const FilmTotals& film, cons
 
 DrawingPlan planDrawing(const PictureJob& job, Statistics& stats) {
   lightGroupsOf(job.options, job.loaded.scene);  // a wrong name is found before anything is drawn
+  for (const std::string& line : sharedGroups(job.options, job.loaded.scene)) say(job.options, line);
   std::vector<Region> parts = partsOf(job.options, job.loaded);
   Film film(parts.front().size);
   const View view = viewOf(job.loaded, parts.front());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <map>
 #include <set>
 
 #include "base/errors.h"
@@ -22,15 +23,33 @@ constexpr const char* kRest = "rest";
 
 bool isLit(const Material& material) { return material.emissive() || material.unlit; }
 
-/// The names of all that can be a group.
-std::string namesIn(const Scene& scene) {
-  std::set<std::string> names{kSurroundings, kRest};
-  for (const Light& light : scene.lights) {
-    const std::string& name = scene.lightSources[light.source].name;
-    names.insert(name.empty() ? light.node : name);
-  }
+/// The light or emissive material that a group may have, by its JSON pointer and its names, which may be
+/// empty.
+struct Lamp {
+  std::string place, name, otherName;
+};
+
+std::vector<Lamp> lampsOf(const Scene& scene) {
+  std::vector<Lamp> lamps;
+  for (const Light& light : scene.lights)
+    lamps.push_back({light.place, scene.lightSources[light.source].name, light.node});
   for (const Material& material : scene.materials) {
-    if (isLit(material)) names.insert(material.name.empty() ? material.place : material.name);
+    if (isLit(material)) lamps.push_back({material.place, material.name, ""});
+  }
+  return lamps;
+}
+
+/// The names of all that can be a group; places where a name is that of several.
+std::string namesIn(const Scene& scene) {
+  std::map<std::string, std::vector<std::string>> places;
+  for (const Lamp& lamp : lampsOf(scene)) {
+    const std::string& name = lamp.name.empty() ? lamp.otherName : lamp.name;
+    places[name.empty() ? lamp.place : name].push_back(lamp.place);
+  }
+  std::set<std::string> names{kSurroundings, kRest};
+  for (const auto& [name, of] : places) {
+    names.insert(name);
+    if (of.size() > 1) names.insert(of.begin(), of.end());
   }
   return joined(names);
 }
@@ -54,9 +73,9 @@ LightGroups lightGroupsOf(const RenderOptions& options, const Scene& scene) {
   };
   LightGroups groups;
   const std::optional<size_t> rest = indexOf(kRest);
-  // A light has two names. Both may be groups: then it belongs to the first.
-  const auto groupOf = [&](const std::string& first, const std::string& second) {
-    for (const std::string& name : {first, second}) {
+  // A light has a place and two names. Several may be groups: then it belongs to the first.
+  const auto groupOf = [&](const std::string& place, const std::string& first, const std::string& second) {
+    for (const std::string& name : {place, first, second}) {
       const bool reserved = name == kSurroundings || name == kRest;
       const std::optional<size_t> named = reserved ? std::nullopt : indexOf(name);
       if (named) return named;
@@ -64,9 +83,9 @@ LightGroups lightGroupsOf(const RenderOptions& options, const Scene& scene) {
     return rest;
   };
   for (const Material& material : scene.materials)
-    groups.ofMaterials.push_back(isLit(material) ? groupOf(material.name, material.place) : std::nullopt);
+    groups.ofMaterials.push_back(isLit(material) ? groupOf(material.place, material.name, "") : std::nullopt);
   for (const Light& light : scene.lights)
-    groups.ofLights.push_back(groupOf(scene.lightSources[light.source].name, light.node));
+    groups.ofLights.push_back(groupOf(light.place, scene.lightSources[light.source].name, light.node));
   const std::optional<size_t> surroundings = indexOf(kSurroundings);
   groups.ofSurroundings = surroundings ? surroundings : rest;
   groups.ofVolume = rest;
@@ -76,6 +95,20 @@ LightGroups lightGroupsOf(const RenderOptions& options, const Scene& scene) {
                        " has no light and no emissive material of that name, but " + namesIn(scene));
   }
   return groups;
+}
+
+std::vector<std::string> sharedGroups(const RenderOptions& options, const Scene& scene) {
+  std::vector<std::string> lines;
+  for (const std::string& group : options.output.lightGroups) {
+    std::vector<std::string> places;
+    for (const Lamp& lamp : lampsOf(scene)) {
+      if (lamp.name == group || lamp.otherName == group) places.push_back("light:" + lamp.place);
+    }
+    if (places.size() > 1)
+      lines.push_back("--aov light:" + group + ": one layer of " + std::to_string(places.size()) +
+                      " lights of that name, each of which is " + joined(places));
+  }
+  return lines;
 }
 
 void showLights(const Tracer& tracer, const Scene& scene, const LightGroups& groups,

@@ -23,6 +23,9 @@ struct LightGroups {
 /// Throws UsageError where the scene has no light of a name.
 LightGroups lightGroupsOf(const RenderOptions& options, const Scene& scene);
 
+/// A line for each group that is of several lights of one name: how each of them is chosen.
+std::vector<std::string> sharedGroups(const RenderOptions& options, const Scene& scene);
+
 /// Dims all lights of the scene on the device that are not of the group; none: all shine again. Throws
 /// RenderError.
 void showLights(const Tracer& tracer, const Scene& scene, const LightGroups& groups,
