@@ -249,8 +249,6 @@ std::string whyNotTo(const RenderOptions& options) {
     const bool isNamed = isNumbered(out.file);
     return isNamed ? "" : "the name of --output needs #### where the number of the picture goes";
   }
-  if (video != nullptr && isNumbered(out.file))
-    return "--output: a video holds all pictures, so its name needs no #";
   if (out.sequence.keep)
     return "--continue: goes with numbered pictures (#### in the name of a .png); what is one file is drawn "
            "as a whole";

@@ -142,6 +142,11 @@ class Videos(Case):
         time.sleep(0.3)  # in which an encoder that goes on would make its file
         self.assertEqual(self.left(), [])
 
+    def test_a_name_with_a_number_sign_stays(self):
+        video = self.folder / "shot #1.mp4"
+        self.renders(PLANE, "-o", video, *TURN, "--stats", self.folder / "s.#.json", env=self.stand_in)
+        self.assertEqual(self.left(), ["s.0.json", "s.1.json", "s.2.json", video.name])
+
     def test_an_encoder_that_dies_leaves_the_older_file(self):
         self.video.write_text("an older one")
         for variable, bytes_read, begins in (("DIES_AFTER", 1000, "picture "), ("DIES_IN_TRIAL", 0, "cannot write ")):
@@ -163,7 +168,6 @@ class Videos(Case):
             (mp4, ["--output: ", "--turntable or --frames"]),
             ([*mp4, "--turntable", 2, "--resolution", "41,30"], ["--resolution: width and height of a .mp4 are even"]),
             ([*mp4, "--turntable", 2, "--region", "0,0,10,11"], ["--region: width and height of a .mp4 are even"]),
-            (["-o", self.folder / "x.#.mp4", "--turntable", 2], ["needs no #"]),
             ([*mp4, "--turntable", 2, "--continue"], ["--continue: goes with numbered pictures"]),
             ([*mp4, "--turntable", 2, "--resume"], ["--resume are of a single picture"]),
             ([*mp4, "--turntable", 2, "--aov", "depth"], ["--aov: only .exr"]),

@@ -69,7 +69,7 @@ SequenceFrame frameOf(const RenderOptions& options, int index) {
   const FrameRange range = rangeOf(sequence);
   SequenceFrame frame{range.first + index * range.step, options, 0.0};
   frame.options.sampling.seed = seedOfPicture(options.sampling.seed, frame.number);
-  frame.options.output.file = numberedName(options.output.file, frame.number);
+  if (!isStream(options.output)) frame.options.output.file = numberedName(options.output.file, frame.number);
   if (!options.output.statsFile.empty())
     frame.options.output.statsFile = numberedName(options.output.statsFile, frame.number);
   if (sequence.turntable > 0) {
