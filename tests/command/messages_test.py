@@ -97,6 +97,9 @@ class Values(Case):
                             ("/materials/0/pbrMetallicRoughness/roughness", "; did you mean /materials/0/pbrMetallicRoughness/roughnessFactor?"),
                             ("/materials/0/roughnessFactor", "; did you mean /materials/0/pbrMetallicRoughness/roughnessFactor?"),
                             ("/materials/0/pbrMetallicRoughness/baseColorFactor/0", "; set all of /materials/0/pbrMetallicRoughness/baseColorFactor together, such as /materials/0/pbrMetallicRoughness/baseColorFactor=1,1,1,1"),
+                            ("/materials/red/pbrMetallicRoughness/baseColorFactor/0", "; set all of /materials/1/pbrMetallicRoughness/baseColorFactor together, such as "),
+                            ("/materials/0/baseColorFactor/0", "; set all of /materials/0/pbrMetallicRoughness/baseColorFactor together, such as "),
+                            ("/materials/0/emissiveFactor/r", "; set all of /materials/0/emissiveFactor together, such as /materials/0/emissiveFactor=1,1,1"),
                             ("/materials/0/ior", ": the file has no /materials/0/extensions/KHR_materials_ior/ior\n"),
                             ("/materials/0/extensions/KHR_materials_shen/sheenRoughnessFactor", "of the file that is read\n"),
                             ("/materials/0/name", "of the file that is read\n")):

@@ -110,28 +110,39 @@ std::string nearerPlace(const json& root, const std::string& pointer) {
   return isNamed ? cut.place + "/" + std::to_string(*index) + cut.rest : "";
 }
 
-/// Says how to set numbers that are only set together, if a pointer names one of them by its index; else
-/// nothing.
+/// Returns a place of numbers that may be meant by a pointer, or nothing: the pointer itself, where it is
+/// one.
+std::string placeMeantBy(const json& root, std::string pointer) {
+  constexpr int kMostSteps = 8;  // the number of wrong parts that are still searched
+  for (int i = 0; i < kMostSteps && !pointer.empty(); ++i) {
+    if (numberRuleIn(root, pointer)) return pointer;
+    pointer = nearerPlace(root, pointer);
+  }
+  return "";
+}
+
+/// Says how to set numbers that are only set together, if a pointer names one of them by its index or as a
+/// component (x, r); else nothing.
 std::string hintAtWhole(const json& root, const std::string& pointer) {
   const size_t end = pointer.rfind('/');
-  if (end == std::string::npos || !numberOfAll<size_t>(pointer.substr(end + 1))) return "";
-  const std::string whole = pointer.substr(0, end);
-  const std::optional<NumberRule> rule = numberRuleIn(root, whole);
-  if (!rule || !rule->isArray) return "";
+  if (end == std::string::npos) return "";
+  const std::string last = pointer.substr(end + 1);
+  const bool isComponent = last.size() == 1 && std::string_view("rgbaxyzw").find(last) != std::string::npos;
+  if (!isComponent && !numberOfAll<size_t>(last)) return "";
+  const std::string whole = placeMeantBy(root, pointer.substr(0, end));
+  if (whole.empty()) return "";
+  const NumberRule rule = *numberRuleIn(root, whole);
+  if (!rule.isArray) return "";
   std::string example = "=1";
-  for (size_t i = 1; i < rule->width; ++i) example += ",1";
+  for (size_t i = 1; i < rule.width; ++i) example += ",1";
   return "; set all of " + whole + " together, such as " + whole + example;
 }
 
 /// A hint at what may be meant by a pointer to no number.
 std::string hintFor(const json& root, const std::string& pointer) {
   if (std::string whole = hintAtWhole(root, pointer); !whole.empty()) return whole;
-  std::string meant = pointer;
-  constexpr int kMostSteps = 8;  // the number of wrong parts that are still searched
-  for (int i = 0; i < kMostSteps && !meant.empty(); ++i) {
-    meant = nearerPlace(root, meant);
-    if (!meant.empty() && numberRuleIn(root, meant)) return "; did you mean " + meant + "?";
-  }
+  if (const std::string meant = placeMeantBy(root, pointer); !meant.empty())
+    return "; did you mean " + meant + "?";
   const Missing at = firstMissing(root, pointer);
   if (!at.part) return "";
   const auto [place, part, rest] = cutAt(at, pointer);
