@@ -9,8 +9,10 @@ function(install_advice variable)  # install_advice(VARIABLE LIBRARY_FILE... [PA
     file(REAL_PATH ${library} file)
     get_filename_component(name ${file} NAME)
     list(APPEND names ${name})
-    execute_process(COMMAND dpkg-query --search ${file} OUTPUT_VARIABLE owner ERROR_QUIET RESULT_VARIABLE failed)
-    if(NOT failed AND owner MATCHES "^([^:]+):")
+    # Where /lib is a link into /usr, packages may own a file by the shorter name.
+    string(REGEX REPLACE "^/usr" "" short ${file})
+    execute_process(COMMAND dpkg-query --search ${file} ${short} OUTPUT_VARIABLE owner ERROR_QUIET)
+    if(owner MATCHES "^([^:]+):")
       list(APPEND packages ${CMAKE_MATCH_1})
     endif()
   endforeach()

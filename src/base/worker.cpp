@@ -94,7 +94,7 @@ void Worker::startLocked() {
   try {
     child_ = startChild("fragtrace_worker", kind_.module);
   } catch (const std::runtime_error& error) {
-    throw std::runtime_error(std::string(error.what()) + kind_.instead);
+    throw std::runtime_error(std::string(error.what()) + " (" + kind_.advice + ")" + kind_.instead);
   }
 }
 

@@ -86,6 +86,7 @@ class Codecs(Case):
                                    for command in (["info", self.write(draco(False))], ["render", textured, "-o", folder / "x.pfm", *SMALL]))
             self.assertEqual(compressed.returncode, 3)
             self.assertEqual("libfragtrace_geometry.so is not in" in compressed.stderr, reads_pictures, compressed.stderr)
+            self.assertEqual("apt-get install libdraco" in compressed.stderr, reads_pictures, compressed.stderr)
             self.assertEqual(picture.returncode, 0 if reads_pictures else 3, picture.stderr)
             self.assertEqual("libfragtrace_pictures.so is not in" in picture.stderr, not reads_pictures, picture.stderr)
 
