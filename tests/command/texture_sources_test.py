@@ -97,7 +97,7 @@ class TextureSources(Case):
     def test_a_third_set_of_a_material_is_said(self):
         material = {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 0, "texCoord": 1}}, "normalTexture": {"index": 0, "texCoord": 2}}
         said = run("info", self.scene(png([(128, 128, 255)]), sets=3, materials=[material])).stderr
-        self.assertIn("/materials/0: has textures of more than two sets of coordinates; TEXCOORD_0 is taken in place of TEXCOORD_2", said)
+        self.assertIn("/materials/0: has textures of more than two sets of coordinates; TEXCOORD_0 is taken instead of TEXCOORD_2", said)
 
 
 if __name__ == "__main__":

@@ -87,6 +87,30 @@ TEST(GltfAnimation, OfKeysAtTheSameTimeTheLastCounts) {
   EXPECT_EQ(valuesAt(keys, 0.5)[0], 0.5);
 }
 
+TEST(GltfAnimation, WhileAShutterIsOpenMotionContinuesBeyondCutsAndEnds) {
+  using Values = std::vector<double>;
+  const Keyframes line{Interpolation::Linear, false, 1, {1.0f, 2.0f, 2.0f, 3.0f}, {0, 2, 10, 13}};
+  const OpenShutter atBegin{1.0, 1.0, 3.0}, beforeCut{1.9, 1.0, 3.0}, atCut{2.0, 1.0, 3.0};
+  EXPECT_EQ(valuesWhileOpen(line, 0.5, atBegin), Values{-1});
+  EXPECT_EQ(valuesWhileOpen(line, 1.5, atBegin), Values{1});
+  EXPECT_EQ(valuesWhileOpen(line, 2.5, beforeCut), Values{3});
+  EXPECT_EQ(valuesWhileOpen(line, 1.5, atCut), Values{8.5});
+  EXPECT_EQ(valuesWhileOpen(line, 3.5, {3.0, 1.0, 3.0}), Values{14.5});
+  // A channel that begins later than others rests before, and all rest after the end.
+  EXPECT_EQ(valuesWhileOpen(line, 0.5, {1.0, 0.0, 3.0}), Values{0});
+  EXPECT_EQ(valuesWhileOpen(line, 3.5, {3.25, 1.0, 3.0}), Values{13});
+  const Keyframes steps{Interpolation::Step, false, 1, {1.0f, 2.0f}, {3, 7}};
+  EXPECT_EQ(valuesWhileOpen(steps, 2.5, {1.9, 1.0, 2.0}), Values{3});
+  EXPECT_EQ(valuesWhileOpen(steps, 1.5, {2.0, 1.0, 2.0}), Values{7});
+  const Keyframes scale{Interpolation::Linear, false, 1, {0.0f, 1.0f}, {1, 3}, true};
+  EXPECT_EQ(valuesWhileOpen(scale, -0.25, {0.0, 0.0, 1.0}), Values{0.5});
+  EXPECT_EQ(valuesWhileOpen(scale, -0.75, {0.0, 0.0, 1.0}), Values{1}) << "it would be turned over";
+  // A quarter turn in a second, about z.
+  const float half = std::sqrt(0.5f);
+  const Keyframes turn{Interpolation::Linear, true, 4, {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0, half, half}};
+  EXPECT_NEAR(valuesWhileOpen(turn, -1.0, {0.0, 0.0, 1.0})[2], -half, 1e-6);
+}
+
 /// A cubic polynomial is its own Hermite spline, whatever its keys.
 TEST(GltfAnimation, SplinesWithTheTangentsOfACubicAreTheCubic) {
   const auto cubic = [](double t) { return ((2.0 * t - 3.0) * t + 0.5) * t + 4.0; };

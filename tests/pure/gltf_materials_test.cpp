@@ -154,7 +154,7 @@ TEST(GltfMaterials, TexturesChooseTwoSetsOfCoordinatesAmongAll) {
   EXPECT_EQ(setOf(5, &Material::emissiveTexture), 0u) << "a third set";
   EXPECT_TRUE(anyWarningHas(scene,
                             "/materials/5: has textures of more than two sets of coordinates; TEXCOORD_0 is "
-                            "taken in place of TEXCOORD_2"));
+                            "taken instead of TEXCOORD_2"));
   EXPECT_EQ(scene.warnings.size(), 1u);
 }
 

@@ -171,7 +171,7 @@ Keyframes pieceAt(const Keyframes& keys, double moment) {
   while (first > 0 && !isCut(first)) --first;
   while (end < keys.times.size() && !isCut(end)) ++end;
   const size_t perKey = keys.width * (keys.interpolation == Interpolation::CubicSpline ? 3 : 1);
-  Keyframes piece{keys.interpolation, keys.isRotation, keys.isScale, keys.width, {}, {}};
+  Keyframes piece{keys.interpolation, keys.isRotation, keys.width, {}, {}, keys.isScale};
   piece.times.assign(keys.times.begin() + std::ptrdiff_t(first), keys.times.begin() + std::ptrdiff_t(end));
   piece.values.assign(keys.values.begin() + std::ptrdiff_t(first * perKey),
                       keys.values.begin() + std::ptrdiff_t(end * perKey));

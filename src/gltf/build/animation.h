@@ -17,10 +17,10 @@ enum class Interpolation { Step, Linear, CubicSpline };
 struct Keyframes {
   Interpolation interpolation = Interpolation::Linear;
   bool isRotation = false;  ///< unit quaternions, x y z w
-  bool isScale = false;
   size_t width = 1;
   std::vector<float> times;  ///< seconds, never falling
   std::vector<float> values;
+  bool isScale = false;  ///< scales keep their signs where motion is continued
 };
 
 /// The numbers at that time; before the first key and after the last theirs. Of keys at the same time the

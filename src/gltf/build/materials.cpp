@@ -64,7 +64,7 @@ void markLost(Material& m) {
 }
 
 /// Chooses the two sets of texture coordinates that the material has: 0 and 1, or a higher one in the place
-/// of one of these that no texture asks for. Texture::texcoord, the number of a set, becomes the place of
+/// of one of these that no texture asks for. TextureRef::texcoord, the number of a set, becomes the place of
 /// one.
 void chooseTexcoords(Material& m, Diagnostics& diagnostics) {
   std::array<bool, 2> taken{m.perlinNormal.amplitude != 0.0f, false};
@@ -82,7 +82,7 @@ void chooseTexcoords(Material& m, Diagnostics& diagnostics) {
     set = taken[1] ? 0 : 1;
     if (taken[set]) {
       diagnostics.warn(m.place, "has textures of more than two sets of coordinates; TEXCOORD_" +
-                                    std::to_string(m.texcoordSets[set]) + " is taken in place of TEXCOORD_" +
+                                    std::to_string(m.texcoordSets[set]) + " is taken instead of TEXCOORD_" +
                                     std::to_string(wanted));
       continue;
     }
