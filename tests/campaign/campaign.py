@@ -227,7 +227,7 @@ def main():
             return one_case(options, state)
         if options.hours or options.seconds:
             status = campaigns(options, state)
-    except Unusable as reason:
+    except (Unusable, common.Absent) as reason:
         print(f"campaign: {reason}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:

@@ -59,6 +59,16 @@ class Result:
     error: str
 
 
+def build_target(ground, preset, target):
+    """Builds what a campaign runs besides the program; Absent where that is not possible, with the compiler or without it."""
+    if preset != "release":
+        subprocess.run([ground.source / "scripts/setup", "fuzz"])
+        if not shutil.which("clang++"):
+            raise Absent("clang++ is not installed (scripts/setup fuzz)")
+    if subprocess.run([ground.source / "scripts/build", preset, target]).returncode != 0:
+        raise Absent(f"scripts/build {preset} {target} failed")
+
+
 def preloaded(ground, **settings):
     """The environment with tests/faults/failing_system.cpp, told what to do."""
     told = {f"FRAGTRACE_SYSTEM_{name.upper()}": str(value) for name, value in settings.items()}

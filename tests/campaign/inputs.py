@@ -11,7 +11,7 @@ import sys
 import threading
 
 import damage
-from common import Finding, Run, contents, stop
+from common import Finding, Run, build_target, contents, stop
 
 ASKED = {"inputs": 1_000_000, "through the command line": 5000}
 KINDS = ("gltf", "gltf", "gltf", "glb", "bin", "png", "jpg", "hdr", "exr", "webp", "pfm", "nvdb", "config", "checkpoint", "part.exr")
@@ -26,7 +26,7 @@ fuzzing = threading.Lock()
 def prepare(ground):
     sys.path.insert(0, str(ground.source / "tests/fuzz"))
     if not ground.brief:
-        subprocess.run([ground.source / "scripts/build", "sanitize", "loader_fuzz"], check=True)
+        build_target(ground, "sanitize", "loader_fuzz")
     return damage.seeds(ground)
 
 

@@ -8,7 +8,7 @@ import subprocess
 import time
 from pathlib import Path
 
-from common import Finding, Run, Stopped, must, stop, view
+from common import Finding, Run, Stopped, build_target, must, stop, view
 
 ASKED = {"frames": 100_000, "loads": 10_000, "seconds of the viewer": 28_800}
 BRIEF = False
@@ -19,7 +19,7 @@ SCENES = ("cornell-box", "sphere-textured", "room-ball", "foggy")
 
 
 def prepare(ground):
-    subprocess.run([ground.source / "scripts/build", "release", "load_rounds"], check=True)
+    build_target(ground, "release", "load_rounds")
 
 
 def target(link):

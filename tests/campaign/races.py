@@ -4,10 +4,8 @@ checkpoints. A case is one run of them in an order of its own (thread_tests of t
 cases locks wait at random (tests/faults/delayed_locks.cpp)."""
 import os
 import re
-import shutil
-import subprocess
 
-from common import Absent, Finding, Run
+from common import Finding, Run, build_target
 
 ASKED = {"seconds": 3600}
 REPEATS = 5  # of a finding, before it counts as mended
@@ -17,9 +15,7 @@ DELAYS = (0, 100, 2000)  # microseconds at most
 
 
 def prepare(ground):
-    if not shutil.which("clang++"):
-        raise Absent("clang++ is not installed")
-    subprocess.run([ground.source / "scripts/build", "threads", "thread_tests"], check=True)
+    build_target(ground, "threads", "thread_tests")
 
 
 def case(ground, _, number, folder):

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: MIT
 """tests/campaign: each campaign that has a short form runs for a moment and finds nothing; what it keeps, how it goes on, how it is called."""
 import json
+import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -62,6 +64,30 @@ class Campaigns(Case):
         self.assertEqual(process.returncode, 130, said)
         row = self.rows()["forms"]
         self.assertEqual(row["counts"].get("scenes", 0) + len(row["again"]), row["next"])
+
+    def test_without_a_compiler_the_others_run_and_it_says_why(self):
+        scripts = self.folder / "source/scripts"
+        scripts.mkdir(parents=True)
+        for name in ("setup", "build"):
+            (scripts / name).write_text("#!/bin/sh\nexit 1\n")
+            (scripts / name).chmod(0o755)
+        for words, status in ((["0.001", "--only", "inputs,races,long"], 0), (["--case", "inputs", "1"], 2)):
+            command = [sys.executable, PROGRAM, FRAGTRACE, scripts.parent, *words, "--state", self.folder / "state"]
+            result = subprocess.run(command, capture_output=True, text=True, timeout=60)
+            self.assertEqual(result.returncode, status, result.stderr)
+            self.assertNotIn("Traceback", result.stderr)
+            self.assertRegex(result.stderr, r"clang\+\+ is not installed|scripts/build sanitize loader_fuzz failed")
+
+    def test_a_configuration_that_failed_leaves_no_cache(self):
+        (self.folder / "scripts").mkdir()
+        shutil.copy(SOURCE / "scripts/build", self.folder / "scripts")
+        cmake = self.folder / "cmake"
+        cmake.write_text("#!/bin/sh\nmkdir build-sanitize/CMakeFiles\ntouch build-sanitize/CMakeCache.txt\nexit 1\n")
+        cmake.chmod(0o755)
+        environment = {**os.environ, "PATH": f"{self.folder}:{os.environ['PATH']}"}
+        result = subprocess.run([self.folder / "scripts/build", "sanitize"], env=environment, capture_output=True, text=True)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertEqual([path.name for path in (self.folder / "build-sanitize").iterdir()], ["configure.log"])
 
     def test_wrong_words_are_2(self):
         for words in ([], ["0"], ["x"], ["1", "--seconds", "1"], ["1", "--only", "nothing"], ["--case", "forms", "x"], ["--case", "nothing", "1"]):
