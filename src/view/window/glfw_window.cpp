@@ -61,13 +61,15 @@ Glfw::Glfw() {
 
 Glfw::~Glfw() { glfwTerminate(); }
 
-bool displayIsGone() {
+bool onWayland() {
 #ifdef GLFW_PLATFORM
-  return glfwGetPlatform() == GLFW_PLATFORM_WAYLAND && !whyNoWayland().empty();
+  return glfwGetPlatform() == GLFW_PLATFORM_WAYLAND;
 #else
   return false;
 #endif
 }
+
+bool displayIsGone() { return onWayland() && !whyNoWayland().empty(); }
 
 void endWithDisplay(const std::filesystem::path& statusFile) {
   static std::filesystem::path file;

@@ -26,6 +26,10 @@ struct CloseWindow {
 };
 using WindowHandle = std::unique_ptr<GLFWwindow, CloseWindow>;
 
+/// True if the windows are Wayland's, where a unit of GLFW is several pixels on displays of many dots an
+/// inch.
+bool onWayland();
+
 /// True once the compositor has ended, on which GLFW closes all windows.
 bool displayIsGone();
 inline constexpr const char* kDisplayIsGone = "the display is gone";

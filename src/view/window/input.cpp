@@ -65,16 +65,7 @@ Input::Input(GLFWwindow* window) : window_(window) {
 
 std::vector<std::filesystem::path> Input::takeDrops() { return std::exchange(drops_, {}); }
 
-/// From the window's coordinates, which on some desktops are not pixels.
-glm::dvec2 Input::inPixels(const glm::dvec2& cursor) const {
-  glm::ivec2 size(1);
-  glm::ivec2 pixels(1);
-  glfwGetWindowSize(window_, &size.x, &size.y);
-  glfwGetFramebufferSize(window_, &pixels.x, &pixels.y);
-  return cursor * glm::dvec2(pixels) / glm::dvec2(glm::max(size, 1));
-}
-
-glm::dvec2 Input::place() const { return inPixels(cursor_) / glm::dvec2(layout_.picture); }
+glm::dvec2 Input::place() const { return cursor_ / glm::dvec2(layout_.picture); }
 
 std::optional<glm::dvec2> Input::update(ViewState& state, const WindowLayout& layout, const RunTask& run) {
   layout_ = layout;
@@ -159,9 +150,8 @@ void Input::key(const Event& event, ViewState& state, const RunTask& run) {
 /// Events are seen here in their order, and Dear ImGui sees where the cursor is at the end of them: so what
 /// is to be dragged quickly is held here.
 bool Input::onEdge() const {
-  const glm::dvec2 pixel = inPixels(cursor_);
-  return layout_.docked && pixel.y < layout_.picture.y &&
-         std::abs(pixel.x - layout_.picture.x) <= kEdgePixels * layout_.scale;
+  return layout_.docked && cursor_.y < layout_.picture.y &&
+         std::abs(cursor_.x - layout_.picture.x) <= kEdgePixels * layout_.scale;
 }
 
 void Input::press(const Event& event, const ViewState& state) {
@@ -207,7 +197,7 @@ void Input::move(const Event& event, ViewState& state) {
   if (button_.edge) {
     glm::ivec2 size(1);
     glfwGetFramebufferSize(window_, &size.x, &size.y);
-    state.panelWidth = readablePanelWidth(float(size.x - inPixels(cursor_).x) / layout_.scale);
+    state.panelWidth = readablePanelWidth(float(size.x - cursor_.x) / layout_.scale);
     return;
   }
   if (button_.bar) {
@@ -219,7 +209,7 @@ void Input::move(const Event& event, ViewState& state) {
   if (!button_.dragging) return;
   const Control* control = controlFor(Gesture::Drag, button_.code, button_.modifiers);
   const glm::dvec2 moved = cursor_ - (begins ? button_.start : from);
-  if (control) apply(state, *control, {.drag = inPixels(moved) / double(layout_.picture.y)});
+  if (control) apply(state, *control, {.drag = moved / double(layout_.picture.y)});
 }
 
 }  // namespace fragtrace

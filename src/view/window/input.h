@@ -66,14 +66,13 @@ class Input {
   bool onEdge() const;
   /// The place of the cursor, in parts of the picture.
   glm::dvec2 place() const;
-  glm::dvec2 inPixels(const glm::dvec2& cursor) const;
 
   GLFWwindow* window_;
   std::vector<Event> events_;
   std::vector<std::filesystem::path> drops_;
   std::vector<const Control*> held_;
   Button button_;
-  glm::dvec2 cursor_{-1.0};  ///< outside, until it has moved
+  glm::dvec2 cursor_{-1.0};  ///< pixels, as Interface hands them on; outside, until it has moved
   glm::dvec2 lastClick_{0.0};
   double lastClickTime_ = -1.0;  ///< seconds; negative: the next click is the first
   double lastUpdate_ = 0.0;

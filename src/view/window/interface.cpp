@@ -10,11 +10,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cfloat>
 #include <cmath>
 #include <filesystem>
+#include <glm/common.hpp>
 
 #include "view/key_queue.h"
 #include "view/window/draw/theme.h"
+#include "view/window/glfw_window.h"
 
 namespace fragtrace {
 
@@ -67,6 +70,39 @@ void passKeys(GLFWwindow* window) {
   }
 }
 
+/// Pixels for one of GLFW's units, in which it gives the cursor: more than one on Wayland.
+glm::dvec2 pixelsOfUnit(GLFWwindow* window) {
+  glm::ivec2 units(1);
+  glm::ivec2 pixels(1);
+  glfwGetWindowSize(window, &units.x, &units.y);
+  glfwGetFramebufferSize(window, &pixels.x, &pixels.y);
+  return glm::dvec2(pixels) / glm::dvec2(glm::max(units, 1));
+}
+
+/// Gives the cursor in pixels to Dear ImGui's callback, and to ours, which that one calls.
+void scaleCursor(GLFWwindow* window) {
+  static GLFWcursorposfun next = nullptr;
+  next = glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+    const glm::dvec2 cursor = pixelsOfUnit(w) * glm::dvec2(x, y);
+    next(w, cursor.x, cursor.y);
+  });
+}
+
+/// Puts the frame that GLFW's backend has begun into pixels.
+void scaleFrame(GLFWwindow* window) {
+  const glm::vec2 unit(pixelsOfUnit(window));
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = {io.DisplaySize.x * unit.x, io.DisplaySize.y * unit.y};
+  io.DisplayFramebufferScale = {1.0f, 1.0f};
+#if IMGUI_VERSION_NUM >= 18700
+  // The backend asks for the cursor outside of the window, too. On Wayland, it is then where it left it, in
+  // units.
+  if (onWayland() && glfwGetWindowAttrib(window, GLFW_HOVERED) == 0) io.AddMousePosEvent(-FLT_MAX, -FLT_MAX);
+#else
+  if (ImGui::IsMousePosValid(&io.MousePos)) io.MousePos = {io.MousePos.x * unit.x, io.MousePos.y * unit.y};
+#endif
+}
+
 }  // namespace
 
 float displayScale(const glm::vec2& contentScale) {
@@ -79,6 +115,7 @@ Interface::Interface(GLFWwindow* window) : window_(window) {
   ImGui::GetIO().IniFilename = nullptr;
   ImGui_ImplGlfw_InitForOpenGL(window, true);
   queueKeys(window);
+  scaleCursor(window);
   ImGui_ImplOpenGL3_Init("#version 450 core");
   fit();
 }
@@ -96,7 +133,8 @@ void Interface::fit() {
   if (scale == scale_) return;
   scale_ = scale;
   loadFont(scale);
-  ImGui_ImplOpenGL3_DestroyFontsTexture();
+  // The next frame makes them again; it makes the texture of the fonts only together with all else.
+  ImGui_ImplOpenGL3_DestroyDeviceObjects();
   ImGuiStyle style = themeStyle();
   style.ScaleAllSizes(scale);
   ImGui::GetStyle() = style;
@@ -107,6 +145,7 @@ void Interface::begin() {
   passKeys(window_);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  scaleFrame(window_);
   ImGui::NewFrame();
 }
 

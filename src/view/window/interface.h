@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Dear ImGui on a GLFW window: its life, its font, its size on displays of many dots an inch.
+// Dear ImGui on a GLFW window: its life, its font, its size on displays of many dots an inch. All its lengths
+// are pixels of the framebuffer, also on Wayland, where GLFW's units are larger.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -40,7 +40,7 @@ float primaryScale(GLFWmonitor* monitor) {
   return displayScale(scale);
 }
 
-/// The room for a window on the screen; 0: not known.
+/// The room for a window on the screen, in pixels, also on Wayland; 0: not known.
 glm::ivec2 screenRoom() {
   GLFWmonitor* monitor = glfwGetPrimaryMonitor();
   glm::ivec2 corner(0);
@@ -66,11 +66,13 @@ bool startsWithPanel(const RenderOptions& options) {
   return fits && fitsPanel(glm::vec2(*options.camera.resolution), scale);
 }
 
-/// A given resolution is that of the picture.
+/// The size of the window in GLFW's units. A given resolution is that of the picture.
 glm::ivec2 startSize(const RenderOptions& options) {
   const float scale = primaryScale(glfwGetPrimaryMonitor());
-  if (!options.camera.resolution) return standardSize(scale);
-  return windowFor(*options.camera.resolution, scale, startsWithPanel(options));
+  const std::optional<glm::ivec2>& picture = options.camera.resolution;
+  const glm::ivec2 pixels =
+      picture ? windowFor(*picture, scale, startsWithPanel(options)) : standardSize(scale);
+  return onWayland() ? glm::ivec2(glm::round(glm::vec2(pixels) / scale)) : pixels;
 }
 
 }  // namespace
