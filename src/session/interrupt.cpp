@@ -119,7 +119,9 @@ void countInterrupts() {
     constexpr time_t kDays = 24 * 24 * 3600;  // whose milliseconds fit into an int
     const auto ms = std::sig_atomic_t(now.tv_sec % kDays * 1000 + now.tv_nsec / 1000000);
     // `timeout` sends its signal to the process and to its group, so what follows at once is the same one.
-    const bool same = interruptCount > 0 && signal == lastSignal && std::abs(ms - lastMs) < kSameInterruptMs;
+    // A desktop that ends sends SIGTERM and SIGHUP. Where one interrupt ends all, they are one, too.
+    const bool same = interruptCount > 0 && (signal == lastSignal || mostCounted == 1) &&
+                      std::abs(ms - lastMs) < kSameInterruptMs;
     if (!same) interruptCount = interruptCount + 1;
     if (mostCounted > 0 && interruptCount > mostCounted) _exit(kInterruptedStatus);
     lastSignal = signal;

@@ -11,7 +11,8 @@ inline constexpr int kInterruptedStatus = 130;  ///< exit status of a program th
 /// 130.
 void countInterrupts();
 
-/// Does the same, but the second signal ends the program with status 130 at once.
+/// Does the same, but the second signal ends the program with status 130 at once, unless it follows the first
+/// one immediately.
 void countOneInterrupt();
 
 /// Returns the number of interruptions of the program: one means stop and write what is finished, more mean

@@ -3,10 +3,13 @@
 """The window's life: opening, size, minimising, files dropped and changed, errors, ends."""
 import json
 import os
+import select
 import shutil
 import signal
+import socket
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
@@ -15,6 +18,17 @@ from xdnd import drop
 
 SIZE = ["--resolution", "320,240"]
 FEW = [*SIZE, "--spp", "2"]
+
+
+
+def listener_at(listener, number):
+    """Listens as the X server of that number; false where there is one."""
+    try:
+        listener.bind(f"\0/tmp/.X11-unix/X{number}")
+        listener.listen()
+        return True
+    except OSError:
+        return False
 
 
 class Ends(Case):
@@ -92,10 +106,14 @@ class Ends(Case):
         self.assertRegex(result.stderr, r"^fragtrace: no window: .*libGL\.so\.1: .*libgl1.*\n$")
 
     def test_signals_and_the_end_of_the_display_are_told_in_one_line(self):
-        viewer = self.view("furnace", *FEW)
-        viewer.process.terminate()
-        # A message names the light.
-        self.assertEqual((viewer.end(), viewer.stderr().count("\n"), viewer.status()["state"]), (130, 1, "closed"))
+        # A desktop that ends sends both signals.
+        for signals in ((signal.SIGTERM,), (signal.SIGTERM, signal.SIGHUP)):
+            viewer = self.view("furnace", *FEW)
+            for number in signals:
+                viewer.process.send_signal(number)
+            # A message names the light.
+            self.assertEqual((viewer.end(), viewer.stderr().count("\n"), viewer.status()["state"]), (130, 1, "closed"))
+            viewer.status_file.unlink()
         screen = Screen()
         for process in (screen.server, screen.manager):
             self.addCleanup(process.wait)
@@ -108,6 +126,33 @@ class Ends(Case):
         self.assertEqual(viewer.stderr().splitlines()[1:], ["fragtrace: the display is gone"])
         self.assertEqual((viewer.status()["state"], viewer.status()["error"]), ("failed", "the display is gone"))
         viewer.errors.close()
+
+    def test_a_display_that_ends_while_the_window_opens_is_4_and_said(self):
+        for requests in (1000, 4000, 12000):
+            viewer = self.view("furnace", *FEW, wait=False, environment={**self.screen.environment, "DISPLAY": self.display_for(requests)})
+            self.assertEqual(viewer.end(60), 4, viewer.stderr())
+            self.assertEqual(viewer.stderr(), "fragtrace: the display is gone\n")
+            self.assertEqual(viewer.status()["error"], "the display is gone")
+            viewer.status_file.unlink()
+
+    def display_for(self, most):
+        """The name of a display that ends once the program has sent so many bytes."""
+        listener = socket.socket(socket.AF_UNIX)
+        self.addCleanup(listener.close)
+        number = next(n for n in range(500 + os.getpid() % 1000, 10000) if listener_at(listener, n))
+
+        def serve():
+            program, _ = listener.accept()
+            with program, socket.socket(socket.AF_UNIX) as server:
+                server.connect(f"\0/tmp/.X11-unix/X{self.screen.name[1:]}")
+                left = most
+                while left > 0:
+                    for side in select.select([program, server], [], [])[0]:
+                        data = side.recv(65536)
+                        left -= len(data) if side is program else 0
+                        (server if side is program else program).sendall(data)
+        threading.Thread(target=serve, daemon=True).start()
+        return f":{number}"
 
     def test_profilers_tell_its_threads_apart(self):
         viewer = self.view("furnace", *FEW)

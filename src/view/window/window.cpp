@@ -35,12 +35,12 @@ std::unique_ptr<Window> makeWindow(const WindowStart& start, Exchange& exchange)
 }
 
 void runWindow(const WindowStart& start, Exchange& exchange) {
+  endWithDisplay(start.statusFile);
   const std::unique_ptr<Window> window = makeWindow(start, exchange);
   const struct Ending {
     const WindowStart& start;
     ~Ending() { start.ending(); }
   } ending{start};
-  endWithDisplay(start.statusFile);
   start.opened(window->shared());
   try {
     window->run();
