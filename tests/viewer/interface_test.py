@@ -20,11 +20,13 @@ LONG = 30000
 class Escape(Case):
     def test_it_closes_what_is_open_and_then_the_viewer(self):
         viewer = self.view("furnace", *WITH_PANEL)
+        before = viewer.status()
         for name in ("Tone map", "Background colour"):
             viewer.click(name)
             viewer.until(lambda s: s["focus"] == "popup", name)
-            viewer.key("Escape")
-            viewer.until(lambda s: s["focus"] == "picture", f"no {name}")
+            viewer.key("3", "w", "t", "ctrl+q", "Escape")  # what is behind the list gets none of them
+            after = viewer.until(lambda s: s["focus"] == "picture", f"no {name}")
+            self.assertEqual([after[what] for what in ("camera", "tone_map")], [before[what] for what in ("camera", "tone_map")])
         viewer.key("h")
         viewer.until(lambda s: s["sheet"], "the sheet")
         viewer.key("Escape")

@@ -132,6 +132,12 @@ void Input::key(const Event& event, ViewState& state, const RunTask& run) {
   // Shortcuts of the desktop.
   if ((event.modifiers & (GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0) return;
   const int modifiers = event.modifiers & (GLFW_MOD_SHIFT | GLFW_MOD_CONTROL);
+  const Control* control = controlFor(Gesture::Press, event.code, modifiers);
+  // No key acts behind an open list, and one closes it.
+  if (Interface::hasPopup()) {
+    if (control && control->action == Action::Close) Interface::closePopup();
+    return;
+  }
   const Control* hold = controlFor(Gesture::Hold, event.code, modifiers & ~kShiftModifier);
   if (hold && event.action == GLFW_PRESS && isUsable(state, hold->action)) {
     // The first moment counts, however soon the key is released.
@@ -139,10 +145,8 @@ void Input::key(const Event& event, ViewState& state, const RunTask& run) {
     lastUpdate_ = glfwGetTime();
     held_.push_back(hold);
   }
-  const Control* control = controlFor(Gesture::Press, event.code, modifiers);
   if (!control || !isUsable(state, control->action)) return;
   if (event.action == GLFW_REPEAT && !repeats(control->action)) return;
-  if (control->action == Action::Close && Interface::closePopup()) return;
   const Errand errand = apply(state, *control, {.place = place()});
   if (errand != Errand::None) run({errand, place()});
 }

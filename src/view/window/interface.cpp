@@ -170,7 +170,7 @@ bool Interface::isBehind() {
 
 const char* Interface::focus() {
   if (ImGui::GetIO().WantTextInput) return "text";
-  return ImGui::GetCurrentContext()->OpenPopupStack.Size > 0 ? "popup" : "picture";
+  return hasPopup() ? "popup" : "picture";
 }
 
 std::optional<glm::vec2> Interface::mouse() {
@@ -178,11 +178,11 @@ std::optional<glm::vec2> Interface::mouse() {
   return ImGui::IsMousePosValid(&at) ? std::optional(glm::vec2(at.x, at.y)) : std::nullopt;
 }
 
-bool Interface::closePopup() {
+bool Interface::hasPopup() { return ImGui::GetCurrentContext()->OpenPopupStack.Size > 0; }
+
+void Interface::closePopup() {
   // Dear ImGui does so itself only where it takes the keys that we have.
-  const int open = ImGui::GetCurrentContext()->OpenPopupStack.Size;
-  if (open > 0) ImGui::ClosePopupToLevel(open - 1, true);
-  return open > 0;
+  ImGui::ClosePopupToLevel(ImGui::GetCurrentContext()->OpenPopupStack.Size - 1, true);
 }
 
 }  // namespace fragtrace

@@ -27,8 +27,9 @@ class Interface {
   /// Ends it in place of end(), and draws nothing.
   static void discard();
 
-  /// Closes the list, or picker of colours, that was opened last; false: none is open.
-  static bool closePopup();
+  /// Returns true if a list or a picker of colours is open. closePopup() closes the one that was opened last.
+  static bool hasPopup();
+  static void closePopup();
 
   /// Returns true if a slider or button is held, or a text edited.
   static bool holding();
