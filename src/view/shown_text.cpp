@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "view/shown_text.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <glm/glm.hpp>
 #include <regex>
+#include <utility>
 #include <vector>
 
 namespace fragtrace {
@@ -22,6 +25,36 @@ std::vector<size_t> characterStarts(std::string_view text) {
   starts.push_back(text.size());
   return starts;
 }
+
+/// The controls of the panel, as it names them, and their options.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 26> kControls{{
+    {"--animation", "Clip"},
+    {"--animation-time", "Time"},
+    {"--background", "Background"},
+    {"--bounces", "Bounces"},
+    {"--camera-type", "Projection"},
+    {"--camera-view-angle", "View angle"},
+    {"--clamp-indirect", "Clamp indirect"},
+    {"--debug-view", "Show"},
+    {"--denoise", "Denoise"},
+    {"--exposure", "Exposure"},
+    {"--f-stop", "Depth of field"},
+    {"--fog-anisotropy", "Fog forward"},
+    {"--fog-density", "Fog"},
+    {"--fog-height", "Fog height"},
+    {"--hdri-file", "Environment"},
+    {"--hdri-intensity", "Intensity"},
+    {"--hdri-rotation", "Rotation"},
+    {"--noise", "Noise to reach"},
+    {"--pixel-filter", "Pixel filter"},
+    {"--shadow-catcher", "Shadow catcher"},
+    {"--sky", "Sky"},
+    {"--sky-turbidity", "Haze"},
+    {"--studio", "Studio"},
+    {"--sun-azimuth", "Sun from"},
+    {"--sun-elevation", "Sun height"},
+    {"--traversal", "Traversal"},
+}};
 
 }  // namespace
 
@@ -42,9 +75,22 @@ std::string shownText(std::string_view text, size_t most) {
   return shown;
 }
 
-std::string withoutOptions(const std::string& text) {
-  static const std::regex option(R"( \(--[a-z-]+\))");
-  return std::regex_replace(text, option, "");
+std::string withControls(const std::string& text) {
+  static const std::regex option(R"((^|[ (])(--[a-z-]+))");
+  static const std::regex alone(R"( \(--[a-z-]+\))");
+  std::string shown;
+  auto rest = text.begin();
+  for (std::sregex_iterator found(text.begin(), text.end(), option); found != std::sregex_iterator();
+       ++found) {
+    const auto& name = (*found)[2];
+    const auto* control = std::ranges::find(kControls, std::string_view(name.first, name.second),
+                                            &std::pair<std::string_view, std::string_view>::first);
+    shown.append(rest, name.first);
+    shown += control == kControls.end() ? name.str() : std::string(control->second);
+    rest = name.second;
+  }
+  shown.append(rest, text.end());
+  return std::regex_replace(shown, alone, "");
 }
 
 std::string distanceText(const glm::dvec3& from, const glm::dvec3& to) {

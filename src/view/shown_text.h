@@ -19,8 +19,9 @@ inline constexpr size_t kMostPageCharacters = 4000;
 /// left out counted between them. Other control characters than line feeds become spaces.
 std::string shownText(std::string_view text, size_t most);
 
-/// Text for the command line, as a window says it: without options in brackets, " (--option)".
-std::string withoutOptions(const std::string& text);
+/// Text for the command line, as a window says it: with the names of controls instead of those of options. An
+/// option alone in brackets, " (--option)", is left out if there is no control for it.
+std::string withControls(const std::string& text);
 
 /// "distance 5 m: x 3, y 0, z -4", of places in metres.
 std::string distanceText(const glm::dvec3& from, const glm::dvec3& to);

@@ -33,8 +33,17 @@ TEST(ShownText, CharactersStayWhole) {
 }
 
 TEST(ShownText, AWindowNamesNoOptions) {
-  EXPECT_EQ(withoutOptions("no light: the studio lights it (--default-light); more (--a b) (c)"),
+  EXPECT_EQ(withControls("no light: the studio lights it (--default-light); more (--a b) (c)"),
             "no light: the studio lights it; more (--a b) (c)");
+}
+
+TEST(ShownText, AWindowNamesItsControlsForOptions) {
+  EXPECT_EQ(withControls("--shadow-catcher: only stage gi has it"), "Shadow catcher: only stage gi has it");
+  EXPECT_EQ(withControls("no light paths (--clamp-indirect): fewer; --fog-density"),
+            "no light paths (Clamp indirect): fewer; Fog");
+  EXPECT_EQ(withControls("only its light (--studio adds one)"), "only its light (Studio adds one)");
+  EXPECT_EQ(withControls("wrote /a--sky/b--noise, --instancing share"),
+            "wrote /a--sky/b--noise, --instancing share");
 }
 
 TEST(ShownText, ADistanceHasItsComponents) {

@@ -10,7 +10,6 @@
 #include "session/outputs.h"
 #include "session/phase_timer.h"
 #include "view/set_by_eye.h"
-#include "view/shown_text.h"
 
 namespace fragtrace {
 
@@ -47,7 +46,7 @@ ViewTracer::ViewTracer(const ViewOptions& start, std::optional<OidnLibrary> oidn
       thumbnails_(exchange),
       oidn_(std::move(oidn)),
       clock_(start.waitsForPasses) {
-  passOnWhatIsSaid([&exchange](const std::string& text) { exchange.tell(withoutOptions(text)); });
+  passOnWhatIsSaid([&exchange](const std::string& text) { exchange.tell(text); });
 }
 
 void ViewTracer::run(const SharedContexts& shared) {
@@ -303,7 +302,7 @@ bool ViewTracer::relight(const TraceRequest& request) {
   SkyOptions& shown = loadedOptions_.light.sky;
   const SkyOptions& wanted = request.sides[0].light.sky;
   if (!shown.on || !wanted.on || airOf(shown) == airOf(wanted)) return false;
-  if (whyDark(shown).empty() && !whyDark(wanted).empty()) exchange_.tell(withoutOptions(whyDark(wanted)));
+  if (whyDark(shown).empty() && !whyDark(wanted).empty()) exchange_.tell(whyDark(wanted));
   shown = wanted;
   const auto shines = [&] {
     const std::optional<SunDisc>& sun = loaded_->environment.sun;

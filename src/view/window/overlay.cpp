@@ -221,7 +221,7 @@ void drawError(ViewFacts& facts, const WindowLayout& layout) {
   if (ImGui::Begin("error", nullptr, kPageFlags)) {
     if (closeButton(facts.places, "error")) facts.errorClosed = true;
     ImGui::PushTextWrapPos(0.7f * display.x);
-    drawText(facts.error, kMostPageCharacters);
+    drawText(withControls(facts.error), kMostPageCharacters);
     ImGui::PopTextWrapPos();
     addWindowPlace(facts.places, "error");
   }

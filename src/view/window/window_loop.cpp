@@ -14,6 +14,7 @@
 #include "gltf/edit/factors.h"
 #include "view/set_by_eye.h"
 #include "view/shown_names.h"
+#include "view/shown_text.h"
 #include "view/window/overlay.h"
 #include "view/window/panel_parts.h"
 
@@ -191,7 +192,7 @@ void Window::take() {
   }
   for (const EnvironmentThumbnail& thumbnail : news.thumbnails) takeThumbnail(thumbnail);
   if (news.pick) takePick(std::move(*news.pick));
-  for (const std::string& message : news.messages) say(message);
+  for (const std::string& message : news.messages) say(withControls(message));
   if (const std::string errors = takeGlfwErrors(); !errors.empty()) say("window: " + errors);
   takeState(news);
   takeFile();
