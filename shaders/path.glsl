@@ -310,7 +310,8 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
     bool caster = isCaster(materialFlags(s.material), pdf == 0.0);
     bool first = p.bounce == 1;
     bool narrow = pdf == 0.0 || (first && pdf > kNarrow);
-    p.prefix = cameraPrefix(p.prefix, first, narrow, straight, caster);
+    // Without light paths, camera paths leave out nothing.
+    p.prefix = casterCount < 0 ? kPrefixSmooth : cameraPrefix(p.prefix, first, narrow, straight, caster);
   }
   // Straight through a thin wall the path keeps its ray, and the pdf that light sampling shares with it.
   p.straightBounces += straight ? 1 : 0;

@@ -74,6 +74,9 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "lights.glsl"
 #include "film_pixel.glsl"
 #include "film.glsl"
+// On camera paths 0 without guiding, and -1 without light paths.
+layout(location = kMostCasters) uniform int casterCount;
+
 #include "caustics/flux.glsl"
 #include "caustics/form.glsl"
 #include "path_state.glsl"

@@ -3,7 +3,6 @@
 // caustics. Balls enclose all casters, so that no path that meets one first is left out.
 
 layout(location = 0) uniform vec4 casters[kMostCasters];  // local space: middle, radius
-layout(location = kMostCasters) uniform int casterCount;
 // Probability that a light path begins at the sun; 1: no lamps.
 layout(location = kMostCasters + 1) uniform float sunChance;
 layout(location = kMostCasters + 2) uniform bool storesPhotons;  // light paths end where they land, and are stored

@@ -82,6 +82,7 @@ struct GpuScene {
   uint32_t emitterCount = 0;
   uint32_t punctualLights = 0;
   std::vector<glm::vec4> casters{};  ///< balls that cast caustics: middle and radius in local space
+  bool wideLamps = false;            ///< areLampsWide(), and light paths begin at no sun
   PackedGrid densities{};
   uint32_t energyTableRow = 0;  ///< first row of the energy table among the material rows
   uint32_t objectRow = 0;       ///< row of the numbers of objects

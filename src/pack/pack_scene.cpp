@@ -376,6 +376,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   if (has(traits, Trait::Caustics)) {
     for (const Ball& ball : casterBalls(scene, casters, kMostCasters))
       packed.casters.emplace_back(ball.middle, ball.radius);
+    packed.wideLamps = !samplesSun(traits) && areLampsWide(scene, casters);
   }
   packed.buffers[kEmittersBinding] = std::move(emitters.entries);
   if (has(traits, Trait::PunctualLights)) {

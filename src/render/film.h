@@ -47,7 +47,8 @@ class Film {
   /// The light paths that have been added.
   const LightPaths& lightPaths() const { return lightPaths_; }
   void countLightPaths(uint64_t paths, double weight);
-  /// Pixels of the picture for one light path of a sample, after the first samples; 0: not yet chosen.
+  /// Pixels of the picture for one light path of a sample, after the first samples, or kNoLightPaths for all
+  /// of them; 0: not yet chosen.
   int pixelsPerPath() const { return pixelsPerPath_; }
   void setPixelsPerPath(int pixels) { pixelsPerPath_ = pixels; }
   /// Binds sum and compensation as two textures, the first on this unit.

@@ -25,7 +25,8 @@ constexpr size_t kMostPathsPerPhoton = 8;
 bool Renderer::trainGuiding(const Film& film, const View& view, int sample, RenderTimes& times,
                             const GoOn& goOn) {
   const auto start = std::chrono::steady_clock::now();
-  guides_ = usesGuiding(pace_->drawn) && view.bounces > 0 && view.sampleOffset + sample > 0;
+  guides_ = usesGuiding(pace_->drawn) && film.pixelsPerPath() != kNoLightPaths && view.bounces > 0 &&
+            view.sampleOffset + sample > 0;
   const size_t wanted = photonsFor(view.placement ? view.placement->whole : film.size());
   if (!guides_ || guidingPhotons_ == wanted) return true;
   std::vector<Photon> photons;

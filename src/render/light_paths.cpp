@@ -52,14 +52,15 @@ void Renderer::compileLightPaths(Film& film, const View& view) {
 
 bool Renderer::addLightPaths(Film& film, const View& view, int passes, const GoOn& goOn) {
   const std::optional<ShaderVariant> light = lightPathVariant(pace_->drawn);
-  if (!light || view.bounces == 0) return true;  // what they bring takes a bounce
+  // What they bring takes a bounce.
+  if (!light || view.bounces == 0 || film.pixelsPerPath() == kNoLightPaths) return true;
   const glm::ivec2 whole = view.placement ? view.placement->whole : film.size();
   uint64_t before = 0;  // paths of the tiles before this one
   for (int pass = 0; pass < passes; ++pass) {
     const bool first = view.sampleOffset + pass < kFirstSamples;
     if (!first && film.pixelsPerPath() == 0) {
       film.setPixelsPerPath(view.pixelsPerPath > 0 ? view.pixelsPerPath
-                                                   : measurePixelsPerPath(view, whole, goOn));
+                                                   : measurePixelsPerPath(view, whole, goOn, false));
       if (film.pixelsPerPath() == 0) return false;
     }
     const glm::ivec2 paths(whole.x, partsOf(whole.y, first ? kPixelsPerPath : film.pixelsPerPath()));
@@ -80,7 +81,18 @@ bool Renderer::addLightPaths(Film& film, const View& view, int passes, const GoO
   return true;
 }
 
-int Renderer::measurePixelsPerPath(const View& view, glm::ivec2 picture, const GoOn& goOn) {
+bool Renderer::chooseLightPaths(Film& film, const View& view, const GoOn& goOn) {
+  const bool chosen = film.pixelsPerPath() > 0 || film.lightPaths().count > 0;
+  if (chosen || !weighsLightPaths(view)) return true;
+  int pixels = view.pixelsPerPath;
+  guides_ = false;
+  if (pixels == 0)
+    pixels = measurePixelsPerPath(view, view.placement ? view.placement->whole : film.size(), goOn, true);
+  if (pixels == kNoLightPaths) film.setPixelsPerPath(pixels);
+  return pixels > 0;
+}
+
+int Renderer::measurePixelsPerPath(const View& view, glm::ivec2 picture, const GoOn& goOn, bool weighs) {
   Film film(pilotSize(picture));
   film.setPixelsPerPath(1);
   View pilot = view;
@@ -88,15 +100,28 @@ int Renderer::measurePixelsPerPath(const View& view, glm::ivec2 picture, const G
   pilot.seed = kPilotSeed;
   pilot.sampleOffset = kFirstSamples;
   const GoOn stays = [&](double) { return goOn(0.0); };
-  for (int i = 0; i < kPilotSamples; ++i) {
-    const std::vector<Work> tiles = tilesOf({{0, 0}, film.size(), i, i + 1}, kWaveTile);
-    if (!storeReservoirs(film, pilot, i, stays)) return 0;
-    if (!drawPass({pace_->drawn, film, pilot, tiles}, stays)) return 0;
-  }
+  const auto drawCameraPaths = [&] {
+    for (int i = 0; i < kPilotSamples; ++i) {
+      const std::vector<Work> tiles = tilesOf({{0, 0}, film.size(), i, i + 1}, kWaveTile);
+      if (!storeReservoirs(film, pilot, i, stays)) return false;
+      if (!drawPass({pace_->drawn, film, pilot, tiles}, stays)) return false;
+    }
+    return true;
+  };
+  if (!drawCameraPaths()) return 0;
   const FilmPixels camera = film.read();
   if (!addLightPaths(film, pilot, kPilotSamples / 4, stays)) return 0;
   const FilmTotals paths = totalsOf(lightPathFilm_->read());  // those of the last tile
-  return pixelsPerPath(camera, film.read(), double(paths.rays) / double(paths.samples));
+  const double raysOfPath = double(paths.rays) / double(paths.samples);
+  const int pixels = pixelsPerPath(camera, film.read(), raysOfPath);
+  if (!weighs) return pixels;
+  // Few light paths may land in the picture, so there are more of them.
+  if (!addLightPaths(film, pilot, kPilotSamples, stays)) return 0;
+  const FilmPixels both = film.read();
+  film.clear();
+  film.setPixelsPerPath(kNoLightPaths);
+  if (!drawCameraPaths()) return 0;
+  return cameraPathsSuffice(camera, both, raysOfPath, pixels, film.read()) ? kNoLightPaths : pixels;
 }
 
 bool Renderer::addLightTile(const RenderPass& pass, const LightPass& of, const GoOn& goOn) {

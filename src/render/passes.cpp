@@ -32,6 +32,7 @@ bool Renderer::addParts(Film& film, const View& view, std::span<const Work> part
   double doneMs = 0.0;
   const GoOn goOn = [&](double more) { return progress((done + more) / total); };
   const GoOn stays = [&](double) { return goOn(0.0); };
+  if (!chooseLightPaths(film, view, stays)) return false;
   ShaderVariant& variant = pace_->drawn;
   for (const Work& part : parts) {
     for (Work pass = part; pass.from < part.to; pass.from = pass.to) {
@@ -39,7 +40,7 @@ bool Renderer::addParts(Film& film, const View& view, std::span<const Work> part
       // for one sample at a time.
       int left = variant.neighbours ? 1 : part.to - pass.from;
       if (!trainGuiding(film, view, pass.from, times, stays)) return false;
-      if (usesGuiding(variant) && !guides_) left = 1;
+      if (usesGuiding(variant) && !guides_ && film.pixelsPerPath() != kNoLightPaths) left = 1;
       const int mostPixels = software_ || variant.resumable ? kMaxTilePixels : kMaxGpuTilePixels;
       const DrawPlan plan = variant.wavefront
                                 ? planWaves(part.size, software_ ? kWaveTile : kGpuWaveTile, pass.from, left)

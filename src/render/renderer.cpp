@@ -126,6 +126,7 @@ void Renderer::describeScene(const GpuScene& scene) {
   frame_.gridOrigin = glm::vec4(scene.grid.origin, 0.0f);
   frame_.gridCell = glm::vec4(scene.grid.cell, 0.0f);
   casters_ = scene.casters;
+  wideLamps_ = scene.wideLamps;
   grid_ = scene.densities;
   frame_.emitterCount = float(scene.emitterCount);
   frame_.energyRow = float(scene.energyTableRow);
@@ -221,8 +222,11 @@ void Renderer::useProgram(const RenderPass& pass) {
   const GLuint program = programs_.tracerProgram(variant).name();
   if (variant.lightPaths || usesGuiding(variant)) {
     glProgramUniform4fv(program, 0, GLsizei(casters_.size()), casters_.empty() ? nullptr : &casters_[0].x);
+    const bool alone = pass.film.pixelsPerPath() == kNoLightPaths;
     glProgramUniform1i(program, GLint(layout::kMostCasters),
-                       variant.lightPaths || guides_ ? int(casters_.size()) : 0);
+                       alone                           ? -1
+                       : variant.lightPaths || guides_ ? int(casters_.size())
+                                                       : 0);
   }
   if (variant.lightPaths) {
     glProgramUniform1i(program, GLint(layout::kMostCasters) + 2, pass.photons ? 1 : 0);

@@ -68,9 +68,10 @@ struct View {
   int bounces = 16;
   int rouletteDepth = 6;
   uint32_t seed = 0;
-  int sampleOffset = 0;                ///< index of sample 0 of the film in the seed's sequence
-  float clampIndirect = 0.0f;          ///< largest indirect radiance of a sample, when the variant clamps
-  int pixelsPerPath = 0;               ///< as in Film; 0: measured
+  int sampleOffset = 0;         ///< index of sample 0 of the film in the seed's sequence
+  float clampIndirect = 0.0f;   ///< largest indirect radiance of a sample, when the variant clamps
+  int pixelsPerPath = 0;        ///< as in Film; 0: measured
+  bool needsLightPaths = true;  ///< there are light paths, also where camera paths alone are less noisy
   std::optional<Placement> placement;  ///< place of the film in the picture; none: it is the whole
 };
 
@@ -148,6 +149,13 @@ class Renderer {
     return addSamples(film, view, {&whole, 1}, times, progress);
   }
 
+  /// Returns true if the first sample of such a film waits until a small picture has told if it needs light
+  /// paths.
+  bool weighsLightPaths(const View& view) const {
+    return wideLamps_ && pace_ != nullptr && !view.needsLightPaths && view.bounces > 0 &&
+           usesGuiding(pace_->drawn);
+  }
+
   /// The milliseconds that one sample of one pixel takes, as the latest work measured them; 0 if not yet
   /// known.
   double msPerSample() const { return pace_ ? pace_->msPerSample : 0.0; }
@@ -205,9 +213,13 @@ class Renderer {
   /// Traces light paths until the film has `passes` passes, if its picture has any. Returns false if it was
   /// stopped.
   bool addLightPaths(Film& film, const View& view, int passes, const GoOn& goOn);
+  /// Settles before the first sample if camera paths alone draw the film, where a small picture can tell.
+  /// Returns false if it was stopped.
+  bool chooseLightPaths(Film& film, const View& view, const GoOn& goOn);
   /// Film::pixelsPerPath for a picture of this size, from the variances in a small one (path_share.h) with
-  /// random numbers of its own: the same for all seeds and parts. 0 if it was stopped.
-  int measurePixelsPerPath(const View& view, glm::ivec2 picture, const GoOn& goOn);
+  /// random numbers of its own: the same for all seeds and parts. 0 if it was stopped; kNoLightPaths only if
+  /// it weighs them against camera paths alone.
+  int measurePixelsPerPath(const View& view, glm::ivec2 picture, const GoOn& goOn, bool weighs);
   void compileLightPaths(Film& film, const View& view);
   /// Fits the guiding lobes before the second sample; the first picture does not wait for it. Returns false
   /// if it was stopped.
@@ -253,6 +265,7 @@ class Renderer {
   LightShare lightShare_;
   PackedGrid grid_;
   std::vector<glm::vec4> casters_;  ///< the casters of GpuScene
+  bool wideLamps_ = false;          ///< as in GpuScene
   bool guides_ = false;             ///< the pass is guided
   size_t guidingPhotons_ = 0;       ///< photons that the lobes were to be fitted to; 0: there are none yet
   Words lobes_;                     ///< the lobes of guiding, as in the last rows of the lights

@@ -214,6 +214,14 @@ std::vector<Caster> castersOf(const Scene& scene) {
   return casters;
 }
 
+bool areLampsWide(const Scene& scene, const std::vector<Caster>& casters) {
+  if (!scene.lights.empty()) return false;
+  const std::vector<Triangle> lamps = emissiveTriangles(scene);
+  return std::ranges::all_of(fewBalls(allBalls(scene, casters), kBallsForWidth), [&](const Ball& ball) {
+    return widthOfLamps(scene, lamps, ball) > kWidestLamps;
+  });
+}
+
 std::vector<Ball> casterBalls(const Scene& scene, const std::vector<Caster>& casters, size_t most) {
   return fewBalls(allBalls(scene, casters), most);
 }

@@ -25,6 +25,11 @@ Caster casterOf(const Material& material);
 /// light as well: 0.03 sr, as seen from the casters.
 std::vector<Caster> castersOf(const Scene& scene);
 
+/// Returns true if camera paths meet the light of all casters so often that a small picture can tell their
+/// noise: there are no punctual lights, and emissive triangles fill more than 0.03 sr as seen from every
+/// caster.
+bool areLampsWide(const Scene& scene, const std::vector<Caster>& casters);
+
 /// A ball in local space.
 struct Ball {
   glm::vec3 middle{0.0f};

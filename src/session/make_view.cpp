@@ -69,6 +69,7 @@ View makeView(const RenderOptions& options, const LoadedScene& loaded, const Cam
   view.rouletteDepth = options.sampling.rouletteDepth;
   view.seed = options.sampling.seed;
   view.sampleOffset = options.sampling.sampleOffset;
+  view.needsLightPaths = options.light.caustics == Caustics::On;
   view.clampIndirect = float(options.sampling.clampIndirect);
   return view;
 }

@@ -342,6 +342,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   const Scene& scene = loaded.scene;
   checkOutputs(outputsOf(options), inputsOf(scene));
   const OwnLight light = lightOf(options, scene);
+  loaded.dimLamps = light == OwnLight::Dim;
   std::vector<std::string> ofEnvironment;  // warnings, which are printed at once
   const auto settleEnvironment = [&] {
     PhaseTimer timer("sky");

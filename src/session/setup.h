@@ -25,8 +25,9 @@ struct LoadedScene {
   std::optional<int> cameraIndex;  ///< index of that camera in the scene, if one was asked for
   /// The camera's motion while the shutter is open; empty: it stands still.
   std::vector<CameraSegment> motion{};
-  glm::ivec2 size{0};  ///< size of the picture
-  Region region;       ///< part of the picture that is drawn
+  glm::ivec2 size{0};     ///< size of the picture
+  Region region;          ///< part of the picture that is drawn
+  bool dimLamps = false;  ///< the scene has lamps, but they are too dim to light it
   Bvh bvh;
   View view;
   DecodeProgress decoding{};  ///< told when the textures are, which is later

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/summary.h"
+#include "render/film/path_share.h"
 #include "session/scene_json.h"
 
 namespace fragtrace {
@@ -69,12 +70,13 @@ void addLighting(nlohmann::ordered_json& json, const Statistics& s) {
   json["camera_rays"] = s.cameraRays;
   if (!s.lightReuse.empty()) json["light_reuse"] = s.lightReuse;
   if (!s.lightPathReason.empty()) {
+    const bool alone = s.film.pixelsPerPath == kNoLightPaths;
     json["caustics"] = {{"light_paths", s.film.lightPaths},
-                        {"pixels_per_path", s.film.pixelsPerPath},
+                        {"pixels_per_path", alone ? 0 : s.film.pixelsPerPath},
                         {"casters", s.casters},
                         {"variance_share", s.film.m2 > 0.0 ? s.film.lightPathM2 / s.film.m2 : 0.0},
                         {"guiding_ms", s.times.guidingMs},
-                        {"reason", s.lightPathReason}};
+                        {"reason", alone ? "camera paths alone are less noisy" : s.lightPathReason}};
   }
 }
 

@@ -97,6 +97,12 @@ void describeLightSelection(const ShaderVariant& variant, const LoadedScene& loa
                                    : "chosen by place, light samples would vary only " + times;
 }
 
+/// Returns true if light paths, which could begin at dim lamps alone, would bring nothing that is seen.
+bool haveNothingToBring(const RenderOptions& options, const TraitSet& present, const LoadedScene& loaded) {
+  return options.light.caustics == Caustics::Auto && has(present, Trait::Caustics) && loaded.dimLamps &&
+         !samplesSun(present);
+}
+
 /// Why light paths are traced for the picture, or are not.
 std::string whyCaustics(const ShaderVariant& variant, const TraitSet& present, const RenderOptions& options) {
   if (has(variant.traits, Trait::Caustics)) {
@@ -176,7 +182,9 @@ void warnOfNoEffect(const ShaderVariant& variant, const TraitSet& present, const
 ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const RenderOptions& asked,
                              Statistics& stats) {
   const TraitSet present = traitsOf(loaded.scene, loaded.environment);
-  const RenderOptions options = asDrawn(asked, present);
+  RenderOptions options = asDrawn(asked, present);
+  const bool dim = haveNothingToBring(options, present, loaded);
+  if (dim) options.light.caustics = Caustics::Off;
   const RenderOptions drawn = withCameraRays(options, present, loaded.scene);
   const uint32_t depth = loaded.bvh.depth;
   const BufferReads undecided = options.device.bufferReads;  // packed data do not depend on it
@@ -194,7 +202,7 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
                        : tracer.variant.lightCandidates ? "candidates"
                                                         : "none";
   stats.cameraRays = tracer.variant.cameraRays;
-  if (gi) stats.lightPathReason = whyCaustics(tracer.variant, present, options);
+  if (gi) stats.lightPathReason = dim ? "lamps are too dim" : whyCaustics(tracer.variant, present, options);
   warnOfNoEffect(tracer.variant, present, options, stats);
   if (tracer.variant.clampIndirect) stats.clampIndirect = options.sampling.clampIndirect;
   for (const StageRow& row : stageRows()) {

@@ -21,20 +21,27 @@ struct Pilot {
 constexpr uint32_t kSamples = 16;
 constexpr size_t kPixels = 64;
 
-int chosenFor(const Pilot& pilot, double light = 1.0) {
-  FilmPixels camera = emptyFilm({8, 8});
-  for (FilmPixel& p : camera.pixels) {
+FilmPixels pilotFilm(double light, double variance, double raysPerSample) {
+  FilmPixels film = emptyFilm({8, 8});
+  for (FilmPixel& p : film.pixels) {
     p.samples = kSamples;
-    p.rays = uint32_t(pilot.raysPerSample * kSamples);
+    p.rays = uint32_t(raysPerSample * kSamples);
     p.sum = glm::dvec3(light * kSamples);
-    p.m2 = light * light * pilot.cameraVariance * (kSamples - 1.0);
+    p.m2 = light * light * variance * (kSamples - 1.0);
   }
-  FilmPixels both = camera;
-  both.lightPaths = 4 * kPixels;
-  // The mean of 4 paths a pixel, as if each sample had brought a part of it.
-  for (FilmPixel& p : both.pixels)
-    p.m2 += light * light * pilot.pathVariance / 4.0 * kSamples * (kSamples - 1.0);
-  return pixelsPerPath(camera, both, pilot.raysPerPath);
+  return film;
+}
+
+/// The same with 4 light paths a pixel, as if each sample had brought a part of them.
+FilmPixels withLightPaths(FilmPixels film, double variance) {
+  film.lightPaths = 4 * kPixels;
+  for (FilmPixel& p : film.pixels) p.m2 += variance / 4.0 * kSamples * (kSamples - 1.0);
+  return film;
+}
+
+int chosenFor(const Pilot& pilot, double light = 1.0) {
+  const FilmPixels camera = pilotFilm(light, pilot.cameraVariance, pilot.raysPerSample);
+  return pixelsPerPath(camera, withLightPaths(camera, light * light * pilot.pathVariance), pilot.raysPerPath);
 }
 
 /// Variance times cost of a picture with one path for n pixels, where a path also draws points.
@@ -55,6 +62,28 @@ TEST(PathShare, NoOtherPowerOfTwoHasLessVarianceTimesCost) {
       }
     }
   }
+}
+
+TEST(PathShare, CameraPathsSufficeWithHalfOfTheVarianceTimesCostAndMostOfTheLight) {
+  // All light comes through glass, so camera paths that leave it out bring none.
+  const FilmPixels camera = pilotFilm(0.0, 0.0, 4.0);
+  FilmPixels both = withLightPaths(pilotFilm(1.0, 0.0, 4.0), 2.0);
+  const double product = productOf({0.0, 2.0, 4.0, 4.0}, 4);
+  const auto suffice = [&](double share, double light) {
+    return cameraPathsSuffice(camera, both, 4.0, 4,
+                              pilotFilm(light, share * product / 4.0 / (light * light), 4.0));
+  };
+  EXPECT_TRUE(suffice(0.45, 1.0));
+  EXPECT_FALSE(suffice(0.55, 1.0));
+  EXPECT_FALSE(suffice(0.01, 0.4));
+  // Light paths that have met few pixels leave the others dark, whose noise counts all the same.
+  for (size_t p = 0; p < kPixels; ++p) {
+    if (p % 4 != 0)
+      both.pixels[p].sum = glm::dvec3(0.0);
+    else
+      both.pixels[p].sum *= 4.0;
+  }
+  EXPECT_TRUE(suffice(0.45, 1.0));
 }
 
 TEST(PathShare, TheUnitOfLightDoesNotMatter) {

@@ -121,7 +121,8 @@ Checkpoint decode(Reader reader) {
     if (film.at("splats")) state.splats = reader.takeValues<float>(count);
     const nlohmann::json& paths = film.at("light_paths");
     state.lightPaths = {paths.at(0), paths.at(1), paths.at(2)};
-    state.pixelsPerPath = std::clamp(film.at("pixels_per_path").get<int>(), 0, kMostPixelsPerPath);
+    state.pixelsPerPath = std::max(film.at("pixels_per_path").get<int>(), 0);
+    if (state.pixelsPerPath > kMostPixelsPerPath) state.pixelsPerPath = kNoLightPaths;
     c.films.push_back(std::move(state));
   }
   for (const nlohmann::json& look : json.at("looks")) {

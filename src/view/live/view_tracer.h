@@ -53,6 +53,7 @@ class ViewTracer {
     std::shared_ptr<ViewProgram> program;
     std::optional<RenderOptions> awaited;  ///< options to draw once their program is compiled
     bool previews = false;                 ///< draws in Blinn-Phong until then
+    bool guessesLightPaths = false;        ///< the film's View::pixelsPerPath was not measured
     std::unique_ptr<Film> film;
     View view;
     int samples = 0;

@@ -30,7 +30,11 @@ void ViewTracer::fitFilm(Side& side) {
   const glm::ivec2 size = sizeAtStep(request_.size, resolution_.step);
   side.view.firstInMiddle = resolution_.step > 0;
   const bool fits = side.film && side.film->size() == size;
-  if (fits && !side.stale) return;
+  if (fits && !side.stale && !(side.guessesLightPaths && settled())) return;
+  // A moving picture does not wait to see if it needs light paths: it does as the one before.
+  side.guessesLightPaths = !settled() && side.program->tracer.renderer->weighsLightPaths(side.view);
+  const int before = side.film ? side.film->pixelsPerPath() : 0;
+  side.view.pixelsPerPath = !side.guessesLightPaths ? 0 : before > 0 ? before : kPixelsPerPath;
   if (!fits) side.memory.turn();
   side.shownAt = 0;
   if (side.film)
