@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Programs are compiled while others draw: the window answers meanwhile, and nothing that is written is of another program."""
+import time
+
 from support import Case, main, pixels_of
 
 SIZE = ["--resolution", "320,240", "--spp", "1"]
@@ -42,6 +44,16 @@ class Compiles(Case):
         self.assertEqual(status["camera"], first["camera"])
         self.same(pixels_of(written), pixels_of(self.render("vitrine", *SIZE)))
         self.ends_well(viewer, viewer.close())
+
+    def test_the_box_of_a_message_that_grew_fits_it(self):
+        viewer = self.start()
+        says = "(this is a preview in Blinn-Phong)"
+        viewer.until(lambda s: s["state"] == "compiling" and s["pictures"] > 0 and "news" in s["places"], "a preview")
+        time.sleep(0.5)
+        status = viewer.status()
+        if status["state"] == "compiling":
+            self.assertGreater(status["places"]["news"][2], 6 * len(says), "pixels")
+        viewer.close()
 
     def test_the_old_picture_moves_until_another_stage_is_compiled(self):
         viewer = self.start("--stage", "phong")

@@ -20,7 +20,6 @@ SIZE = ["--resolution", "320,240"]
 FEW = [*SIZE, "--spp", "2"]
 
 
-
 def listener_at(listener, number):
     """Listens as the X server of that number; false where there is one."""
     try:

@@ -171,36 +171,62 @@ bool closeButton(Places& places, const std::string& name) {
   return pressed;
 }
 
-void drawNewsLines(const ViewState& state, const ViewFacts& facts, double now) {
-  if (!facts.note.empty()) drawText(facts.note, kMostLineCharacters);
+struct NewsLine {
+  std::string text;
+  float opacity = 1.0f;
+};
+
+/// The latest news, the newest above.
+std::vector<NewsLine> newsLines(const ViewState& state, const ViewFacts& facts, double now) {
+  std::vector<NewsLine> lines;
+  if (!facts.note.empty()) lines.push_back({facts.note});
   for (size_t i = facts.messages.size(); i-- > 0;) {
-    const Message& message = facts.messages[i];
-    const float opacity = float(opacityOf(message, now));
-    if (opacity <= 0.0f) continue;
-    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, opacity);
-    drawText(message.text, kMostLineCharacters);
-    ImGui::PopStyleVar();
+    const float opacity = float(opacityOf(facts.messages[i], now));
+    if (opacity > 0.0f) lines.push_back({facts.messages[i].text, opacity});
   }
-  if (!facts.pick) return;
-  if (facts.pick->end) drawText(distanceText(facts.pick->point, *facts.pick->end), kMostLineCharacters);
-  for (const std::string& line : pickLines(state, *facts.pick)) drawText(line, kMostLineCharacters);
+  if (facts.pick && facts.pick->end) lines.push_back({distanceText(facts.pick->point, *facts.pick->end)});
+  if (facts.pick) {
+    for (const std::string& line : pickLines(state, *facts.pick)) lines.push_back({line});
+  }
+  for (NewsLine& line : lines) line.text = shownText(line.text, kMostLineCharacters);
+  return lines;
 }
 
-/// The latest news at the bottom left, the newest above.
+/// The box of these lines, which begin at `left` and are wrapped at `right`. Dear ImGui would fit a box only
+/// in the next frame, for which a driver that compiles may let us wait.
+ImVec2 newsSize(const std::vector<NewsLine>& lines, float left, float right) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  ImVec2 size(0.0f, -style.ItemSpacing.y);
+  for (const NewsLine& line : lines) {
+    const ImVec2 text = ImGui::CalcTextSize(line.text.c_str(), nullptr, false, std::max(right - left, 1.0f));
+    size = {std::max(size.x, text.x), size.y + text.y + style.ItemSpacing.y};
+  }
+  return {left + size.x + style.WindowPadding.x, size.y + 2 * style.WindowPadding.y};
+}
+
+/// The latest news at the bottom left.
 Errand drawNews(const ViewState& state, ViewFacts& facts, const WindowLayout& layout, double now) {
-  const bool seen = !std::isinf(secondsToFade(facts.messages, now));
-  if (facts.note.empty() && !seen && !facts.pick) return Errand::None;
-  Errand errand = Errand::None;
-  const ImVec2 display = sizeOf(layout);
-  ImGui::SetNextWindowPos({layout.margin, display.y - layout.margin}, ImGuiCond_Always, {0.0f, 1.0f});
-  ImGui::SetNextWindowSizeConstraints({0, 0}, {layout.newsMost.x, layout.newsMost.y});
+  const std::vector<NewsLine> lines = newsLines(state, facts, now);
+  if (lines.empty()) return Errand::None;
+  const bool closes = facts.pick || !std::isinf(secondsToFade(facts.messages, now));
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float button = ImGui::CalcTextSize("x").x + 2 * style.FramePadding.x + style.ItemSpacing.x;
+  const float right = layout.newsMost.x - style.WindowPadding.x - style.ScrollbarSize;
+  const ImVec2 size = newsSize(lines, style.WindowPadding.x + (closes ? button : 0.0f), right);
+  ImGui::SetNextWindowPos({layout.margin, float(layout.picture.y) - layout.margin}, ImGuiCond_Always,
+                          {0.0f, 1.0f});
+  ImGui::SetNextWindowSize({std::min(size.x, layout.newsMost.x), std::min(size.y, layout.newsMost.y)});
   ImGui::SetNextWindowBgAlpha(0.78f);
+  Errand errand = Errand::None;
   if (ImGui::Begin("news", nullptr, kPageFlags)) {
-    const ImGuiStyle& style = ImGui::GetStyle();
-    const bool close = (seen || facts.pick) && closeButton(facts.places, "news");
+    const bool close = closes && closeButton(facts.places, "news");
     ImGui::BeginGroup();
-    ImGui::PushTextWrapPos(layout.newsMost.x - style.WindowPadding.x - style.ScrollbarSize);
-    drawNewsLines(state, facts, now);
+    ImGui::PushTextWrapPos(right);
+    for (const NewsLine& line : lines) {
+      ImGui::PushStyleVar(ImGuiStyleVar_Alpha, line.opacity);
+      ImGui::TextUnformatted(line.text.c_str());
+      ImGui::PopStyleVar();
+    }
     ImGui::PopTextWrapPos();
     ImGui::EndGroup();
     addWindowPlace(facts.places, "news");
