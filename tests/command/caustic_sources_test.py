@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""--caustics: lamps with alpha, and surfaces between a lamp and what makes its caustic. Light paths bring what camera paths do, as caustics_test.py says."""
+"""--caustics: lamps with alpha, and surfaces between a lamp and what makes its caustic; scenes without light paths. Light paths
+bring what camera paths do, as caustics_test.py says."""
+import json
 import math
 import statistics
 
@@ -55,6 +57,28 @@ class CausticSources(caustics_test.Case):
         wall = glossy_caustics_test.GlossyCaustics.metal(0.3), {"translation": [-MIRROR, 0, 0.9], "rotation": TURN, "scale": [0.9, 0.9, 1]}
         scene = self.scene("range", wall, pane, lights=[(light, {"translation": [-0.7, 0.1, 0.9]})])
         self.assert_alike(scene, "range", 768, 256, bounces=4, known=0.02)
+
+    def test_where_they_hardly_land_camera_paths_alone_draw_all_parts(self):
+        """A wide mirror throws the light of a wide lamp over a ground of which the camera sees a hundredth."""
+        mirror = ({"pbrMetallicRoughness": {"metallicFactor": 1, "roughnessFactor": 0}}, {"translation": [-3, 0, 0], "rotation": TURN, "scale": [9, 9, 1]})
+        lamp = caustics_test.Caustics.lamp(((4, 0, 5), 2.5, 20.0))
+        scene = self.scene("wide", mirror, lamp, ground=30)
+
+        def drawn(*options, spp=6):
+            stats = self.folder / "stats.json"
+            return self.picture(scene, "x.pfm", *caustics_test.SMALL, "--spp", spp, "--stats", stats, *options), json.loads(stats.read_text())["caustics"]
+        whole, told = drawn()
+        self.assertEqual((told["light_paths"], told["pixels_per_path"], told["reason"]), (0, 0, "camera paths alone are less noisy"))
+        self.assertEqual(drawn("--caustics", "off")[0], whole)
+        self.assertEqual([row[4:20] for row in whole[3:20]], drawn("--region", "4,3,16,17")[0])
+        for options in (("--seed", 9), ("--sample-offset", 5)):
+            self.assertEqual(drawn(*options, spp=1)[1]["light_paths"], 0, options)
+        self.assertGreater(drawn("--caustics", "on")[1]["light_paths"], 0)
+        # A small lamp, and a punctual light, are not left to chance.
+        for name, things, lights in (("small", (caustics_test.Caustics.lamp(((4, 0, 5), 0.1, 2000.0)),), ()),
+                                     ("point", (lamp,), (({"type": "point", "intensity": 5}, {"translation": [2, 0, 4]}),))):
+            scene = self.scene(name, mirror, *things, lights=lights, ground=30)
+            self.assertGreater(drawn()[1]["light_paths"], 0, name)
 
 
 if __name__ == "__main__":

@@ -368,28 +368,6 @@ class Caustics(Case):
         part = self.picture(scene, "b.pfm", *size, "--region", "10,20,30,17")
         self.assertEqual([row[10:40] for row in whole[20:37]], part)
 
-    def test_where_they_hardly_land_camera_paths_alone_draw_all_parts(self):
-        """A wide mirror throws the light of a wide lamp over a ground of which the camera sees a hundredth."""
-        mirror = ({"pbrMetallicRoughness": {"metallicFactor": 1, "roughnessFactor": 0}}, {"translation": [-3, 0, 0], "rotation": TURN, "scale": [9, 9, 1]})
-        lamp = self.lamp(((4, 0, 5), 2.5, 20.0))
-        scene = self.scene("wide", mirror, lamp, ground=30)
-
-        def drawn(*options, spp=6):
-            stats = self.folder / "stats.json"
-            return self.picture(scene, "x.pfm", *SMALL, "--spp", spp, "--stats", stats, *options), json.loads(stats.read_text())["caustics"]
-        whole, told = drawn()
-        self.assertEqual((told["light_paths"], told["pixels_per_path"], told["reason"]), (0, 0, "camera paths alone are less noisy"))
-        self.assertEqual(drawn("--caustics", "off")[0], whole)
-        self.assertEqual([row[4:20] for row in whole[3:20]], drawn("--region", "4,3,16,17")[0])
-        for options in (("--seed", 9), ("--sample-offset", 5)):
-            self.assertEqual(drawn(*options, spp=1)[1]["light_paths"], 0, options)
-        self.assertGreater(drawn("--caustics", "on")[1]["light_paths"], 0)
-        # A small lamp, and a punctual light, are not left to chance.
-        for name, things, lights in (("small", (self.lamp(((4, 0, 5), 0.1, 2000.0)),), ()),
-                                     ("point", (lamp,), (({"type": "point", "intensity": 5}, {"translation": [2, 0, 4]}),))):
-            scene = self.scene(name, mirror, *things, lights=lights, ground=30)
-            self.assertGreater(drawn()[1]["light_paths"], 0, name)
-
     def test_what_is_said(self):
         def told(scene, *options):
             path = self.folder / "stats.json"
