@@ -16,7 +16,7 @@ std::vector<uint8_t> fileOf(const std::string& text) { return {text.begin(), tex
 
 // 1.0f, 2.0f, -0.5f as big-endian bytes
 const std::string kBigOne("\x3f\x80\0\0", 4), kBigTwo("\x40\0\0\0", 4), kBigMinusHalf("\xbf\0\0\0", 4);
-const std::string kLittleOne("\0\0\x80\x3f", 4), kLittleTwo("\0\0\0\x40", 4);
+const std::string kLittleOne("\0\0\x80\x3f", 4), kLittleTwo("\0\0\0\x40", 4), kLittleThree("\0\0\x40\x40", 4);
 
 TEST(ImagePfm, BigEndianColourIsReadBottomRowFirst) {
   const Image image =
@@ -75,8 +75,8 @@ TEST(ImagePfm, LocaleDoesNotChangeTheNumbers) {
   const Image image = decodePfm(fileOf("Pf\n1 1\n-1.5\n" + kLittleTwo));
   const std::vector<uint8_t> written = encodePfm(image);
   std::setlocale(LC_ALL, before.c_str());
-  EXPECT_EQ(image.values[0], 2) << "comma locale: " << comma;
-  EXPECT_EQ(written, fileOf("Pf\n1 1\n-1.0\n" + kLittleTwo));
+  EXPECT_EQ(image.values[0], 3) << "comma locale: " << comma;
+  EXPECT_EQ(written, fileOf("Pf\n1 1\n-1.0\n" + kLittleThree));
 }
 
 }  // namespace
