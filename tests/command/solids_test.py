@@ -15,7 +15,7 @@ from solids import IOR, Model, glass, matt  # noqa: E402
 # Faults in dimShadow, standInside, passMedium and the rows of paths that begin are seen by these.
 CHOSEN = ("outside tank point inside", "outside tank quad inside", "outside tank spot alpha", "outside outside quad thin", "outside other quad inside", "outside outside environment inside",
           "glass tank quad alpha", "glass outside quad outside", "glass other quad inside", "glass outside environment thin", "glass tank spot outside",
-          "absorbing tank point inside", "absorbing tank quad inside", "absorbing tank point alpha", "absorbing tank quad thin", "absorbing other quad inside", "absorbing outside quad inside",
+          "absorbing tank point inside", "absorbing outside point outside", "absorbing tank point alpha", "absorbing tank quad thin", "absorbing other quad inside", "absorbing outside quad inside",
           "absorbing outside environment alpha", "scattering tank quad inside", "scattering tank point alpha", "scattering outside environment outside", "scattering other quad inside",
           "fog tank quad inside", "fog outside point outside")
 LAMP = {**matt((0, 0, 0)), "emissiveFactor": [1, 1, 1]}
@@ -59,6 +59,17 @@ class Solids(Case):
                 seen = luminances(self.seen(model, *WHITE, "--schedule", schedule, angle=60, spp=64))
                 with self.subTest(f"{name} {schedule}"):
                     self.assertAlmostEqual(sum(seen) / len(seen), right, delta=0.01 * right)
+
+    def test_behind_a_solid_inside_of_another_is_the_outer_one(self):
+        """A camera in a box of clear glass in a tank of water looks at a lamp in the water: a metre of it is in between."""
+        model = Model()
+        model.box(3, glass(volume=WATER))
+        model.box(0.5, glass())
+        model.plate(1, {**LAMP, "doubleSided": True}, (0, -1.5, 0))
+        seen = self.seen(model, "--no-default-light", angle=1)
+        passes = (1 - ((IOR - 1) / (IOR + 1)) ** 2) * IOR ** 2
+        for channel, color in enumerate(WATER["attenuationColor"]):
+            self.assertAlmostEqual(mean(seen, channel) / (passes * color), 1, delta=0.01)
 
     def test_an_orthographic_camera_inside_sees_absorption(self):
         model = Model()
