@@ -73,11 +73,18 @@ Path traceAnew(Path p, float limit) {
   return p;
 }
 
+/// The traversal is that of the path's own ray.
+Path asExtension(Path p) {
+  if (kCreases) p.traversal.tie = p.tie;
+  if (kCoincident) p.traversal.extends = true;
+  if (kLightPaths) p.traversal.both = true;
+  return p;
+}
+
 /// Traces the same ray once more, for what lies behind the surface that it met at distance t and passes through.
 Path tracePast(Path p, float limit, float t, int slot) {
   p = traceAnew(p, limit);
-  if (kCreases && p.phase == kPhaseExtend) p.traversal.tie = p.tie;
-  if (kLightPaths && p.phase == kPhaseExtend) p.traversal.both = true;
+  if (p.phase == kPhaseExtend) p = asExtension(p);
   p.traversal.tMin = t;
   p.traversal.tMinSlot = slot;
   return p;
@@ -95,9 +102,7 @@ Path extend(Path p) {
   p.lightSampleIndex = 0;
   p = traceAnew(p, kFarAway);
   if (kMedia) p = limitFlight(p, 0.0);
-  if (kCreases) p.traversal.tie = p.tie;
-  if (kLightPaths) p.traversal.both = true;
-  return p;
+  return asExtension(p);
 }
 
 /// The place of a pixel of the film in the picture; y from the bottom.

@@ -187,6 +187,7 @@ Path resumePath(int row, uint key) {
   p.traversal.tMin = uintBitsToFloat(a.x);
   p.traversal.tMinSlot = int(a.y);
   if (kInstances) p.traversal.instance = int(readPathStates(row + kRowCrossings).z);
+  p.traversal.extends = p.phase == kPhaseExtend;
   p.traversal.both = kLightPaths && p.phase == kPhaseExtend;
   p.traversal.tie = p.phase == kPhaseExtend ? p.tie : 0.0;
   if (!kIterative && !kLiterals) p.traversal.stack = loadStack(row + kRowStack);

@@ -13,6 +13,7 @@ struct Traversal {
   // kCreases: part of t by which hits on front faces count as nearer, those on back faces as farther; negative: the
   // other way
   float tie;
+  bool extends;  // kCoincident: the ray is a path's own; shadow rays end before the lamp that they are aimed at
   bool both;  // kLightPaths: single-sided surfaces have their backs, too
   float part; // kMoving: of the segment in whose tree the traversal is, 0..1
   int visits; // nodes and leaves visited, counted for the heat map only
@@ -38,6 +39,7 @@ Traversal startTraversal(float limit, int leafCount) {
   s.hitInstance = -1;
   s.steps = 0;
   s.tie = 0.0f;
+  s.extends = false;
   s.both = false;
   s.part = 0.0f;
   s.visits = 0;
@@ -100,7 +102,7 @@ PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear sh
     }
     bool there = !kCulling || h.front || (kLightPaths && s.both) || (word & kPrimitiveCull) == 0u;
     r.t = h.hit && there ? h.t : -1.0f;
-    if (kCoincident && r.t > 0.0f) r.t = beforeCoincident(r.t, h.front, word);
+    if (kCoincident && s.extends && r.t > 0.0f) r.t = beforeCoincident(r.t, h.front, word);
     if (kCreases) r.t -= r.t * (h.front ? s.tie : -s.tie);
     if (kWeights) r.weights = vec2(h.weight1, h.weight2);
   }

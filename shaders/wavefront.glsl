@@ -255,6 +255,7 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
       if (kMedia && !isShadow) limit = uintBitsToFloat(readPathStates(row + kRowHit).x);
       t = startTraversal(limit, frame.leafCount);
       if (kCreases) t.tie = isShadow ? 0.0 : a.w;
+      if (kCoincident) t.extends = !isShadow;
       if (kPassing) {
         uvec4 tMins = readPathStates(row + kRowTMin);
         t.tMin = uintBitsToFloat(isShadow ? tMins.z : tMins.x);

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "bvh/bvh.h"
+#include "bvh/overlaps.h"
 #include "scene/coincidence.h"
 #include "scene/hit_error.h"
+#include "scene/solids.h"
 
 namespace fragtrace {
 
@@ -94,27 +96,6 @@ Move moveOff(const Face& glass, bool solid, const Face& opaque) {
   return {direction, gap - now};
 }
 
-/// Calls `meet` for each primitive of a tree whose box overlaps the box.
-template <typename Meet>
-void meetAll(const Bvh& bvh, const Bounds& box, const Meet& meet) {
-  std::vector<uint32_t> open{0};
-  while (!open.empty()) {
-    const BvhNode& node = bvh.nodes[open.back()];
-    open.pop_back();
-    // A root with one leaf has it as both children.
-    const size_t sides = node.child[0] == node.child[1] ? 1 : 2;
-    for (size_t side = 0; side < sides; ++side) {
-      if (!box.overlaps(node.bounds[side])) continue;
-      if ((node.child[side] & kBvhLeafBit) == 0) {
-        open.push_back(node.child[side]);
-        continue;
-      }
-      for (const uint32_t primitive : bvh.leaves[node.child[side] & ~kBvhLeafBit].primitive)
-        if (primitive != kMissIndex) meet(primitive);
-    }
-  }
-}
-
 /// Moves by place, so that faces that meet stay together.
 class Moves {
  public:
@@ -124,12 +105,26 @@ class Moves {
     sum += std::max(0.0, move.by - glm::dot(sum, move.direction)) * move.direction;
   }
   bool empty() const { return moves_.empty(); }
+  /// Moves the corners of triangles.
+  void apply(Scene& scene, const std::vector<uint32_t>& triangles) const {
+    std::vector<bool> done(scene.vertices.position.size(), false);
+    for (const uint32_t i : triangles) {
+      for (int c = 0; c < 3; ++c) {
+        const uint32_t vertex = scene.triangles[i].vertex[c];
+        if (done[vertex]) continue;
+        done[vertex] = true;
+        glm::vec3& place = scene.vertices.position[vertex];
+        place = moved(place);
+      }
+    }
+  }
+
+ private:
   glm::vec3 moved(const glm::vec3& place) const {
     const auto found = moves_.find(keyOf(place));
     return found == moves_.end() ? place : glm::vec3(dvec3(place) + found->second);
   }
 
- private:
   using Key = std::array<float, 3>;
   static Key keyOf(const glm::vec3& place) { return {place.x + 0.0f, place.y + 0.0f, place.z + 0.0f}; }
   std::map<Key, dvec3> moves_;
@@ -198,17 +193,46 @@ size_t partFromGlass(Scene& scene) {
     count += touches ? 1 : 0;
   }
   if (moves.empty()) return 0;
-  std::vector<bool> done(scene.vertices.position.size(), false);
-  for (const uint32_t i : opaque) {
-    for (int c = 0; c < 3; ++c) {
-      const uint32_t vertex = scene.triangles[i].vertex[c];
-      if (done[vertex]) continue;
-      done[vertex] = true;
-      glm::vec3& place = scene.vertices.position[vertex];
-      place = moves.moved(place);
-    }
-  }
+  moves.apply(scene, opaque);
   return count;
+}
+
+void partSolids(Scene& scene) {
+  const std::vector<SolidPart> parts = solidParts(scene, 0, flatTriangleCount(scene));
+  if (parts.size() < 2) return;
+  std::vector<uint32_t> glass;
+  std::vector<uint32_t> partOf;
+  std::vector<double> sizes;
+  for (uint32_t part = 0; part < parts.size(); ++part) {
+    Bounds box;
+    for (const uint32_t i : parts[part].triangles) box.include(triangleBounds(scene, i));
+    sizes.push_back(glm::length(dvec3(box.extent())));
+    glass.insert(glass.end(), parts[part].triangles.begin(), parts[part].triangles.end());
+    partOf.resize(glass.size(), part);
+  }
+  const Bvh bvh = treeOf(scene, glass);
+  Moves moves;
+  std::vector<bool> moved(parts.size(), false);
+  for (uint32_t k = 0; k < glass.size(); ++k) {
+    const uint32_t part = partOf[k];
+    const Face face = faceOf(scene, glass[k]);
+    Bounds around = triangleBounds(scene, glass[k]);
+    const auto reach = float(kGap * face.error);
+    around.minimum -= reach;
+    around.maximum += reach;
+    meetAll(bvh, around, [&](uint32_t primitive) {
+      const uint32_t other = partOf[primitive];
+      const bool isSmaller = std::pair(sizes[part], part) < std::pair(sizes[other], other);
+      if (part == other || !isSmaller) return;
+      const Move move = moveOff(faceOf(scene, glass[primitive]), false, face);
+      if (!(move.by > 0.0)) return;
+      moved[part] = true;
+      for (int c = 0; c < 3; ++c)
+        moves.add(scene.vertices.position[scene.triangles[glass[k]].vertex[c]], move);
+    });
+  }
+  std::erase_if(glass, [&, k = size_t(0)](uint32_t) mutable { return !moved[partOf[k++]]; });
+  moves.apply(scene, glass);
 }
 
 void markLampsInSurfaces(Scene& scene) {

@@ -15,6 +15,12 @@ namespace fragtrace {
 /// stay where they are. Returns the number of triangles that lay on glass.
 size_t partFromGlass(Scene& scene);
 
+/// A ray that leaves a solid starts a little beyond its face, and so beyond the face of another solid in the
+/// same place, such as that of water that fills a glass. Where faces of two parts of solids coincide or lie
+/// nearer than four offsets, those of the smaller part are moved inwards by so much. Instances of shared
+/// meshes and spheres stay where they are.
+void partSolids(Scene& scene);
+
 /// Marks emissive triangles with which another surface coincides (scene/coincidence.h).
 void markLampsInSurfaces(Scene& scene);
 

@@ -113,39 +113,26 @@ std::vector<Edge> withoutSeams(const Scene& scene, std::vector<Edge> edges, Sets
   return joined;
 }
 
-/// Appends the closed parts of triangles of one space, and notes the materials of open ones.
-void appendParts(const Scene& scene, const std::vector<uint32_t>& triangles, Solids& solids) {
-  std::vector<Edge> edges = edgesOf(scene, triangles);
-  std::ranges::sort(edges, {}, &Edge::key);
-  Sets sets(triangles.size());
-  for (size_t i = 1; i < edges.size(); ++i) {
-    if (edges[i].key() == edges[i - 1].key()) sets.join(edges[i].triangle, edges[i - 1].triangle);
-  }
-  std::vector<bool> open(triangles.size(), false);
-  for (const Edge& e : unmatched(withoutSeams(scene, unmatched(std::move(edges)), sets)))
-    open[sets.find(e.triangle)] = true;
-  std::vector<std::pair<uint32_t, uint32_t>> ordered;  // the set and index of each triangle
-  for (uint32_t i = 0; i < triangles.size(); ++i) ordered.emplace_back(sets.find(i), i);
-  std::ranges::sort(ordered);
-  for (size_t i = 0; i < ordered.size(); ++i) {
-    const auto [set, index] = ordered[i];
-    const Triangle& t = scene.triangles[triangles[index]];
-    if (open[set]) solids.closed[t.material] = false;
-    if (open[set]) continue;
-    if (i == 0 || ordered[i - 1].first != set)
-      solids.parts.push_back({t.material, {}, uint32_t(solids.triangles.size()), 0});
-    solids.triangles.push_back(cornersOf(scene, t));
-    for (const glm::vec3& corner : solids.triangles.back()) solids.parts.back().box.include(corner);
-    ++solids.parts.back().count;
-  }
-}
-
 /// Triangles of the scene, `count` from `first` on, that bound solids.
 std::vector<uint32_t> boundaries(const Scene& scene, size_t first, size_t count) {
   std::vector<uint32_t> found;
   for (size_t i = first; i < first + count; ++i)
     if (boundsSolids(scene.materials[scene.triangles[i].material])) found.push_back(uint32_t(i));
   return found;
+}
+
+/// Appends the closed parts of triangles of one space, and notes the materials of open ones.
+void appendParts(const Scene& scene, size_t first, size_t count, Solids& solids) {
+  for (const SolidPart& part : solidParts(scene, first, count)) {
+    if (!part.open.empty()) solids.closed[part.material] = false;
+    if (!part.open.empty()) continue;
+    ClosedPart closed{part.material, {}, uint32_t(solids.triangles.size()), uint32_t(part.triangles.size())};
+    for (const uint32_t i : part.triangles) {
+      solids.triangles.push_back(cornersOf(scene, scene.triangles[i]));
+      for (const glm::vec3& corner : solids.triangles.back()) closed.box.include(corner);
+    }
+    solids.parts.push_back(closed);
+  }
 }
 
 /// The box of each material's solids in local space; empty where it has none.
@@ -209,11 +196,35 @@ double windingNumber(const Solids& solids, const ClosedPart& part, const glm::dv
 
 }  // namespace
 
+std::vector<SolidPart> solidParts(const Scene& scene, size_t first, size_t count) {
+  const std::vector<uint32_t> triangles = boundaries(scene, first, count);
+  if (triangles.empty()) return {};
+  std::vector<Edge> edges = edgesOf(scene, triangles);
+  std::ranges::sort(edges, {}, &Edge::key);
+  Sets sets(triangles.size());
+  for (size_t i = 1; i < edges.size(); ++i) {
+    if (edges[i].key() == edges[i - 1].key()) sets.join(edges[i].triangle, edges[i - 1].triangle);
+  }
+  std::vector<SolidPart> parts;
+  std::vector<uint32_t> partOf(triangles.size(), kMissIndex);  // by set
+  for (uint32_t i = 0; i < triangles.size(); ++i) {
+    uint32_t& part = partOf[sets.find(i)];
+    if (part == kMissIndex) {
+      part = uint32_t(parts.size());
+      parts.push_back({scene.triangles[triangles[i]].material, {}, {}});
+    }
+    parts[part].triangles.push_back(triangles[i]);
+  }
+  for (const Edge& e : unmatched(withoutSeams(scene, unmatched(std::move(edges)), sets)))
+    parts[partOf[sets.find(e.triangle)]].open.push_back({e.low, e.high});
+  return parts;
+}
+
 Solids solidsOf(const Scene& scene) {
   Solids solids;
   if (std::ranges::none_of(scene.materials, boundsSolids)) return solids;
   for (const Material& m : scene.materials) solids.closed.push_back(boundsSolids(m));
-  appendParts(scene, boundaries(scene, 0, flatTriangleCount(scene)), solids);
+  appendParts(scene, 0, flatTriangleCount(scene), solids);
   for (const Sphere& s : scene.spheres) {
     if (boundsSolids(scene.materials[s.material]))
       solids.parts.push_back({s.material, {s.center - s.radius, s.center + s.radius}, 0, 0});
@@ -222,7 +233,7 @@ Solids solidsOf(const Scene& scene) {
   std::vector<PlacedParts> meshes;
   for (const SharedMesh& mesh : scene.sharedMeshes) {
     const auto first = uint32_t(solids.parts.size());
-    appendParts(scene, boundaries(scene, mesh.firstTriangle, mesh.triangleCount), solids);
+    appendParts(scene, mesh.firstTriangle, mesh.triangleCount, solids);
     meshes.push_back({glm::dmat4(1.0), first, uint32_t(solids.parts.size()) - first});
   }
   for (const Instance& instance : scene.instances) {

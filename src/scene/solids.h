@@ -13,7 +13,19 @@ namespace fragtrace {
 
 struct Scene;
 
-/// Connected triangles of one material without an open edge, or a sphere.
+/// Connected triangles of one material that bounds solids.
+struct SolidPart {
+  uint32_t material = 0;
+  std::vector<uint32_t> triangles;  ///< in order
+  /// Edges that more triangles run along one way than the other, as two vertices. What rounding alone parts
+  /// is no edge.
+  std::vector<std::array<uint32_t, 2>> open;
+};
+
+/// Parts of the scene's triangles, `count` from `first` on, which lie in one space.
+std::vector<SolidPart> solidParts(const Scene& scene, size_t first, size_t count);
+
+/// A part without an open edge, or a sphere.
 struct ClosedPart {
   uint32_t material = 0;
   Bounds box;          ///< in the space of its triangles

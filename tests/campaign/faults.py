@@ -31,7 +31,7 @@ def commands(ground):
               for kind, scene in (("pfm", box), ("png", textured), ("exr", box))}
     return render | {
         "render checkpoint": (["render", box, "-o", "x.pfm", "--checkpoint", "0.1", "--resume", *TINY], ["x.pfm"], LARGE),
-        "info": (["info", textured], [], []),
+        "info": (["info", "--missing-textures", "refuse", textured], [], []),
         "merge": (["merge", *inputs, "-o", "x.exr"], ["x.exr"], []),
         "denoise": (["denoise", inputs[0], "-o", "x.exr", "--denoise", "variance"], ["x.exr"], []),
     }

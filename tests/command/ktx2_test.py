@@ -118,7 +118,7 @@ class Ktx2(Case):
     def test_it_is_no_environment(self):
         shutil.copy(SAMPLES / "basisu_uastc.ktx2", self.folder)
         self.fails(3, "render", self.scene(fallback=True), "-o", self.folder / "x.pfm", *SMALL, "--quiet", "--hdri-file", self.folder / "basisu_uastc.ktx2",
-                   says=["basisu_uastc.ktx2: a KTX2 picture is read as a texture only"])
+                   says=["basisu_uastc.ktx2: a KTX2 or AVIF picture is read as a texture only"])
 
 
 if __name__ == "__main__":

@@ -75,16 +75,6 @@ class Sheets(Case):
         for seen in self.stack([(black, 0, 3)], *NARROW, "--background-color", "1,1,1", "--fog-density", 0.8, "--fog-color", "0,0,0", "--fog-distance", 1, size=64):
             self.assert_share(seen, 0.5 * math.exp(-0.8 * 2), 64 * 64 * 64)
 
-    def test_a_path_that_began_in_an_open_solid_is_scattered_there(self):
-        """The back of a sheet says that 2.2 m of a medium, which scatters nearly nothing on, lie before it."""
-        solid = {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1},
-                 "KHR_materials_volume": {"thicknessFactor": 1, "attenuationColor": [0.3] * 3, "attenuationDistance": 2.2},
-                 "KHR_materials_scatter": {"scatterStrengthFactor": 1, "multiscatterColorFactor": [1e-4] * 3}}
-        material = {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0}, "extensions": SPECULAR | solid}
-        lamp = sheet(emissiveFactor=[1, 1, 1])
-        for seen in self.stack([(material, 0, 3), (lamp, 3, 9)], *NARROW, "--camera-position", "0,0,-2.2", "--camera-focal-point", "0,0,0", size=64):
-            self.assert_share(seen, 0.3, 64 * 64 * 64)
-
 
 if __name__ == "__main__":
     main()

@@ -71,6 +71,26 @@ class Solids(Case):
         for channel, color in enumerate(WATER["attenuationColor"]):
             self.assertAlmostEqual(mean(seen, channel) / (passes * color), 1, delta=0.01)
 
+    def test_solids_that_touch_each_take_their_share(self):
+        """One on the other, and one that fills a corner of the other."""
+        colors = (0.8, 0.5, 0.2), (0.5, 0.9, 0.6)
+        water = [glass(volume={"attenuationColor": list(color), "attenuationDistance": 1}) for color in colors]
+        for material in water:
+            material["extensions"]["KHR_materials_ior"]["ior"] = 1
+        for half, place in ((1, (0, -1, 0)), (0.5, (0.2, 0.5, 0.2))):
+            for first in (0, 1):
+                model = Model()
+                parts = [lambda: model.box(1, water[0], (0, 1, 0)), lambda: model.box(half, water[1], place)]
+                for part in (parts if first else reversed(parts)):
+                    part()
+                model.plate(3, {**LAMP, "doubleSided": True}, (0, -3, 0))
+                seen = self.seen(model, "--no-default-light", at="0,3,0", angle=1, spp=64)
+                ways = (2, 2) if half == 1 else (1, 1)  # metres in each alone
+                for channel in range(3):
+                    right = colors[0][channel] ** ways[0] * colors[1][channel] ** ways[1]
+                    with self.subTest(half=half, first=first, channel=channel):
+                        self.assertAlmostEqual(mean(seen, channel) / right, 1, delta=0.01)
+
     def test_an_orthographic_camera_inside_sees_absorption(self):
         model = Model()
         model.box(2, glass(volume=WATER))
@@ -78,11 +98,25 @@ class Solids(Case):
         seen = self.seen(model, "--camera-type", "orthographic", "--camera-parallel-scale", 0.2, "--no-default-light", at="0,0.5,0")
         self.assertAlmostEqual(mean(seen), 0.25, delta=1e-4)
 
+    def test_rays_of_an_orthographic_camera_begin_in_solids_of_their_own(self):
+        """The camera's middle is outside, so the back of the milk says that its left rays have come through it: what scatters nearly nothing on takes
+        its share of them by chance."""
+        distance, share = 2.5, 0.3
+        milk = glass(volume={"attenuationColor": [share] * 3, "attenuationDistance": distance}, scatter={"scatterStrengthFactor": 1, "multiscatterColorFactor": [1e-4] * 3})
+        milk["extensions"]["KHR_materials_ior"]["ior"] = 1
+        model = Model()
+        model.box(2, milk)
+        model.plate(9, {**LAMP, "doubleSided": True}, (0, -2.5, 0))
+        seen = self.seen(model, "--camera-type", "orthographic", "--camera-parallel-scale", 0.5, "--no-default-light", at="2.2,0.5,0", to="2.2,-1,0", size="32,32", spp=256)
+        for columns, right in ((slice(0, 8), share), (slice(24, 32), 1)):
+            part = [row[columns] for row in seen]
+            self.assertAlmostEqual(mean(part), right, delta=5 * math.sqrt(right * (1 - right) / (8 * 32 * 256)) + 1e-5)
+
     def test_a_room_behind_a_pane_is_not_inside_of_it(self):
-        """A pane that is a single face with a thickness: the camera behind it sees the world through it without tint, and not scaled."""
+        """A pane that is a single face from wall to wall, with a thickness: the camera behind it sees the world through it without tint, and not scaled."""
         model = Model()
         model.box(2, matt((0, 0, 0)))
-        model.plate(1, glass(volume=WATER), (0, 1.9, 0))
+        model.plate(2, glass(volume=WATER), (0, 1.8, 0))
         model.plate(0.9, {**LAMP, "doubleSided": True}, (0, 1.95, 0))
         seen = mean(self.seen(model, "--no-default-light", to="0,1,0"))
         self.assertAlmostEqual(seen, 1 - ((IOR - 1) / (IOR + 1)) ** 2, delta=0.01)
@@ -143,13 +177,13 @@ class OnePlace(Case):
     seen = Solids.seen
 
     def room(self, scale=1.0, turn=(0, 0, 0, 1), lamp_first=True, drop=0.0, copies=False):
-        """A lamp in a ceiling over a floor, turned as a whole."""
+        """A lamp in a ceiling over a floor, turned as a whole; both are so wide that rounding at their corners exceeds what a shadow ray leaves out."""
         model = Model()
         parts = [lambda: model.mesh(square(0.25 * scale, -1), [(0, 1, 2), (0, 2, 3)], {**LAMP, "doubleSided": True}, (0.1 * scale, (1 - drop) * scale, 0)),
-                 lambda: model.mesh(square(scale, -1), [(0, 1, 2), (0, 2, 3)], matt((0.8, 0.8, 0.8), doubleSided=True), (0, scale, 0))]
+                 lambda: model.mesh(square(6 * scale, -1), [(0, 1, 2), (0, 2, 3)], matt((0.8, 0.8, 0.8), doubleSided=True), (0, scale, 0))]
         for part in parts if lamp_first else reversed(parts):
             part()
-        model.mesh(square(scale, 1), [(0, 1, 2), (0, 2, 3)], matt((0.8, 0.8, 0.8), doubleSided=True), (0, -scale, 0))
+        model.mesh(square(6 * scale, 1), [(0, 1, 2), (0, 2, 3)], matt((0.8, 0.8, 0.8), doubleSided=True), (0, -scale, 0))
         if copies:
             model.node(mesh=0 if not lamp_first else 1, translation=[0, 3 * scale, 0])
         children = list(range(len(model.root["nodes"])))

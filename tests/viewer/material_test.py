@@ -164,7 +164,7 @@ class Materials(Case):
         subprocess.run([FRAGTRACE, *words[1:], "--quiet"], check=True)
         self.same(shown, pixels_of(command))
         said = self.save_over(viewer)["messages"]
-        self.assertTrue(any("render it with --studio" in m for m in said), said)
+        self.assertTrue(any("render it with Studio" in m for m in said), said)
         self.same(self.picture(viewer), shown)
         self.same(pixels_of(self.render(self.scene, *PANEL, "--studio")), shown)
         self.assertNotEqual(pixels_of(self.render(self.scene, *PANEL, *light)), shown)

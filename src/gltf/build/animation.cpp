@@ -141,7 +141,9 @@ Keyframes readKeyframes(Document& document, const Channel& channel, const Number
   keys.isScale = channel.target.starts_with("/nodes/") && channel.target.ends_with("/scale");
   const bool isFraction = keys.isRotation || channel.target.ends_with("/weights");
   keys.values = readComponents(document, channel.output, isArray ? 1 : int(rule.width), place,
-                               isFraction ? Integers::Fractions : Integers::Numbers);
+                               rule.isFlag  ? Integers::Whole
+                               : isFraction ? Integers::Fractions
+                                            : Integers::Numbers);
   if (!std::all_of(keys.values.begin(), keys.values.end(), [](float v) { return std::isfinite(v); }))
     diagnostics.lose(place, "holds a number that is not finite");
   return keys;

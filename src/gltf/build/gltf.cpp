@@ -202,6 +202,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
   flatten(meshes.flat, meshes.shared, scene);
   const auto defaultMaterial = uint32_t(scene.materials.size() - 1);
   warnThinned(thinOpenPanes(scene), document.diagnostics);
+  partSolids(scene);
   partFromGlass(scene);
   markLampsInSurfaces(scene);
   if (scene.strokes.empty()) settleCreases(scene);  // else addStrokes() does it

@@ -176,7 +176,8 @@ SparseElements sparseElementsOf(const Document& document, int index, const Eleme
 
 /// Takes integers for fractions where they are meant so, and warns of those that the file may not have.
 void settleIntegers(Document& document, Integers integers, const std::string& place, Elements& elements) {
-  if (elements.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT || elements.normalized) return;
+  const bool isMeant = integers == Integers::Whole || elements.normalized;
+  if (elements.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT || isMeant) return;
   if (integers == Integers::Fractions) {
     elements.normalized = true;
     return document.diagnostics.warn(place,

@@ -14,6 +14,7 @@ namespace fragtrace {
 /// The meaning of integers that are not normalized.
 enum class Integers {
   Numbers,   ///< themselves, as KHR_mesh_quantization allows
+  Whole,     ///< themselves, as is meant
   Fractions  ///< 0..1 or -1..1: `normalized` was left out, with a warning
 };
 
