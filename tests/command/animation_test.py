@@ -192,6 +192,7 @@ class SeveralAnimations(Case):
         self.assertEqual(place, [-2, 2, 1])
         self.assertIn("/animations: not played: 1 of 2 (--animation all plays all at once", said)
         self.assertEqual(self.bounds("--animation-time", 1, "--animation", "left")[1], "")
+        self.assertEqual(self.bounds("--animation-time", 1, "--strict")[0], [-2, 2, 1])  # it is no fault of the file
         self.assertEqual(self.bounds()[1], "")
 
     def test_a_name_alone_shows_the_first_moment(self):

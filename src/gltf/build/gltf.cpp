@@ -149,10 +149,11 @@ void settle(const Diagnostics& diagnostics, const GltfOptions& options, Scene& s
   if (isEmpty && diagnostics.firstLoss() && options.selection.hiddenNodes.empty())
     throw InputError(*diagnostics.firstLoss());
   scene.warnings = diagnostics.warnings();
-  if (!options.limits.strict || scene.warnings.empty()) return;
-  const size_t others = scene.warnings.size() - 1;
+  const std::vector<std::string> faults = diagnostics.warnings(true);
+  if (!options.limits.strict || faults.empty()) return;
+  const size_t others = faults.size() - 1;
   const std::string more = others > 0 ? ", and " + countText(others, "other warning") : "";
-  throw InputError(scene.warnings[0] + " (--strict refuses it" + more + ")");
+  throw InputError(faults[0] + " (--strict refuses it" + more + ")");
 }
 
 Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,

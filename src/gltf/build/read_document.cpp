@@ -302,14 +302,14 @@ void pose(const std::vector<Animation>& animations, const GltfOptions& options, 
   const SceneSelection& selection = options.selection;
   const std::vector<size_t> chosen = chosenAnimations(selection.animation, document.animationNames);
   if (chosen.empty()) {
-    document.diagnostics.warn("", "has no animation that a time could be of");
+    document.diagnostics.remark("", "has no animation that a time could be of");
     return;
   }
   if (selection.animation.empty() && animations.size() > 1)
-    document.diagnostics.warn("/animations",
-                              "not played: " + std::to_string(animations.size() - 1) + " of " +
-                                  std::to_string(animations.size()) +
-                                  " (--animation all plays all at once, --animation NAME another one)");
+    document.diagnostics.remark("/animations",
+                                "not played: " + std::to_string(animations.size() - 1) + " of " +
+                                    std::to_string(animations.size()) +
+                                    " (--animation all plays all at once, --animation NAME another one)");
   for (const size_t index : chosen)
     applyAnimation(document, animations[index], selection.animationTime.value_or(0.0), options.shutter, root);
 }

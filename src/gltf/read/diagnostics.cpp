@@ -76,9 +76,15 @@ void Diagnostics::warn(std::string_view place, std::string_view reason, size_t c
   if (warning.places.size() < kNamedPlaces) warning.places.emplace_back(place);
 }
 
-std::vector<std::string> Diagnostics::warnings() const {
+void Diagnostics::remark(std::string_view place, std::string_view reason) {
+  warn(place, reason);
+  warnings_[warningOf_.at(kindOf(reason))].isRemark = true;
+}
+
+std::vector<std::string> Diagnostics::warnings(bool onlyFaults) const {
   std::vector<std::string> lines;
   for (const Warning& warning : warnings_) {
+    if (onlyFaults && warning.isRemark) continue;
     std::string others;
     for (size_t i = 1; i < warning.places.size(); ++i) others += (i == 1 ? "" : ", ") + warning.places[i];
     const size_t unnamed = warning.placeCount - warning.places.size();

@@ -111,8 +111,12 @@ class Diagnostics {
   /// makes one line with a count and the first place.
   void warn(std::string_view place, std::string_view reason, size_t count = 1);
 
-  /// One line for each reason, in the order of their first appearance.
-  std::vector<std::string> warnings() const;
+  /// Does the same with what is no fault of the file, but follows from the user's options.
+  void remark(std::string_view place, std::string_view reason);
+
+  /// One line for each reason, in the order of their first appearance; remarks, too, unless only faults are
+  /// asked for.
+  std::vector<std::string> warnings(bool onlyFaults = false) const;
 
   const std::string& file() const { return file_; }
 
@@ -122,6 +126,7 @@ class Diagnostics {
     std::vector<std::string> places;  ///< the first few
     size_t placeCount = 0;
     size_t count = 0;
+    bool isRemark = false;
   };
   std::string line(std::string_view place, std::string_view reason) const;
   void throwIfSet(std::string_view place, std::string_view reason) const;
