@@ -170,7 +170,9 @@ void markAround(Scene& scene, const Bvh& bvh, const std::vector<uint32_t>& lamps
 
 size_t partFromGlass(Scene& scene) {
   if (std::ranges::none_of(scene.materials, &Material::passesLight)) return 0;
-  const auto [glass, opaque] = parted(scene, [](const Material& m) { return m.passesLight(); });
+  const auto both = parted(scene, [](const Material& m) { return m.passesLight(); });
+  const std::vector<uint32_t>& glass = both[0];
+  const std::vector<uint32_t>& opaque = both[1];
   if (glass.empty() || opaque.empty()) return 0;
   const Bvh bvh = treeOf(scene, glass);
   Moves moves;

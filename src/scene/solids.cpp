@@ -78,7 +78,7 @@ std::vector<Edge> unmatched(std::vector<Edge> edges) {
 
 /// The edges with places of one set that rounding alone parts as one place: a seam of a sphere has places at
 /// 0 and at 2 pi.
-std::vector<Edge> withoutSeams(const Scene& scene, std::vector<Edge> edges, Sets& sets) {
+std::vector<Edge> withoutSeams(const Scene& scene, const std::vector<Edge>& edges, Sets& sets) {
   constexpr float kRounding = 1e-5f;  // of the diagonal of the set's box
   std::map<uint32_t, Bounds> boxes;
   const auto at = [&](uint32_t place) { return scene.vertices.position[place]; };
@@ -103,10 +103,10 @@ std::vector<Edge> withoutSeams(const Scene& scene, std::vector<Edge> edges, Sets
     return cells[cellAt(middle)] = place;
   };
   std::vector<Edge> joined;
-  for (Edge e : edges) {
+  for (const Edge& e : edges) {
     const uint32_t set = sets.find(e.triangle);
-    uint32_t from = standIn(e.forward ? e.low : e.high, set);
-    uint32_t to = standIn(e.forward ? e.high : e.low, set);
+    const uint32_t from = standIn(e.forward ? e.low : e.high, set);
+    const uint32_t to = standIn(e.forward ? e.high : e.low, set);
     if (from != to)
       joined.push_back({std::min(from, to), std::max(from, to), e.material, e.triangle, from < to});
   }
@@ -275,6 +275,7 @@ std::vector<uint32_t> solidsAround(const Solids& solids, const glm::dvec3& point
   std::erase_if(found, [](const Around& a) { return a.winding < 1.0; });
   std::ranges::sort(found, {}, &Around::size);
   std::vector<uint32_t> materials;
+  materials.reserve(found.size());
   for (const Around& a : found) materials.push_back(a.material);
   return materials;
 }
