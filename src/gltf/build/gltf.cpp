@@ -156,6 +156,22 @@ void settle(const Diagnostics& diagnostics, const GltfOptions& options, Scene& s
   throw InputError(faults[0] + " (--strict refuses it" + more + ")");
 }
 
+/// Settles what follows from where surfaces are in local space: panes, solids, what lies at one place,
+/// creases.
+void settleSurfaces(const std::vector<PlacedSphere>& spheres, Diagnostics& diagnostics, Scene& scene) {
+  warnThinned(thinOpenPanes(scene), diagnostics);
+  partSolids(scene);
+  partFromGlass(scene);
+  markLampsInSurfaces(scene);
+  if (scene.strokes.empty()) settleCreases(scene);  // else addStrokes() does it
+  for (const PlacedSphere& sphere : spheres) {
+    scene.spheres.push_back({glm::vec3(scene.space.localOf(sphere.center)),
+                             float(sphere.radius / scene.space.unit), glm::quat(sphere.rotation),
+                             sphere.material, sphere.node, sphere.nodeIndex});
+  }
+  scene.solids = solidsOf(scene);
+}
+
 Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
                  std::shared_ptr<KeptDocument>* kept) {
   std::shared_ptr<KeptDocument> read = kept != nullptr ? std::move(*kept) : nullptr;
@@ -202,17 +218,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
   recentre(options, document.diagnostics, scene);
   flatten(meshes.flat, meshes.shared, scene);
   const auto defaultMaterial = uint32_t(scene.materials.size() - 1);
-  warnThinned(thinOpenPanes(scene), document.diagnostics);
-  partSolids(scene);
-  partFromGlass(scene);
-  markLampsInSurfaces(scene);
-  if (scene.strokes.empty()) settleCreases(scene);  // else addStrokes() does it
-  for (const PlacedSphere& sphere : spheres) {
-    scene.spheres.push_back({glm::vec3(scene.space.localOf(sphere.center)),
-                             float(sphere.radius / scene.space.unit), glm::quat(sphere.rotation),
-                             sphere.material, sphere.node, sphere.nodeIndex});
-  }
-  scene.solids = solidsOf(scene);
+  settleSurfaces(spheres, document.diagnostics, scene);
   for (const PlacedNode& node : nodes) {
     if (node.hidden) continue;
     const auto light =
