@@ -13,7 +13,7 @@ COVERED = ("path", "shade", "lights", "lights/light_tree", "shutter/camera", "en
 # Types that hold none of these.
 PLAIN = ("void", "bool", "int", "uint", "uvec4")
 # Functions that only pass on what others return, or say nothing of light.
-WITHOUT = {"path.treeFrame", "path.pathRandom", "path.traceAnew", "path.extend", "path.goPast", "path.proceed", "caustics/light_path.traceSplat", "lights.noLight", "caustics/emit.noEmission", "sampling.toWorld", "sampling.toFrame",
+WITHOUT = {"path.treeFrame", "path.pathRandom", "path.traceAnew", "path.extend", "path.asExtension", "path.goPast", "path.proceed", "caustics/light_path.traceSplat", "lights.noLight", "caustics/emit.noEmission", "sampling.toWorld", "sampling.toFrame",
            "sampling.maxComponent", "energy.ggxLoss"}
 
 
