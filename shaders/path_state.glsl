@@ -21,7 +21,7 @@ const bool kMedia = (kScattering || kFog || kDensityGrid) && kDrawsLight;
 /// Light may be lost between surfaces.
 const bool kDims = (kAbsorption || kMedia) && kDrawsLight;
 
-/// What dims a shadow ray is known only once it is traced.
+/// A shadow ray is dimmed once it is traced: only then is known what it has passed.
 const bool kDimsLate = kMedia || (kDims && kPassing && !kLightPaths);
 
 /// Light may go straight through smooth glass, and shadow rays with it.

@@ -47,6 +47,16 @@ Face faceOf(const Scene& scene, uint32_t triangle) {
   return faceOf(cornersOf<dvec3>(scene, scene.triangles[triangle]));
 }
 
+/// The box of what lies nearer than so many errors.
+Bounds boxAround(const Face& face, double errors) {
+  Bounds around;
+  for (const dvec3& c : face.corners) around.include(glm::vec3(c));
+  const auto reach = float(errors * face.error);
+  around.minimum -= reach;
+  around.maximum += reach;
+  return around;
+}
+
 /// Returns true if the two overlap as seen along their common normal: no edge separates them by more than
 /// `least`.
 bool overlap(const Face& a, const Face& b, double least) {
@@ -155,12 +165,7 @@ bool doCoincide(const Face& a, const Face& b) {
 
 /// Marks the lamps with which a face coincides.
 void markAround(Scene& scene, const Bvh& bvh, const std::vector<uint32_t>& lamps, const Face& face) {
-  Bounds around;
-  for (const dvec3& c : face.corners) around.include(glm::vec3(c));
-  const auto reach = float(kCoincident * face.error);
-  around.minimum -= reach;
-  around.maximum += reach;
-  meetAll(bvh, around, [&](uint32_t primitive) {
+  meetAll(bvh, boxAround(face, kCoincident), [&](uint32_t primitive) {
     const Face lamp = faceOf(scene, lamps[primitive]);
     if (doCoincide(lamp, face)) coincide(scene.triangles[lamps[primitive]], std::max(lamp.error, face.error));
   });
@@ -179,12 +184,8 @@ size_t partFromGlass(Scene& scene) {
   size_t count = 0;
   for (const uint32_t i : opaque) {
     const Face face = faceOf(scene, i);
-    Bounds around = triangleBounds(scene, i);
-    const auto reach = float(kGap * face.error);
-    around.minimum -= reach;
-    around.maximum += reach;
     bool touches = false;
-    meetAll(bvh, around, [&](uint32_t primitive) {
+    meetAll(bvh, boxAround(face, kGap), [&](uint32_t primitive) {
       const uint32_t other = glass[primitive];
       const Material& material = scene.materials[scene.triangles[other].material];
       const Move move = moveOff(faceOf(scene, other), material.thicknessFactor > 0.0f, face);
@@ -218,11 +219,7 @@ void partSolids(Scene& scene) {
   for (uint32_t k = 0; k < glass.size(); ++k) {
     const uint32_t part = partOf[k];
     const Face face = faceOf(scene, glass[k]);
-    Bounds around = triangleBounds(scene, glass[k]);
-    const auto reach = float(kGap * face.error);
-    around.minimum -= reach;
-    around.maximum += reach;
-    meetAll(bvh, around, [&](uint32_t primitive) {
+    meetAll(bvh, boxAround(face, kGap), [&](uint32_t primitive) {
       const uint32_t other = partOf[primitive];
       const bool isSmaller = std::pair(sizes[part], part) < std::pair(sizes[other], other);
       if (part == other || !isSmaller) return;
@@ -233,8 +230,12 @@ void partSolids(Scene& scene) {
         moves.add(scene.vertices.position[scene.triangles[glass[k]].vertex[c]], move);
     });
   }
-  std::erase_if(glass, [&, k = size_t(0)](uint32_t) mutable { return !moved[partOf[k++]]; });
-  moves.apply(scene, glass);
+  std::vector<uint32_t> ofMoved;
+  for (uint32_t part = 0; part < parts.size(); ++part) {
+    const std::vector<uint32_t>& triangles = parts[part].triangles;
+    if (moved[part]) ofMoved.insert(ofMoved.end(), triangles.begin(), triangles.end());
+  }
+  moves.apply(scene, ofMoved);
 }
 
 void markLampsInSurfaces(Scene& scene) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Opaque faces that lie on glass, and lamps that lie in surfaces.
+// Faces that lie on glass, solids that touch, and lamps that lie in surfaces.
 #pragma once
 
 #include <cstddef>

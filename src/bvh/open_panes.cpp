@@ -57,7 +57,7 @@ struct Near {
   bool isOwn;
 };
 
-/// What the rule asks about a part.
+/// Tells of a part whether it is a pane.
 class PaneTest {
  public:
   PaneTest(const Scene& scene, const SolidPart& part) : scene_(scene), part_(part) {

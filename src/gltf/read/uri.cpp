@@ -158,11 +158,6 @@ std::string percentDecoded(std::string_view text) {
 
 bool isDataUri(std::string_view uri) { return uri.starts_with("data:"); }
 
-std::string_view mediaTypeOf(std::string_view dataUri) {
-  dataUri.remove_prefix(std::string_view("data:").size());
-  return dataUri.substr(0, dataUri.find_first_of(";,"));
-}
-
 std::filesystem::path pathOfUri(const FileAccess& access, std::string_view uri) {
   const std::string decoded = percentDecoded(uri);
   return access.folder / (isBackslashed(access, decoded) ? withSlashes(decoded) : decoded);

@@ -24,9 +24,6 @@ std::string percentDecoded(std::string_view text);
 
 bool isDataUri(std::string_view uri);
 
-/// The media type of a data URI, such as "image/png"; empty if it has none.
-std::string_view mediaTypeOf(std::string_view dataUri);
-
 /// The file that a relative URI names. Backslashes, escaped or not, are slashes where no file of that name
 /// exists.
 std::filesystem::path pathOfUri(const FileAccess& access, std::string_view uri);
