@@ -183,6 +183,15 @@ def caustic_ground(gltf):
     gltf.add_camera("camera", (0.2, 3, 0.3), (0.2, 0, 0), 30)
 
 
+@scene("behind-glass")
+def behind_glass(gltf):
+    """Ground that the camera sees through a slab of glass, through which its light comes, too: guiding alone finds the lamp."""
+    place_quad(gltf, "ground", ground(1, 1), gltf.add_lambert("ground", (0.7, 0.7, 0.7)))
+    place_faces(gltf, "slab", box_faces((-1, 0.4, -1), (1, 0.5, 1)), glass(gltf, "clear", thicknessFactor=1))
+    place_backed_lamp(gltf, 0.25, (20, 20, 20), [-0.3, 1.5, -0.2])
+    gltf.add_camera("camera", (1, 2, 1.2), (0, 0.3, 0), 20)
+
+
 # Textures, emitters, coverage
 
 def layers_texel(x, y):

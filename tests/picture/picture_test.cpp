@@ -25,6 +25,9 @@ constexpr double kMeanBias = 0.005;
 /// The largest difference of two renderers in float and double without any noise, relative to a pixel plus a
 /// tenth of the picture's mean: texels are half floats (2^-12 = 2.4e-4).
 constexpr double kRounding = 3e-4;
+/// The noise of a picture may be so many times that of references.json: the square root of its relmse at its fixed
+/// seed, which any change of what is drawn changes.
+constexpr double kMoreNoise = 1.03;
 constexpr int kBlocks[] = {1,
                            4};  // pixels per side: each pixel, and averages that show what is small and wide
 constexpr int kOptions = 6;     // the first argument that is one
@@ -121,6 +124,16 @@ bool meansAgree(const Image& a, const Image& b, double noise) {
   return ok;
 }
 
+/// Returns true if the picture is no noisier than the row says. A row without a number is not judged.
+bool isAsQuiet(const nlohmann::json& entry, double noise) {
+  if (!entry.contains("noise")) return true;
+  const double stored = entry["noise"]["value"];
+  std::printf("noise: %.6g, %.4f times that of references.json (limit %.2f)\n", noise, noise / stored, kMoreNoise);
+  if (noise <= kMoreNoise * stored) return true;
+  std::printf("FAILED: noisier. If other random numbers are why: tests/reference/renew_noise.py\n");
+  return false;
+}
+
 /// The arguments of the program that draw a row of references.json.
 std::string renderWords(const nlohmann::json& entry, const std::string& output, const std::string& backend) {
   const int spp = entry.value("test_spp", entry["stage"] == "gi" ? 256 : 64);
@@ -182,6 +195,7 @@ int run(std::span<char*> argv) {
   }
   const double meanNoise = 4.0 * std::sqrt(sumVariance) / (double(a.width) * a.height);
   ok = meansAgree(a, b, meanNoise) && ok;
+  ok = isAsQuiet(*entry, std::sqrt(difference.relmse)) && ok;
   if (ok) return 0;
   fragtrace::writeImage(base + ".reference.exr", b);
   fragtrace::writeImage(base + ".difference.exr", fragtrace::differenceImage(a, b));
