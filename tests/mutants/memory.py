@@ -1,36 +1,31 @@
 # SPDX-License-Identifier: MIT
-"""The knowledge of earlier runs: the faults that are settled (for this tree of shaders and tests), the tests that see
-them, and how long these take."""
+"""The knowledge of earlier runs: the faults that are settled, the tests that see them, and how long these take."""
 import hashlib
 import json
 import threading
 from collections import Counter
 
-from suite import likely
+SECONDS = {"picture": 3, "command": 20, "pure": 40}  # of tests that were never run
 
 
-def tree_of(source):
-    """Names all that a verdict depends on."""
-    digest = hashlib.sha256()
-    for folder in ("shaders", "src", "bench", "scenes", "tests"):
-        for path in sorted((source / folder).rglob("*")):
-            if path.is_file() and "mutants" not in path.parts and "__pycache__" not in path.parts:
-                digest.update(str(path.relative_to(source)).encode() + b"\0" + path.read_bytes())
-    return digest.hexdigest()[:16]
+def function_of(name):
+    return name.split()[0]
 
 
 class Memory:
-    def __init__(self, path, hints, tree):
-        self.path, self.tree, self.lock = path, tree, threading.Lock()
+    def __init__(self, path, hints, texts):
+        """hints: a file that says which test has seen a fault of a function; texts: the functions' texts by FILE.FUNCTION."""
+        self.path, self.texts, self.lock = path, texts, threading.Lock()
         self.known = json.loads(path.read_text()) if path.exists() else {"verdicts": {}, "sound": {}, "seconds": {}}
         self.hints = json.loads(hints.read_text()) if hints.exists() else {}
-        self.hints |= {name: verdict["seen_by"] for name, verdict in self.known["verdicts"].items() if verdict["seen_by"]}
+        self.hints |= {function_of(name): verdict["seen_by"] for name, verdict in self.known["verdicts"].items() if verdict["seen_by"]}
 
     def key(self, fault):
-        return hashlib.sha256("\0".join([self.tree, *fault[:3]]).encode()).hexdigest()[:16]
+        """A verdict lasts until the function changes."""
+        return hashlib.sha256("\0".join((self.texts[function_of(fault.name)], fault.name, fault.after)).encode()).hexdigest()[:16]
 
     def verdict(self, fault):
-        """Returns what was found for this very fault and tree, or None."""
+        """Returns what was found for this fault of this function, or None."""
         verdict = self.known["verdicts"].get(fault.name)
         return verdict if verdict and verdict["key"] == self.key(fault) else None
 
@@ -38,18 +33,18 @@ class Memory:
         with self.lock:
             self.known["verdicts"][fault.name] = {"key": self.key(fault), "seen_by": seen_by, "seconds": round(seconds, 1)}
             if seen_by:
-                self.hints[fault.name] = seen_by
+                self.hints[function_of(fault.name)] = seen_by
             self.save()
 
     def is_sound(self, test):
         """Returns true if the test passes without a fault, or None if that is not known."""
-        return self.known["sound"].get(f"{self.tree} {test}")
+        return self.known["sound"].get(test)
 
     def note(self, test, seconds, sound=None):
         with self.lock:
             self.known["seconds"][test] = round(seconds, 1)
             if sound is not None:
-                self.known["sound"][f"{self.tree} {test}"] = sound
+                self.known["sound"][test] = sound
             self.save()
 
     def save(self):
@@ -57,13 +52,13 @@ class Memory:
         part.write_text(json.dumps(self.known, indent=1))
         part.replace(self.path)
 
+    def seconds_of(self, test):
+        return self.known["seconds"].get(test, SECONDS[test.split(".")[0]])
+
     def in_order(self, fault, tests):
-        """The one that saw this fault before, then those that are likely to, then those that saw many faults of its file, and are short."""
+        """The one that saw a fault of this function before, then those that saw many of its file, and are short."""
         with self.lock:
-            near = Counter(test for name, test in self.hints.items() if name.split(".")[0] + ".glsl" == fault.file)
+            near = Counter(test for name, test in self.hints.items() if name.rsplit(".", 1)[0] == function_of(fault.name).rsplit(".", 1)[0])
             far = Counter(self.hints.values())
-        usual = {"picture": 3, "command": 20, "pure": 40}
-        seconds = lambda test: self.known["seconds"].get(test, usual[test.split(".")[0]])
-        worth = lambda test: (4 * near[test] + far[test] + 0.5) / (seconds(test) + 1)
-        guessed = likely(fault.name)
-        return sorted(tests, key=lambda test: (test != self.hints.get(fault.name), guessed.index(test) if test in guessed else len(guessed), -worth(test)))
+        worth = lambda test: (4 * near[test] + far[test] + 0.5) / (self.seconds_of(test) + 1)
+        return sorted(tests, key=lambda test: (test != self.hints.get(function_of(fault.name)), -worth(test)))

@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""tests/mutants/mutants.py BUILD [--only WORD ...] [--some COUNT --seed N] [--jobs N] [--first N] [--check] [--remember]: puts each fault of rows*.py into the shaders and
-looks for a test that fails. Goes on where it was interrupted (BUILD/mutants/state.json). Status 1 when a fault survives that has no reason to.
+"""tests/mutants/mutants.py BUILD [--only WORD ...] [--some COUNT [--seed SEED]] [--seconds S] [--jobs N] [--list] [--remember]: puts each fault of made.py into the
+shaders and looks for a test that fails, S seconds at most for each (60). Goes on where it was interrupted (BUILD/mutants/state.json). Status 1 when a fault
+survives that has no reason to (reasons.json).
 
---first: tries only the first N tests of each, to learn which see what. --check: only that every key is found once and every function has a fault. --remember: writes which test saw what to seen_by.json, to be tried first."""
+--some: so many faults, chosen by SEED, by default the hash of the commit. --list: only their names, and those reasons that name no fault. --remember: writes which
+test saw faults of a function to seen_by.json, to be tried first."""
 import argparse
 import json
 import random
+import subprocess
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -14,13 +17,14 @@ from pathlib import Path
 from threading import Lock
 from types import SimpleNamespace
 
-from memory import Memory, tree_of
-from rows import ROWS, check
-from suite import Compiler, drawing_tests, unknown_tests
+from made import all_faults, function_texts
+from memory import Memory, function_of
+from suite import Compiler, drawing_tests
 from trial import Trial
 
 HERE = Path(__file__).resolve().parent
-HINTS = HERE / "seen_by.json"
+SOURCE = HERE.parent.parent
+HINTS, REASONS = HERE / "seen_by.json", HERE / "reasons.json"
 
 
 def sound(setting, memory, test):
@@ -35,73 +39,80 @@ def sound(setting, memory, test):
 
 def settle(setting, memory, fault):
     began = time.monotonic()
+    spent = lambda: time.monotonic() - began
     with Trial(setting, fault) as trial:
-        tests = memory.in_order(fault, trial.tests())
-        for test in tests[:setting.first]:
+        if trial.refused:
+            memory.settle(fault, "the driver, which refuses the text", spent())
+            return
+        for test in memory.in_order(fault, trial.tests()):
+            if spent() + memory.seconds_of(test) > setting.seconds:
+                continue
             passed, seconds = trial.passes(test)
             if passed:
                 memory.note(test, seconds)
-                print(f"{fault.name}: not seen by {test}, {seconds:.0f} s", flush=True)
             elif sound(setting, memory, test):
-                memory.settle(fault, test, time.monotonic() - began)
-                print(f"{fault.name}: seen by {test}, {time.monotonic() - began:.0f} s", flush=True)
+                memory.settle(fault, test, spent())
+                print(f"{fault.name}: seen by {test}, {spent():.0f} s", flush=True)
                 return
             else:
                 print(f"{test} fails without a fault: it is left out", flush=True)
-    if setting.first:
-        print(f"{fault.name}: not seen by {', '.join(tests[:setting.first])}", flush=True)
-        return
-    memory.settle(fault, "", time.monotonic() - began)
-    print(f"{fault.name}: SURVIVES ({fault.what}), {time.monotonic() - began:.0f} s", flush=True)
+    memory.settle(fault, "", spent())
+    print(f"{fault.name}: SURVIVES, {spent():.0f} s", flush=True)
+
+
+def reason_for(fault, reasons):
+    return reasons.get(fault.name) or reasons.get(function_of(fault.name))
+
+
+def chosen_of(options, faults, reasons):
+    faults = [fault for fault in faults if not options.only or any(word in fault.name for word in options.only)]
+    if not options.some:
+        return faults
+    seed = options.seed or subprocess.check_output(["git", "-c", f"safe.directory={SOURCE}", "rev-parse", "HEAD"], cwd=SOURCE, text=True).strip()
+    chosen = random.Random(seed).sample([fault for fault in faults if not reason_for(fault, reasons)], options.some)
+    print(f"chosen by {seed}: {', '.join(fault.name for fault in chosen)}", flush=True)
+    return chosen
 
 
 def main():
-    options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    options.add_argument("build", type=Path)
-    options.add_argument("--only", nargs="+", default=[])
-    options.add_argument("--some", type=int)
-    options.add_argument("--seed", type=int, default=1)
-    options.add_argument("--jobs", type=int, default=2)
-    options.add_argument("--first", type=int)
-    options.add_argument("--check", action="store_true")
-    options.add_argument("--remember", action="store_true")
-    chosen = options.parse_args()
-    source, build = HERE.parent.parent, chosen.build.resolve()
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build", type=Path)
+    parser.add_argument("--only", nargs="+", default=[])
+    parser.add_argument("--some", type=int)
+    parser.add_argument("--seed")
+    parser.add_argument("--seconds", type=float, default=60)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--list", action="store_true")
+    parser.add_argument("--remember", action="store_true")
+    options = parser.parse_args()
+    every, reasons = all_faults(SOURCE / "shaders"), json.loads(REASONS.read_text())
+    faults = chosen_of(options, every, reasons)
+    if options.list:
+        known = {name for fault in every for name in (fault.name, function_of(fault.name))}
+        print("\n".join(fault.name for fault in faults))
+        return "".join(f"reasons.json: there is no {name}\n" for name in sorted(set(reasons) - known)) or 0
 
-    if wrong := check(source / "shaders") + unknown_tests(source, ROWS):
-        print("\n".join(wrong))
-        return 1
-    if chosen.check:
-        return 0
-    rows = [row for row in ROWS if not chosen.only or any(word in row.name for word in chosen.only)]
-    if chosen.some:
-        rows = random.Random(chosen.seed).sample([row for row in rows if not row.reason], chosen.some)
-
+    build = options.build.resolve()
     folder = build / "mutants"
     folder.mkdir(exist_ok=True)
-    setting = SimpleNamespace(source=source, build=build, folder=folder, program=build / "fragtrace", drawing=drawing_tests(build),
-                              compiler=Compiler(source, build), lock_of_sound=Lock(), first=chosen.first)
-    memory = Memory(folder / "state.json", HINTS, tree_of(source))
+    setting = SimpleNamespace(source=SOURCE, build=build, folder=folder, program=build / "fragtrace", drawing=drawing_tests(build),
+                              compiler=Compiler(SOURCE, build), lock_of_sound=Lock(), seconds=options.seconds)
+    memory = Memory(folder / "state.json", HINTS, function_texts(SOURCE / "shaders"))
     began = time.monotonic()
-    left = [row for row in rows if not memory.verdict(row) and not (chosen.first and (row.reason or row.name in memory.hints))]
-    left.sort(key=lambda row: (bool(row.reason), row.name in memory.hints))  # what takes long first, but what is expected to survive last: it is put to every test
-    with ThreadPoolExecutor(chosen.jobs) as pool:
-        list(pool.map(lambda row: settle(setting, memory, row), left))
-    if chosen.first:
-        return 0
+    try:
+        with ThreadPoolExecutor(options.jobs) as pool:
+            list(pool.map(lambda fault: settle(setting, memory, fault), [fault for fault in faults if not memory.verdict(fault)]))
+    finally:
+        if options.remember:
+            HINTS.write_text(json.dumps({name: memory.hints[name] for name in sorted(memory.hints) if name in memory.texts}, indent=0) + "\n")
 
-    verdicts = {row: memory.verdict(row) for row in rows}
-    survivors = [row for row, verdict in verdicts.items() if not verdict["seen_by"]]
-    for row in survivors:
-        print(f"SURVIVES: {row.name}: {row.what}" + (f"; changes no picture because {row.reason}" if row.reason else ""))
-    for row in rows:
-        if row.reason and row not in survivors:
-            print(f"{row.name} has a reason to survive, but is seen by {verdicts[row]['seen_by']}")
-    if chosen.remember:
-        HINTS.write_text(json.dumps({row.name: memory.hints[row.name] for row in ROWS if row.name in memory.hints}, indent=0, sort_keys=True) + "\n")
-    spent = sum(verdict["seconds"] for verdict in verdicts.values())
-    print(f"{len(rows)} faults, {len(rows) - len(survivors)} seen; {time.monotonic() - began:.0f} s now, {spent:.0f} s in all by one job")
-    return int(any(not row.reason for row in survivors))
+    survivors = [fault for fault in faults if not memory.verdict(fault)["seen_by"]]
+    for fault in survivors:
+        reason = reason_for(fault, reasons)
+        print(f"SURVIVES: {fault.name}: {fault.after}" + (f"; because {reason}" if reason else ""))
+    spent = sum(memory.verdict(fault)["seconds"] for fault in faults)
+    print(f"{len(faults)} faults, {len(faults) - len(survivors)} seen; {time.monotonic() - began:.0f} s now, {spent:.0f} s in all by one job")
+    return int(any(not reason_for(fault, reasons) for fault in survivors))
 
 
 if __name__ == "__main__":
