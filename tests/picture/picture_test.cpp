@@ -25,8 +25,8 @@ constexpr double kMeanBias = 0.005;
 /// The largest difference of two renderers in float and double without any noise, relative to a pixel plus a
 /// tenth of the picture's mean: texels are half floats (2^-12 = 2.4e-4).
 constexpr double kRounding = 3e-4;
-/// The noise of a picture may be so many times that of references.json: the square root of its relmse at its fixed
-/// seed, which any change of what is drawn changes.
+/// The noise of a picture may be so many times that of references.json: the square root of its relmse at its
+/// fixed seed, which any change of what is drawn changes.
 constexpr double kMoreNoise = 1.03;
 constexpr int kBlocks[] = {1,
                            4};  // pixels per side: each pixel, and averages that show what is small and wide
@@ -128,7 +128,8 @@ bool meansAgree(const Image& a, const Image& b, double noise) {
 bool isAsQuiet(const nlohmann::json& entry, double noise) {
   if (!entry.contains("noise")) return true;
   const double stored = entry["noise"]["value"];
-  std::printf("noise: %.6g, %.4f times that of references.json (limit %.2f)\n", noise, noise / stored, kMoreNoise);
+  std::printf("noise: %.6g, %.4f times that of references.json (limit %.2f)\n", noise, noise / stored,
+              kMoreNoise);
   if (noise <= kMoreNoise * stored) return true;
   std::printf("FAILED: noisier. If other random numbers are why: tests/reference/renew_noise.py\n");
   return false;

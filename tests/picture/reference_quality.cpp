@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests whether the stored references are good enough to judge by: the standard error of every one that
-// Mitsuba rendered, relative to the picture's mean, is bounded in the median pixel and in every block. And whether
-// every row holds the noise of our own picture. usage: reference_quality FOLDER
+// Mitsuba rendered, relative to the picture's mean, is bounded in the median pixel and in every block. And
+// whether every row holds the noise of our own picture. usage: reference_quality FOLDER
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -75,7 +75,8 @@ int main(int argc, char** argv) {
       const bool rendered = entry["made_by"] == "render_mitsuba" && !entry.contains("same_as");
       if (rendered) good = goodEnough(folder, entry["name"]) && good;
       if (entry.contains("noise")) continue;
-      std::printf("%s has no noise: tests/reference/renew_noise.py\n", entry["name"].get<std::string>().c_str());
+      std::printf("%s has no noise: tests/reference/renew_noise.py\n",
+                  entry["name"].get<std::string>().c_str());
       good = false;
     }
     return good ? 0 : 1;
