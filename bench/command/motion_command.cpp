@@ -191,7 +191,7 @@ class References {
   std::optional<WindowPicture> window_;
 };
 
-/// Means over the pictures that were kept.
+/// The mean errors of the pictures that were kept.
 struct MotionError {
   double relmse = 0.0;
   double flip = 0.0;

@@ -40,9 +40,9 @@ struct ErrorStep {
 };
 std::vector<ErrorStep> stepsOf(const ErrorCurve& curve);
 
-/// When (in seconds, or in samples) a curve reaches a relative MSE: between its steps by a power law, beyond
+/// The seconds and samples at which a curve reaches a relative MSE: between its steps by a power law, beyond
 /// its last as 1 / N. Nothing when the last step is still above it and has fewer than 64 samples or is
-/// filtered: nothing is known of how a filter goes on.
+/// filtered: nothing is known of how a filter continues.
 struct Reached {
   double seconds = 0.0;
   double samples = 0.0;

@@ -176,7 +176,7 @@ double solidAngle(const std::array<glm::dvec3, 3>& corners) {
   return 2.0 * std::atan2(glm::dot(a, glm::cross(b, c)), below);
 }
 
-/// How often the boundary of the part goes round a point of its space.
+/// Returns how often the boundary of the part winds around a point of its space.
 double windingNumber(const Solids& solids, const ClosedPart& part, const glm::dvec3& point) {
   const glm::dvec3 low(part.box.minimum);
   const glm::dvec3 high(part.box.maximum);

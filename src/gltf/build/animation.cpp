@@ -180,7 +180,7 @@ Keyframes pieceAt(const Keyframes& keys, double moment) {
   return piece;
 }
 
-/// What leads from `at` as far as `value` does, the other way. A scale keeps its sign.
+/// Returns the value that lies as far from `at` as `value` does, the other way. A scale keeps its sign.
 std::vector<double> mirroredAt(const Keyframes& keys, const std::vector<double>& at,
                                std::vector<double> value) {
   if (keys.isRotation) {

@@ -93,7 +93,7 @@ class Diagnostics {
     }
   }
 
-  /// Does the same, and the reason loses that place, unless it is AtStake.
+  /// Runs an action as attempt() does; the reason loses that place instead, unless it is AtStake.
   template <typename Action>
   auto attemptObject(std::string_view place, const Action& action) const {
     try {
@@ -111,7 +111,7 @@ class Diagnostics {
   /// makes one line with a count and the first place.
   void warn(std::string_view place, std::string_view reason, size_t count = 1);
 
-  /// Does the same with what is no fault of the file, but follows from the user's options.
+  /// Notes something that follows from the user's options, and is no fault of the file.
   void remark(std::string_view place, std::string_view reason);
 
   /// One line for each reason, in the order of their first appearance; remarks, too, unless only faults are

@@ -27,7 +27,8 @@ int hexValue(char c) {
 
 constexpr std::string_view kWhiteSpace = " \t\n\r\f";
 
-/// What is no character of base64 and has an obvious meaning: white space, and escapes of what is base64.
+/// Returns true if base64 has white space or escapes, which are none of its characters and have an obvious
+/// meaning.
 bool isBase64Escaped(std::string_view text) {
   return text.find('%') != text.npos || text.find_first_of(kWhiteSpace) != text.npos;
 }

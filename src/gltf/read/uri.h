@@ -28,7 +28,7 @@ bool isDataUri(std::string_view uri);
 /// exists.
 std::filesystem::path pathOfUri(const FileAccess& access, std::string_view uri);
 
-/// What is odd about a URI and has an obvious reading, and that reading; empty: nothing.
+/// Returns a message about an odd URI with an obvious reading, which says that reading; empty: it is not odd.
 std::string oddityOf(const FileAccess& access, std::string_view uri);
 
 /// Returns true if it is a relative URI, within the folder, to a file that is not there.

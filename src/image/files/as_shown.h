@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the header of a picture says about its values.
+// Applies to the values of a picture what its header says about them.
 #pragma once
 
 #include "image/files/header.h"

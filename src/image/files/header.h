@@ -14,7 +14,7 @@ namespace fragtrace {
 
 inline constexpr int kMostTextureChannels = 4;
 
-/// What the header of an .hdr says about its pixels.
+/// The form in which an .hdr holds its pixels, by its header.
 struct HdrForm {
   bool columns = false;  ///< scan lines are columns of the picture
   bool fromRight = false;

@@ -68,8 +68,9 @@ struct Layers {
   bool variance = false;  ///< variance.Y: of the mean's luminance
 };
 
-/// Means of the samples, the first row at the top. If `variance` is not empty, it holds a better estimate
-/// than FilmPixel::variance, in the order of the pixels. The image says if its luminance is that over white.
+/// Returns the means of the samples, the first row at the top. If `variance` is not empty, it holds a better
+/// estimate than FilmPixel::variance, in the order of the pixels. The image says if its luminance is that
+/// over white.
 Image imageOf(const FilmPixels& film, const Layers& layers, std::span<const double> variance = {});
 
 /// One channel, Y: number(i) of pixel i of a film of that size, the first row at the top.

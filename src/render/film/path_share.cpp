@@ -15,7 +15,7 @@ namespace {
 /// A light path also draws two points.
 constexpr double kPointsAsRays = 1.0;
 
-/// What camera paths alone are to gain, and to meet: a small picture may have missed rare light.
+/// Camera paths alone draw only if they gain and meet that much: a small picture may have missed rare light.
 constexpr double kLeastGain = 2.0;
 constexpr double kLeastMet = 0.5;
 constexpr int kSmooth = 4;  // pixels
@@ -52,7 +52,7 @@ std::vector<double> scalesOf(const FilmPixels& film) {
   return scales;
 }
 
-/// Means of squares of kSmooth pixels beside each pixel.
+/// Returns the mean of each pixel and its neighbours, kSmooth pixels to each side.
 std::vector<double> smoothed(const std::vector<double>& values, glm::ivec2 size) {
   std::vector<double> means;
   means.reserve(values.size());

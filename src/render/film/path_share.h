@@ -25,9 +25,9 @@ struct LightPaths {
   double squared = 0.0;  ///< of the squared weights
 };
 
-/// For how many pixels a picture has the least variance times cost with one light path per sample: a power of
-/// two, up to kMostPixelsPerPath. `camera` holds the camera paths of a small picture, `both` the same with
-/// light paths. Rays count as cost, so that the answer depends on no clock.
+/// Returns for how many pixels a picture has the least variance times cost with one light path per sample: a
+/// power of two, up to kMostPixelsPerPath. `camera` holds the camera paths of a small picture, `both` the
+/// same with light paths. Rays count as cost, so that the answer depends on no clock.
 ///
 /// A sample per pixel has the variance V + n W and costs C + D / n, with one path of variance W and cost D
 /// for n pixels. The product is least at n^2 = V D / (W C). Variances are relative: over the squared sum of
