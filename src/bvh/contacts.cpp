@@ -200,8 +200,7 @@ size_t partFromGlass(Scene& scene) {
   return count;
 }
 
-void partSolids(Scene& scene) {
-  const std::vector<SolidPart> parts = solidParts(scene, 0, flatTriangleCount(scene));
+void partSolids(Scene& scene, const std::vector<SolidPart>& parts) {
   if (parts.size() < 2) return;
   std::vector<uint32_t> glass;
   std::vector<uint32_t> partOf;

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "scene/scene.h"
+#include "scene/solids.h"
 
 namespace fragtrace {
 
@@ -19,7 +20,7 @@ size_t partFromGlass(Scene& scene);
 /// same place, such as that of water that fills a glass. Where faces of two parts of solids coincide or lie
 /// nearer than four offsets, those of the smaller part are moved inwards by so much. Instances of shared
 /// meshes and spheres stay where they are.
-void partSolids(Scene& scene);
+void partSolids(Scene& scene, const std::vector<SolidPart>& parts);
 
 /// Marks emissive triangles with which another surface coincides (scene/coincidence.h).
 void markLampsInSurfaces(Scene& scene);

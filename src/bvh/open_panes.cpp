@@ -81,6 +81,8 @@ class PaneTest {
                      std::ranges::binary_search(part_.triangles, triangle)});
   }
 
+  const SolidPart& part() const { return part_; }
+
   bool isPane() const {
     const bool isFlat = thickness_ <= kThickestPane * size_ && flatness() <= thickness_;
     return (isFlat || hangsFree()) && !liesOverBed();
@@ -151,9 +153,11 @@ std::vector<PaneTest> testsOf(const Scene& scene, const std::vector<SolidPart>& 
   std::vector<PaneTest> tests;
   std::vector<Bounds> reaches;
   for (const SolidPart& part : parts) {
+    if (part.open.empty()) continue;
     tests.emplace_back(scene, part);
     reaches.push_back(tests.back().reach());
   }
+  if (tests.empty()) return tests;
   const Bvh bvh = buildBvh(std::move(reaches), uint32_t(tests.size()));
   for (uint32_t i = 0; i < flatTriangleCount(scene); ++i)
     meetAll(bvh, triangleBounds(scene, i), [&](uint32_t test) { tests[test].addNear(i); });
@@ -162,24 +166,23 @@ std::vector<PaneTest> testsOf(const Scene& scene, const std::vector<SolidPart>& 
 
 }  // namespace
 
-std::map<std::string, size_t> thinOpenPanes(Scene& scene) {
+std::map<std::string, size_t> thinOpenPanes(Scene& scene, std::vector<SolidPart>& parts) {
   std::map<std::string, size_t> count;
-  std::vector<SolidPart> parts = solidParts(scene, 0, flatTriangleCount(scene));
-  std::erase_if(parts, [](const SolidPart& part) { return part.open.empty(); });
-  if (parts.empty()) return count;
-  const std::vector<PaneTest> tests = testsOf(scene, parts);
   std::map<uint32_t, uint32_t> copies;
-  for (size_t i = 0; i < parts.size(); ++i) {
-    if (!tests[i].isPane()) continue;
-    const uint32_t material = parts[i].material;
+  for (const PaneTest& test : testsOf(scene, parts)) {
+    if (!test.isPane()) continue;
+    const uint32_t material = test.part().material;
     ++count[scene.materials[material].place];
     const auto [copy, isNew] = copies.try_emplace(material, uint32_t(scene.materials.size()));
     if (isNew) {
       scene.materials.push_back(scene.materials[material]);
       scene.materials.back().thicknessFactor = 0.0f;
     }
-    for (const uint32_t triangle : parts[i].triangles) scene.triangles[triangle].material = copy->second;
+    for (const uint32_t triangle : test.part().triangles) scene.triangles[triangle].material = copy->second;
   }
+  std::erase_if(parts, [&](const SolidPart& part) {
+    return scene.triangles[part.triangles[0]].material != part.material;
+  });
   return count;
 }
 

@@ -159,8 +159,9 @@ void settle(const Diagnostics& diagnostics, const GltfOptions& options, Scene& s
 /// Settles what follows from where surfaces are in local space: panes, solids, what lies at one place,
 /// creases.
 void settleSurfaces(const std::vector<PlacedSphere>& spheres, Diagnostics& diagnostics, Scene& scene) {
-  warnThinned(thinOpenPanes(scene), diagnostics);
-  partSolids(scene);
+  std::vector<SolidPart> parts = solidParts(scene, 0, flatTriangleCount(scene));
+  warnThinned(thinOpenPanes(scene, parts), diagnostics);
+  partSolids(scene, parts);
   partFromGlass(scene);
   markLampsInSurfaces(scene);
   if (scene.strokes.empty()) settleCreases(scene);  // else addStrokes() does it
