@@ -92,7 +92,8 @@ Environment makeEnvironment(const RenderOptions& options, std::future<LinearImag
     };
     warnOf(found.negative, " below 0, which is no light, taken as 0");
     warnOf(found.infinite, " without bound, taken as 65504");
-    warnOf(found.noNumber, " that is no number, taken as 0");
+    warnOf(found.noNumber,
+           found.noNumber == 1 ? " that is no number, taken as 0" : " that are no numbers, taken as 0");
     if (read.wasEncoded)
       warn(options, ": holds no light above 1, so no sun and no lamp; an .hdr, .exr or .pfm does", warnings);
     // Mirror balls and faces of cubes are square; there is one reading of an environment here.

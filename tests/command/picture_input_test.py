@@ -77,8 +77,37 @@ class PicturesAsInput(Case):
         self.assertEqual(self.differs(path, self.right([tuple(v / 8 for v in p) for p in PIXELS]), says="in.hdr: is divided by its EXPOSURE, 8"), 0)
         path = self.hdr(f"-Y {H} +X {W}", places, "COLORCORR=1 2 4\nEXPOSURE=2\n")
         self.assertEqual(self.differs(path, self.right([(p[0] / 2, p[1] / 4, p[2] / 8) for p in PIXELS]), says="COLORCORR, 2, 4, 8"), 0)
-        path = self.hdr(f"-Y {H} +X {W}", places, "EXPOSURE=0\nEXPOSURE=x\nEXPOSURE=1\n")
+        for value in ("0", "-1", "nan", "abc", "inf", "1e999", ""):
+            path = self.hdr(f"-Y {H} +X {W}", places, f"EXPOSURE={value}\n")
+            self.assertEqual(self.differs(path, self.right(), says="has an EXPOSURE or COLORCORR that is no number above 0, and is ignored"), 0)
+        path = self.hdr(f"-Y {H} +X {W}", places, "EXPOSURE=1\n")
         self.assertEqual(self.differs(path, self.right()), 0)
+
+    def test_headers_of_an_hdr(self):
+        """Without a FORMAT, with white space at the end of lines; one of another format is refused by name."""
+        pixels = b"".join(map(rgbe, PIXELS))
+        path = self.folder / "in.hdr"
+        for head, says in (("#?RADIANCE\n", "has no FORMAT in its header, and is read as 32-bit_rle_rgbe"), ("#?RGBE\n# by hand\nFORMAT= 32-bit_rle_rgbe \n", ""),
+                           ("#?RADIANCE\r\nFORMAT=32-bit_rle_rgbe\r\n\r", "")):
+            path.write_bytes(head.encode() + f"\n-Y {H} +X {W}\n".encode() + pixels)
+            self.assertEqual(self.differs(path, self.right(), says=says), 0, head)
+        for form in ("32-bit_rle_xyze", "\x1b[2J"):
+            path.write_bytes(f"#?RADIANCE\nFORMAT={form}\n\n-Y {H} +X {W}\n".encode() + pixels)
+            self.fails(3, "diff", path, self.right(), says=["its FORMAT is not 32-bit_rle_rgbe, the only one that is read"])
+
+    def test_comments_of_a_pfm(self):
+        plain = self.pfm(PIXELS).read_bytes()
+        pixels = plain.split(b"\n", 3)[3]
+        path = self.folder / "in.txt"
+        for head in ("PF\n# by hand\n3 2\n-1.0\n", "PF # PF\n3 # width\n2\n#\n# 7\n-1.0\n", "PF\n3 2\n-1.0\n# by hand\n"):
+            path.write_bytes(head.encode() + pixels)
+            self.assertEqual(self.differs(path, self.right()), 0, head)
+        first = struct.unpack("<f", b"#\n#\n")[0]  # pixels that look like a comment
+        values = [PIXELS[0]] * 3 + [(first, 1.0, 1.0)] + [PIXELS[0]] * 2
+        self.assertEqual(self.differs(self.pfm(values), self.right(values)), 0)
+        for head, says in (("PF\n3 x\n-1.0\n", "it has no height"), ("PF\n3 2\n0\n", "it has no scale"), ("PF\n# 3 2\n", "it has no ")):
+            path.write_bytes(head.encode() + pixels)
+            self.fails(3, "diff", path, self.right(), says=["the PFM header is wrong: " + says])
 
     def test_the_scale_of_a_pfm_counts(self):
         self.assertEqual(self.differs(self.pfm(PIXELS, -3.0), self.right([tuple(3 * v for v in p) for p in PIXELS])), 0)
@@ -164,6 +193,7 @@ class PicturesAsInput(Case):
         picture = self.drawn(self.pfm(values), says=["warning: ", "in.txt: 1 value without bound, taken as 65504", "in.txt: 1 value that is no number, taken as 0",
                                                      "in.txt: 1 value below 0"])
         self.assertEqual(picture, self.drawn(self.pfm(settled)))
+        self.drawn(self.pfm([(math.nan,) * 3] + [(1.0,) * 3] * 5), says=["in.txt: 3 values that are no numbers, taken as 0"])
 
 
 if __name__ == "__main__":

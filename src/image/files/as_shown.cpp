@@ -129,6 +129,10 @@ void convertToRec709(Image& image) {
 Image asShown(Image stored, const ImageHeader& header) {
   Image image = namedParts(asTurned(std::move(stored), header));
   takeExposureBack(image, header.hdr.exposure);
+  if (header.hdr.hasVainExposure)
+    image.notes.emplace_back("has an EXPOSURE or COLORCORR that is no number above 0, and is ignored");
+  if (header.format == ImageFormat::Hdr && !header.hdr.namesFormat)
+    image.notes.emplace_back("has no FORMAT in its header, and is read as 32-bit_rle_rgbe");
   convertToRec709(image);
   if (header.overscan != glm::ivec2(0))
     image.notes.push_back(

@@ -146,12 +146,38 @@ std::string_view cutWord(std::string_view& text) {
 void addExposure(HdrForm& form, std::string_view line) {
   const bool isOne = line.starts_with("EXPOSURE=");
   if (!isOne && !line.starts_with("COLORCORR=")) return;
-  line.remove_prefix(line.find('=') + 1);
+  std::string_view values = line.substr(line.find('=') + 1);
   double factor = 0.0;
   for (size_t c = 0; c < 3; ++c) {
-    if (c == 0 || !isOne) factor = numberOfAll<double>(cutWord(line)).value_or(1.0);
-    if (factor > 0.0 && std::isfinite(factor)) form.exposure[c] *= factor;
+    if (c == 0 || !isOne) factor = numberOfAll<double>(cutWord(values)).value_or(0.0);
+    if (factor > 0.0 && std::isfinite(factor))
+      form.exposure[c] *= factor;
+    else
+      form.hasVainExposure = true;
   }
+}
+
+/// Takes the next line off the bytes, without white space at its end.
+std::string_view takeLine(std::string_view& text) {
+  const size_t end = text.find('\n');
+  if (end == text.npos) refuseTruncated();
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(end + 1);
+  return line.substr(0, line.find_last_not_of(" \t\r") + 1);
+}
+
+/// Reads the lines of text up to the empty one.
+HdrForm readHdrLines(std::string_view& text) {
+  HdrForm form;
+  for (std::string_view line = takeLine(text); !line.empty(); line = takeLine(text)) {
+    addExposure(form, line);
+    if (!line.starts_with("FORMAT=")) continue;
+    std::string_view format = line.substr(line.find('=') + 1);
+    if (cutWord(format) != "32-bit_rle_rgbe")
+      throw std::runtime_error("its FORMAT is not 32-bit_rle_rgbe, the only one that is read");
+    form.namesFormat = true;
+  }
+  return form;
 }
 
 /// Takes an axis of the resolution, such as "-Y 512". Returns its size; `name` becomes "-Y".
@@ -165,26 +191,23 @@ int takeAxis(std::string_view& resolution, std::string_view& name) {
 
 ImageHeader hdrHeader(Bytes bytes) {
   // By Ward, "Real Pixels", a file has lines of text up to an empty one, the resolution, and the scan lines.
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  const size_t empty = text.find("\n\n");
-  const size_t end = empty == text.npos ? text.npos : text.find('\n', empty + 2);
-  if (end == text.npos) refuseTruncated();
-  std::string_view resolution = text.substr(empty + 2, end - empty - 2);
-  std::string_view lines, along;
+  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  HdrForm form = readHdrLines(text);
+  form.resolution = takeLine(text);
+  std::string_view resolution = form.resolution, lines, along;
   const int lineCount = takeAxis(resolution, lines);
   const int lineLength = takeAxis(resolution, along);
   if (lines[1] == along[1]) throw std::runtime_error("the HDR header has no resolution of two axes");
-  HdrForm form{.columns = lines[1] == 'X',
-               .fromRight = lines == "-X" || along == "-X",
-               .fromBottom = lines == "+Y" || along == "+Y"};
-  for (size_t at = 0; at < empty; at = std::min(text.find('\n', at), empty) + 1)
-    addExposure(form, text.substr(at, std::min(text.find('\n', at), empty) - at));
+  form.columns = lines[1] == 'X';
+  form.fromRight = lines == "-X" || along == "-X";
+  form.fromBottom = lines == "+Y" || along == "+Y";
+  form.pixelsAt = bytes.size() - text.size();
   // A run says at most how often a pixel of four bytes is repeated, so that each line has one.
   constexpr int64_t kLeastOfALine = 4;
   ImageHeader header = form.columns ? checked(ImageFormat::Hdr, lineCount, lineLength, 3)
                                     : checked(ImageFormat::Hdr, lineLength, lineCount, 3);
   header.hdr = form;
-  if (int64_t(bytes.size() - end) < lineCount * kLeastOfALine) refuseTruncated();
+  if (int64_t(text.size()) < lineCount * kLeastOfALine) refuseTruncated();
   return header;
 }
 

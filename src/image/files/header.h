@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <string>
 
 #include "image/format.h"
 
@@ -20,6 +21,10 @@ struct HdrForm {
   bool fromRight = false;
   bool fromBottom = false;
   std::array<double, 3> exposure{1.0, 1.0, 1.0};  ///< by which red, green and blue were multiplied
+  bool hasVainExposure = false;                   ///< such a factor is no number above 0
+  bool namesFormat = false;
+  std::string resolution{};  ///< the line of the scan lines' number and length
+  size_t pixelsAt = 0;       ///< where the scan lines begin in the file
 };
 
 struct ImageHeader {

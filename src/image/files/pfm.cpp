@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "image/files/pfm.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <stdexcept>
@@ -16,10 +17,19 @@ namespace {
 
 bool isSpace(uint8_t c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-/// Takes the next word off the bytes, with the white space before it.
+/// The bytes of a comment at the beginning, with the end of its line; 0: there is none. Other formats of
+/// Netpbm have such comments in their headers.
+size_t commentLength(std::span<const uint8_t> bytes) {
+  if (bytes.empty() || bytes[0] != '#') return 0;
+  const auto end = std::ranges::find(bytes, uint8_t('\n'));
+  return std::min(size_t(end - bytes.begin()) + 1, bytes.size());
+}
+
+/// Takes the next word off the bytes, with the white space and the comments before it.
 std::string_view takeWord(std::span<const uint8_t>& bytes) {
   size_t begin = 0;
-  while (begin < bytes.size() && isSpace(bytes[begin])) ++begin;
+  while (begin < bytes.size() && (isSpace(bytes[begin]) || bytes[begin] == '#'))
+    begin += std::max<size_t>(commentLength(bytes.subspan(begin)), 1);
   size_t end = begin;
   while (end < bytes.size() && !isSpace(bytes[end])) ++end;
   const std::string_view word(reinterpret_cast<const char*>(bytes.data()) + begin, end - begin);
@@ -28,10 +38,10 @@ std::string_view takeWord(std::span<const uint8_t>& bytes) {
 }
 
 template <typename Number>
-Number parseNumber(std::string_view word) {
+Number parseNumber(std::string_view word, const char* name) {
   if (word.starts_with('+')) word.remove_prefix(1);
   const auto number = numberOfAll<Number>(word);
-  if (!number) throw std::runtime_error("the PFM header is wrong");
+  if (!number) throw std::runtime_error(std::string("the PFM header is wrong: it has no ") + name);
   return *number;
 }
 
@@ -48,17 +58,21 @@ PfmHeader readPfmHeader(std::span<const uint8_t> bytes) {
   const std::string_view kind = takeWord(bytes);
   if (kind != "PF" && kind != "Pf") throw std::runtime_error("the PFM header is wrong");
   PfmHeader header;
-  header.width = parseNumber<int>(takeWord(bytes));
-  header.height = parseNumber<int>(takeWord(bytes));
+  header.width = parseNumber<int>(takeWord(bytes), "width");
+  header.height = parseNumber<int>(takeWord(bytes), "height");
   header.channelCount = kind == "PF" ? 3 : 1;
-  const double scale = parseNumber<double>(takeWord(bytes));
+  const double scale = parseNumber<double>(takeWord(bytes), "scale");
   if (scale == 0 || !std::isfinite(scale) || bytes.empty())
-    throw std::runtime_error("the PFM header is wrong");
+    throw std::runtime_error("the PFM header is wrong: it has no scale");
   header.littleEndian = scale < 0;
   header.scale = float(std::abs(scale));
   header.rows = bytes.subspan(bytes.size() > 1 && bytes[0] == '\r' && bytes[1] == '\n' ? 2 : 1);
   checkImageSize(header.width, header.height, header.channelCount);
   const size_t rowBytes = size_t(header.width) * size_t(header.channelCount) * sizeof(float);
+  // A comment behind the scale looks like pixels, unless there would be more of them than the header says.
+  const size_t comment = commentLength(header.rows);
+  if (header.rows.size() == rowBytes * size_t(header.height) + comment)
+    header.rows = header.rows.subspan(comment);
   if (header.rows.size() / rowBytes < size_t(header.height))
     throw std::runtime_error("the file is truncated");
   return header;

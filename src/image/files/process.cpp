@@ -69,12 +69,22 @@ bool isAsPromised(const PictureMessage& picture, const ImageHeader& header) {
          picture.channelCount <= header.channelCount;
 }
 
+/// The file of an .hdr with the only form of header that the image library knows.
+std::vector<uint8_t> withPlainHeader(Bytes bytes, const HdrForm& form) {
+  const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + form.resolution + "\n";
+  std::vector<uint8_t> plain(header.begin(), header.end());
+  plain.insert(plain.end(), bytes.begin() + std::ptrdiff_t(form.pixelsAt), bytes.end());
+  return plain;
+}
+
 [[noreturn]] void refuseAnswer() { throw std::runtime_error("the worker process sent a broken answer"); }
 
 }  // namespace
 
 Image decodeByProcess(Bytes bytes, const ImageHeader& asShown) {
   ImageHeader header = asShown;
+  std::vector<uint8_t> plain;
+  if (header.format == ImageFormat::Hdr) bytes = plain = withPlainHeader(bytes, header.hdr);
   if (header.hdr.columns) std::swap(header.width, header.height);
   const uint64_t pixels = uint64_t(header.width) * uint64_t(header.height);
   constexpr uint64_t kRoomForTexts = 1 << 16;  // beside those that stand in the file
