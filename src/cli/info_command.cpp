@@ -218,7 +218,14 @@ int inform(const InfoOptions& options) {
     if (!odd.empty()) scene.warnings.push_back(options.render.scene.string() + ": " + odd);
   }
   if (options.decode) {
-    for (const EncodedImage& image : scene.images) decodeTexels(image.bytes, nameOf(image));
+    for (const EncodedImage& image : scene.images) {
+      try {
+        decodeTexels(image.bytes, nameOf(image));
+      } catch (const InputError& error) {
+        if (!loading.limits.drawMissingTextures || loading.limits.strict) throw;
+        scene.warnings.emplace_back(error.what());
+      }
+    }
   }
   const SceneDescription description = describe(scene);
   const Bvh tree = buildSceneBvh(scene);

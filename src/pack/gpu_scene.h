@@ -90,6 +90,7 @@ struct GpuScene {
       0.0f};  ///< irradiance by the environment of a plane that faces up, for shadow catchers
   /// The arrays that are the same as packed before: these are empty here.
   std::array<bool, layout::kSceneBufferCount> unchanged{};
+  std::vector<std::string> brokenPictures{};  ///< why pictures cannot be decoded, a line for each
 
   size_t bytes() const;
   /// The part of these that the primitives take: tree, leaves, faces and vertex attributes.
@@ -102,9 +103,9 @@ struct KeptArrays;
 using DecodeProgress = std::function<void(size_t decoded, size_t count)>;
 
 /// Packs the arrays that the variant reads. Textures wider or higher than `textureSide` are scaled down. The
-/// tree may be a plain list of leaves without nodes (iterative traversal). Throws InputError when a texture
-/// cannot be decoded. Pictures in `kept` are not packed again (GpuScene::unchanged); those that are packed
-/// are added to it.
+/// tree may be a plain list of leaves without nodes (iterative traversal). Textures that cannot be
+/// decoded are lost (settleLostTextures()); throws InputError where none can be. Pictures in `kept` are not
+/// packed again (GpuScene::unchanged); those that are packed are added to it.
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
                    const ShaderVariant& variant, int textureSide = kLargestTextureSide,
                    KeptArrays* kept = nullptr, const DecodeProgress& progress = {});

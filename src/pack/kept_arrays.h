@@ -15,7 +15,8 @@
 
 namespace fragtrace {
 
-/// The place of a picture among the texels, and its mean linear colour and alpha.
+/// The place of a picture among the texels, and its mean linear colour and alpha. One that cannot be decoded
+/// has no size.
 struct PlacedTexels {
   uint32_t first = 0;
   int width = 0;

@@ -49,10 +49,7 @@ OwnLight ownLight(const Scene& scene) {
   double light = 0.0;
   for (size_t i = 0; i < areas.size(); ++i) {
     if (areas[i] == 0.0) continue;
-    const Material& m = scene.materials[i];
-    const glm::vec3 radiance = m.emissiveFactor * m.emissiveStrength *
-                               glm::vec3(textures.mean(m.emissiveTexture, TransferCurve::Srgb));
-    light += areas[i] * luminance(glm::dvec3(radiance));
+    light += areas[i] * luminance(glm::dvec3(textures.meanRadiance(scene.materials[i])));
     if (light >= enough) return OwnLight::Enough;
   }
   return OwnLight::Dim;

@@ -132,9 +132,24 @@ void appendLayers(Words& words, const Material& m, TexturePacker& textures) {
   appendRow(words, glm::vec4(m.scattersThinly() ? m.scatterStrength : 0.0f, 0.0f, 0.0f, 0.0f));
 }
 
-void appendMaterial(Words& words, const Material& m, double unit, double emitterPdf, uint32_t flags,
+/// The rows of the uses of textures.
+Words slotsOf(const Material& m, const TraitSet& traits, TexturePacker& textures) {
+  Words words;
+  for (uint32_t slot = 0; slot < layout::kSlotCount; ++slot) {
+    const auto& [ref, curve] = kTextureRefs[slot];
+    const TraitRow& row = *traitsOfSlots()[slot];
+    const bool read = has(traits, row.trait) && isOfMaterial(row, m, Coordinates{});
+    const glm::uvec4 use = read ? textures.slot(m.*ref, curve) : glm::uvec4(0u);
+    words.insert(words.end(), {use.x, use.y, use.z, use.w});
+  }
+  return words;
+}
+
+void appendMaterial(Words& words, const Material& described, double unit, double emitterPdf, uint32_t flags,
                     size_t glassTable, const TraitSet& traits, TexturePacker& textures) {
   const size_t first = words.size();
+  const Words slots = slotsOf(described, traits, textures);
+  const Material m = textures.withoutBroken(described);
   appendRow(words, m.baseColorFactor);
   appendRow(words, m.emissiveFactor * m.emissiveStrength, m.alphaCutoff);
   appendRow(words, glm::vec4(m.metallicFactor, m.roughnessFactor, m.ior, m.transmissionFactor));
@@ -144,13 +159,7 @@ void appendMaterial(Words& words, const Material& m, double unit, double emitter
   words.back() = materialFlags(m) | flags;
   appendRow(words, glm::vec4(m.perlinNormal.frequency, m.perlinNormal.amplitude,
                              float(m.perlinNormal.octaves), float(m.number)));
-  for (uint32_t slot = 0; slot < layout::kSlotCount; ++slot) {
-    const auto& [ref, curve] = kTextureRefs[slot];
-    const TraitRow& row = *traitsOfSlots()[slot];
-    const bool read = has(traits, row.trait) && isOfMaterial(row, m, Coordinates{});
-    const glm::uvec4 use = read ? textures.slot(m.*ref, curve) : glm::uvec4(0u);
-    words.insert(words.end(), {use.x, use.y, use.z, use.w});
-  }
+  words.insert(words.end(), slots.begin(), slots.end());
   appendLayers(words, m, textures);
   if (words.size() - first != layout::kMaterialRows * 4)
     throw std::logic_error("a packed material has other rows than layout.glsl says");
@@ -203,10 +212,7 @@ std::vector<glm::vec3> meanRadiance(const Scene& scene, const TraitSet& traits, 
   std::vector<glm::vec3> radiance(scene.materials.size(), glm::vec3(0.0f));
   if (!has(traits, Trait::Emission)) return radiance;
   for (size_t i = 0; i < radiance.size(); ++i) {
-    const Material& m = scene.materials[i];
-    if (!m.emissive()) continue;
-    radiance[i] = m.emissiveFactor * m.emissiveStrength *
-                  glm::vec3(textures.mean(m.emissiveTexture, TransferCurve::Srgb));
+    if (scene.materials[i].emissive()) radiance[i] = textures.meanRadiance(scene.materials[i]);
   }
   return radiance;
 }
@@ -392,6 +398,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   }
 
   packMaterials(scene, bvh, variant, emitters.materialPdf, casters, textures, packed);
+  packed.brokenPictures = textures.takeBroken();
   if (kept != nullptr && (keepsGeometry || !kept->textures.empty())) {
     if (!textures.allKnown()) {  // one that no picture before has shown: all of them are placed again
       kept->textures.clear();

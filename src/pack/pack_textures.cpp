@@ -5,7 +5,9 @@
 #include <cmath>
 #include <glm/gtc/packing.hpp>
 
+#include "base/errors.h"
 #include "image/display/tone_map.h"
+#include "image/files/process.h"
 #include "pack/words.h"
 
 namespace fragtrace {
@@ -68,7 +70,14 @@ const PlacedTexels& TexturePacker::place(uint32_t image, TransferCurve curve) {
   PlacedTexels& placed = entry->second;
   if (!isNew) return placed;
   const EncodedImage& encoded = scene_.images[image];
-  const TexelImage texels = decodeTexels(encoded.bytes, nameOf(encoded));
+  TexelImage texels;
+  try {
+    texels = decodeTexels(encoded.bytes, nameOf(encoded));
+  } catch (const InputError& error) {
+    if (!whyNoPictures().empty()) throw;
+    if (std::ranges::find(broken_, error.what()) == broken_.end()) broken_.emplace_back(error.what());
+    return placed;
+  }
   placed.first = uint32_t(texels_.size() / 2);
   const glm::ivec2 stored(texels.width, texels.height);
   const glm::ivec2 size =
@@ -132,6 +141,7 @@ glm::uvec4 TexturePacker::slot(const TextureRef& ref, TransferCurve curve) {
   const Texture& texture = scene_.textures[ref.texture];
   if (texture.image == kMissIndex) return glm::uvec4(0u);
   const PlacedTexels& placed = place(texture.image, curve);
+  if (placed.width == 0) return glm::uvec4(0u);
   uint32_t flags = layout::kTexturePresent;
   if (texture.linear) flags |= layout::kTextureLinear;
   if (ref.texcoord == 1) flags |= layout::kTextureTexcoord1;
@@ -139,6 +149,26 @@ glm::uvec4 TexturePacker::slot(const TextureRef& ref, TransferCurve curve) {
   flags |= wrapFlags(texture.wrapV, layout::kTextureClampV, layout::kTextureMirrorV);
   return {placed.first, uint32_t(placed.width) | uint32_t(placed.height) << 16, flags,
           ref.transformed() ? transformRow(ref.transform) : 0u};
+}
+
+glm::vec3 TexturePacker::meanRadiance(const Material& m) {
+  const glm::vec3 mean(this->mean(m.emissiveTexture, TransferCurve::Srgb));
+  const Material settled = withoutBroken(m);
+  return settled.emissiveFactor * settled.emissiveStrength * mean;
+}
+
+Material TexturePacker::withoutBroken(Material m) const {
+  bool isBroken = false;
+  for (const TextureRefRow& row : kTextureRefs) {
+    TextureRef& ref = m.*row.ref;
+    if (!ref.present()) continue;
+    const auto placed = placed_.find({scene_.textures[ref.texture].image, row.curve});
+    if (placed == placed_.end() || placed->second.width > 0) continue;
+    ref = {.lost = true};
+    isBroken = true;
+  }
+  if (isBroken) settleLostTextures(m);
+  return m;
 }
 
 /// The index of the transform's first row; the same transform is kept once.

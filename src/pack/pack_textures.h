@@ -30,11 +30,18 @@ class TexturePacker {
   /// Mean of a texture's linear colour and alpha, 1 for none.
   glm::vec4 mean(const TextureRef& ref, TransferCurve curve);
 
+  /// Mean radiance of a material.
+  glm::vec3 meanRadiance(const Material& m);
+
+  /// The material with textures as lost whose pictures could not be decoded.
+  Material withoutBroken(Material m) const;
+
   /// Appends the rows of the transforms, which come after those of all materials.
   void appendTransforms(Words& materials) const;
 
   Words takeTexels() { return std::move(texels_); }
   const PlacedTextures& placed() const { return placed_; }
+  std::vector<std::string> takeBroken() { return std::move(broken_); }
   /// Returns true if all were known.
   bool allKnown() const { return placed_.size() == known_; }
 
@@ -51,6 +58,7 @@ class TexturePacker {
   size_t known_;
   DecodeProgress progress_;
   size_t decoded_ = 0;
+  std::vector<std::string> broken_;  ///< the reasons
   uint32_t transformRow(const TextureTransform& transform);
 
   std::vector<TextureTransform> transforms_;

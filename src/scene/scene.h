@@ -227,6 +227,30 @@ inline constexpr std::array kTextureRefs = std::to_array<TextureRefRow>({
     {&Material::occlusionTexture, TransferCurve::Linear},  // R; not traced
 });
 
+/// Settles a material whose textures are lost (TextureRef::lost): it is magenta where colours are, and matt
+/// where it is unknown what is metal. Effects that a lost texture would have bounded are left out.
+inline void settleLostTextures(Material& m) {
+  constexpr glm::vec3 kMagenta{1.0f, 0.0f, 1.0f};
+  const auto settle = [](const TextureRef& texture, auto& factor, const auto& value) {
+    if (texture.lost) factor = value;
+  };
+  settle(m.baseColorTexture, m.baseColorFactor, glm::vec4(kMagenta, m.baseColorFactor.a));
+  settle(m.metallicRoughnessTexture, m.metallicFactor, 0.0f);
+  settle(m.emissiveTexture, m.emissiveFactor, glm::vec3(0.0f));
+  settle(m.transmissionTexture, m.transmissionFactor, 0.0f);
+  settle(m.clearcoatTexture, m.clearcoatFactor, 0.0f);
+  settle(m.sheenColorTexture, m.sheenColorFactor, glm::vec3(0.0f));
+  settle(m.anisotropyTexture, m.anisotropyStrength, 0.0f);
+  settle(m.iridescenceTexture, m.iridescenceFactor, 0.0f);
+  settle(m.diffuseTransmissionTexture, m.diffuseTransmissionFactor, 0.0f);
+  settle(m.diffuseTransmissionColorTexture, m.diffuseTransmissionColorFactor, kMagenta);
+  settle(m.scatterStrengthTexture, m.scatterStrength, 0.0f);
+  settle(m.multiscatterColorTexture, m.multiscatterColor, kMagenta);
+  if (!m.specularGlossiness) return;
+  settle(m.specularColorTexture, m.specularColorFactor, glm::vec3(0.04f));  // a dielectric's
+  settle(m.specularColorTexture, m.roughnessFactor, 1.0f);                  // its glossiness is lost, too
+}
+
 /// Three vertex indices, counter-clockwise seen from the front, and the material.
 struct Triangle {
   glm::uvec3 vertex;

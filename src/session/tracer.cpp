@@ -229,6 +229,17 @@ void settleVariants(Tracer& tracer, const LoadedScene& loaded, const GpuScene& p
   stats.variant = variantName(tracer.variant);
 }
 
+/// Warns of pictures that could not be decoded, or refuses them.
+void sayBroken(const RenderOptions& options, const GpuScene& packed, Statistics& stats) {
+  for (const std::string& reason : packed.brokenPictures) {
+    if (!options.limits.drawMissingTextures)
+      throw InputError(reason + " (--missing-textures magenta draws the scene without it)");
+    if (options.limits.strict) throw InputError(reason + " (--strict refuses it)");
+    stats.warnings.push_back(reason + "; a base colour is drawn in magenta, other textures are left out");
+    say(options, "warning: " + stats.warnings.back());
+  }
+}
+
 /// Notes the context and the packed scene for --stats.
 void describe(Statistics& stats, const Context& context, const GpuScene& packed, const Phase& packing) {
   stats.backend = context.backend;
@@ -284,6 +295,7 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   });
   const std::optional<Phase> ahead = buildAhead(programs, tracer.variant, loaded, options, context);
   GpuScene packed = packedLater.get();
+  sayBroken(options, packed, stats);
   describe(stats, context, packed, packing);
   if (withHash) tracer.sceneHash = sceneHash(packed, tracer.arrayHashes);
   const ReadChoice choice = chooseReads(options.device.bufferReads, context.software, packed, readLimits());
@@ -310,6 +322,7 @@ void replaceScene(Tracer& tracer, const Context& context, const LoadedScene& loa
   GpuScene packed = packScene(loaded.scene, loaded.bvh, loaded.environment, everything, tracer.textureSide,
                               &tracer.kept, loaded.decoding);
   tracer.kept.geometry = false;
+  sayBroken(options, packed, stats);
   describe(stats, context, packed, timer.end());
   const std::array<uint64_t, layout::kSceneBufferCount> before = tracer.arrayHashes;
   if (tracer.sceneHash != 0) {

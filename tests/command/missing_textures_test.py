@@ -2,11 +2,22 @@
 # SPDX-License-Identifier: MIT
 """Textures whose picture is missing or broken: drawn without and said, or refused (--missing-textures)."""
 import json
+import struct
+import zlib
 
 from materials_test import png, quad
 from support import Case, main, read_pfm, run
 
 REFUSE = ("--missing-textures", "refuse")
+
+
+def wrong_png():
+    """Checksums are right, but the pixels are no stream of zlib."""
+    whole = png(4, 4, [10, 200, 10, 255] * 16)
+    at = whole.index(b"IDAT")
+    length = struct.unpack(">I", whole[at - 4:at])[0]
+    content = b"IDAT" + bytes(length)
+    return whole[:at] + content + struct.pack(">I", zlib.crc32(content)) + whole[at + 8 + length:]
 
 
 class MissingTextures(Case):
@@ -18,9 +29,9 @@ class MissingTextures(Case):
         path.write_text(json.dumps(gltf))
         return path
 
-    def middle(self, scene, *options):
+    def middle(self, scene, stage="flat"):
         path = self.folder / "x.pfm"
-        result = run("render", scene, "-o", path, "--resolution", "9,9", "--spp", 4, "--stage", "flat", *options)
+        result = run("render", scene, "-o", path, "--resolution", "9,9", "--spp", 4, "--stage", stage)
         self.assertEqual(result.returncode, 0, result.stderr)
         return read_pfm(path)[4][4], result.stderr
 
@@ -53,15 +64,30 @@ class MissingTextures(Case):
             self.fails(3, "info", self.scene(self.BASE, [name]), "--decode", *REFUSE, says=[name, "scene.gltf: /images/0"])
 
     def test_a_damaged_picture_is_magenta(self):
-        """The bytes of a PNG without its checksum, and pixels of a WebP."""
+        """The bytes of a PNG without their checksum and with it, pixels of a JPEG and of a WebP: seen when they are drawn."""
         whole = bytearray(png(4, 4, [10, 200, 10, 255] * 16))
         whole[50] ^= 0x40
+        jpeg = (b"\xff\xd8\xff\xc0\0\x0b\x08\0\x04\0\x04\x01\x01\x11\0\xff\xda\0\x08\x01\x01\0\0\x3f\0" + bytes(9) + b"\xff\xd9")
         webp = b"RIFF\x20\0\0\0WEBPVP8 \x14\0\0\0\x30\x01\0\x9d\x01\x2a\x04\0\x04\0" + bytes(10)
-        for name, data in (("bad.png", bytes(whole)), ("bad.webp", webp)):
+        shining = {"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0}, "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0}}
+        green = {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "baseColorFactor": [0, 1, 0, 1]}}
+        for name, data in (("bad.png", bytes(whole)), ("sums.png", wrong_png()), ("bad.jpg", jpeg), ("bad.webp", webp)):
             (self.folder / name).write_bytes(data)
-            color, said = self.middle(self.scene(self.BASE, [name]))
-            self.assertEqual(color, (1, 0, 1), said)
-            self.assertIn(name, said)
+            for material, stage in ((shining, "phong"), (green, "flat"), (self.BASE, "flat")):
+                scene = self.scene(material, [name])
+                color, said = self.middle(scene, stage)
+                if material == shining:
+                    self.assertLess(max(color), 0.5)  # what the studio's light leaves of it
+                else:
+                    self.assertEqual(color, (1, 0, 1), said)
+                self.assertEqual(said.count(name), 1, said)
+                self.assertIn("scene.gltf: /images/0", said)
+                self.assertIn("; a base colour is drawn in magenta, other textures are left out", said)
+            for options, status in (((), 0), (("--strict",), 3), (REFUSE, 3)):
+                info = run("info", scene, "--decode", *options)
+                self.assertEqual(info.returncode, status, info.stderr)
+                self.assertIn(name, info.stderr)
+                self.assertEqual(run("render", scene, "-o", self.folder / "y.pfm", "--resolution", "9,9", "--spp", 1, *options).returncode, status)
 
     def test_all_that_is_missing_is_named_at_once(self):
         scene = self.scene({**self.BASE, "normalTexture": {"index": 1}, "emissiveTexture": {"index": 2}}, ["a.png", "b.png", "maps/c.png"])

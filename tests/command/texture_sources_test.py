@@ -76,7 +76,7 @@ class TextureSources(Case):
         size = AVIF.index(b"ispe") + 8
         for broken in (AVIF[:40], AVIF[:300], AVIF[:-20], AVIF.replace(b"ispe", b"xspe"), AVIF[:size] + struct.pack(">II", 1 << 20, 1 << 20) + AVIF[size + 8:],
                        AVIF[:size] + struct.pack(">II", 17, 16) + AVIF[size + 8:], AVIF[:28] + b"\0\0\0\0" + AVIF[32:], AVIF[:28] + b"\xff" * 4 + AVIF[32:]):
-            result = run("info", self.scene(broken, texture, kind="image/avif"), "--decode")
+            result = run("info", self.scene(broken, texture, kind="image/avif"), "--decode", "--missing-textures", "refuse")
             if result.returncode == 0:  # what the properties say of alpha, or of a box up to the end, may be anything
                 continue
             self.assertEqual(result.returncode, 3, result.stderr)

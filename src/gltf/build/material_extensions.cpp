@@ -26,7 +26,6 @@ void readIor(const MaterialPart& part, Material& m) {
 void readTransmission(const MaterialPart& part, Material& m) {
   m.transmissionFactor = part.factor("transmissionFactor", 0.0, 0.0f, 1.0f);
   m.transmissionTexture = part.texture("transmissionTexture");
-  if (m.transmissionTexture.lost) m.transmissionFactor = 0.0f;
 }
 
 void readVolume(const MaterialPart& part, Material& m) {
@@ -52,7 +51,6 @@ void readClearcoat(const MaterialPart& part, Material& m) {
   m.clearcoatRoughnessFactor = part.factor("clearcoatRoughnessFactor", 0.0, 0.0f, 1.0f);
   if (!m.clearcoated()) return;
   m.clearcoatTexture = part.texture("clearcoatTexture");
-  if (m.clearcoatTexture.lost) m.clearcoatFactor = 0.0f;
   m.clearcoatRoughnessTexture = part.texture("clearcoatRoughnessTexture");
   m.clearcoatNormalTexture = part.texture("clearcoatNormalTexture");
   const tinygltf::Value& normal = memberOf(part.object(), "clearcoatNormalTexture");
@@ -65,7 +63,6 @@ void readSheen(const MaterialPart& part, Material& m) {
   m.sheenRoughnessFactor = part.factor("sheenRoughnessFactor", 0.0, 0.0f, 1.0f);
   if (!m.hasSheen()) return;
   m.sheenColorTexture = part.texture("sheenColorTexture");
-  if (m.sheenColorTexture.lost) m.sheenColorFactor = glm::vec3(0.0f);
   m.sheenRoughnessTexture = part.texture("sheenRoughnessTexture");
 }
 
@@ -74,7 +71,6 @@ void readAnisotropy(const MaterialPart& part, Material& m) {
   m.anisotropyRotation = float(std::fmod(numberOf(part.object(), "anisotropyRotation", 0.0), 2.0 * M_PI));
   if (!m.anisotropic()) return;
   m.anisotropyTexture = part.texture("anisotropyTexture");
-  if (m.anisotropyTexture.lost) m.anisotropyStrength = 0.0f;
 }
 
 void readIridescence(const MaterialPart& part, Material& m) {
@@ -85,7 +81,6 @@ void readIridescence(const MaterialPart& part, Material& m) {
   m.iridescenceThicknessMaximum = part.factor("iridescenceThicknessMaximum", 400.0, 0.0f, kThickest);
   if (!m.iridescent()) return;
   m.iridescenceTexture = part.texture("iridescenceTexture");
-  if (m.iridescenceTexture.lost) m.iridescenceFactor = 0.0f;
   m.iridescenceThicknessTexture = part.texture("iridescenceThicknessTexture");
 }
 
@@ -94,9 +89,7 @@ void readDiffuseTransmission(const MaterialPart& part, Material& m) {
   m.diffuseTransmissionColorFactor = part.color("diffuseTransmissionColorFactor", kWhite, 1.0f);
   if (m.diffuseTransmissionFactor <= 0.0f) return;
   m.diffuseTransmissionTexture = part.texture("diffuseTransmissionTexture");
-  if (m.diffuseTransmissionTexture.lost) m.diffuseTransmissionFactor = 0.0f;
   m.diffuseTransmissionColorTexture = part.texture("diffuseTransmissionColorTexture");
-  if (m.diffuseTransmissionColorTexture.lost) m.diffuseTransmissionColorFactor = kMagenta;
 }
 
 void readDispersion(const MaterialPart& part, Material& m) {
@@ -127,9 +120,7 @@ void readScatter(const MaterialPart& part, Material& m) {
   if (m.unlit) m.scatterStrength = 0.0f;
   if (m.scatterStrength <= 0.0f) return;
   m.scatterStrengthTexture = part.texture("scatterStrengthTexture");
-  if (m.scatterStrengthTexture.lost) m.scatterStrength = 0.0f;
   m.multiscatterColorTexture = part.texture("multiscatterColorTexture");
-  if (m.multiscatterColorTexture.lost) m.multiscatterColor = kMagenta;
 }
 
 /// A dielectric of infinite index reflects what its specular colour says, which is all that the extension's
@@ -145,10 +136,6 @@ void readSpecularGlossiness(const MaterialPart& part, Material& m) {
   m.ior = kInfiniteIor;
   m.specularColorFactor = part.color("specularFactor", kWhite, 1.0f);
   m.specularColorTexture = part.texture("specularGlossinessTexture");
-  if (m.specularColorTexture.lost) {
-    m.specularColorFactor = glm::vec3(0.04f);  // a dielectric's; its glossiness is lost, too
-    m.roughnessFactor = 1.0f;
-  }
 }
 
 constexpr Extension ofMaterials(std::string_view name, std::string_view members,

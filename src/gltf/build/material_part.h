@@ -15,8 +15,6 @@
 namespace fragtrace {
 
 inline constexpr float kLargest = std::numeric_limits<float>::max();
-/// In place of the colours of a texture that is lost (TextureRef::lost).
-inline constexpr glm::vec3 kMagenta{1.0f, 0.0f, 1.0f};
 
 class MaterialPart {
  public:

@@ -55,14 +55,6 @@ void readPerlinNormal(const MaterialPart& part, PerlinNormal& result) {
   result.octaves = int(part.factor("octaves", result.octaves, 1.0f, kMostOctaves));
 }
 
-/// Marks a material whose textures are lost: magenta where colours are, and matt where it is unknown what is
-/// metal. Extensions leave out the effect that a lost texture would have bounded.
-void markLost(Material& m) {
-  if (m.baseColorTexture.lost) m.baseColorFactor = glm::vec4(kMagenta, m.baseColorFactor.a);
-  if (m.metallicRoughnessTexture.lost) m.metallicFactor = 0.0f;
-  if (m.emissiveTexture.lost) m.emissiveFactor = glm::vec3(0.0f);
-}
-
 /// Chooses the two sets of texture coordinates that the material has: 0 and 1, or a higher one in the place
 /// of one of these that no texture asks for. TextureRef::texcoord, the number of a set, becomes the place of
 /// one.
@@ -105,7 +97,7 @@ Material readMaterial(Document& document, TextureTable& textures, size_t index) 
   readCommon(source, part, result);
   result.alphaMode = alphaModeOf(source.alphaMode);
   readMaterialExtensions(source, part, result);
-  markLost(result);
+  settleLostTextures(result);
   const tinygltf::Value& perlin = memberOf(source.extras, "perlinNormal");
   if (perlin.IsObject()) readPerlinNormal(part.below("extras/perlinNormal", perlin), result.perlinNormal);
   chooseTexcoords(result, document.diagnostics);

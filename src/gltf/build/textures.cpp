@@ -42,15 +42,6 @@ std::vector<uint8_t> imageBytes(Document& document, int index) {
   return bytes;
 }
 
-/// Throws unless the picture can be decoded whole. Checksums of a PNG and the markers of a JPEG, which its
-/// header's reader follows to the end, save decoding it.
-void checkWhole(const std::vector<uint8_t>& bytes, const ImageHeader& header) {
-  if (header.format == ImageFormat::Png && !isIntactPng(bytes))
-    throw std::runtime_error("is damaged: a checksum is wrong");
-  if (header.format != ImageFormat::Png && header.format != ImageFormat::Jpeg)
-    decodeTexelsByProcess(bytes, header);
-}
-
 /// Names the file, if it is one, in what is thrown, also where its format cannot be decoded.
 ImageHeader headerOf(const std::vector<uint8_t>& bytes, const std::string& file) {
   try {
@@ -86,8 +77,6 @@ EncodedImage readImage(Document& document, int index) {
     document.diagnostics.warn(place, "pictures wider or higher than " + std::to_string(document.textureSide) +
                                          " pixels are scaled down");
   }
-  if (document.drawMissingTextures)
-    document.diagnostics.attemptObject(place, [&] { checkWhole(result.bytes, header); });
   return result;
 }
 

@@ -63,9 +63,6 @@ ImageHeader readKtx2Header(std::span<const uint8_t> bytes);
 /// to stderr.
 bool isCompletePng(std::span<const uint8_t> bytes);
 
-/// True when the checksums of a PNG's chunks are right, too: then it is as it was written.
-bool isIntactPng(std::span<const uint8_t> bytes);
-
 struct JpegFrame {
   int width = 0;
   int height = 0;

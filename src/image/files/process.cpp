@@ -109,6 +109,8 @@ TexelImage decodeTexelsByProcess(Bytes bytes, const ImageHeader& header) {
           result.memory};
 }
 
+const std::string& whyNoPictures() { return worker().whyNot(); }
+
 const std::string& whyNoKtx2() {
   static const std::string why = ktx2Worker().whyNot();
   return why;

@@ -20,6 +20,9 @@ Image decodeByProcess(std::span<const uint8_t> bytes, const ImageHeader& header)
 
 TexelImage decodeTexelsByProcess(std::span<const uint8_t> bytes, const ImageHeader& header);
 
+/// Why no picture but a .pfm can be decoded; empty where they can. The first call starts the process.
+const std::string& whyNoPictures();
+
 /// Why KTX2 textures cannot be decoded; empty where they can. The first call starts their codec.
 const std::string& whyNoKtx2();
 
