@@ -294,6 +294,10 @@ struct LightSource {
   double intensity = 1.0;  ///< intensity in the file's units
 };
 
+/// The largest radiance of a surface and intensity of a light that a file can ask for: sums of them over
+/// samples stay numbers.
+inline constexpr float kBrightest = 1e20f;
+
 /// Light::intensity of such a light.
 inline glm::vec3 intensityOf(const LightSource& source, const LocalSpace& space) {
   const double scale = source.type == LightType::Directional ? 1.0 : 1.0 / (space.unit * space.unit);

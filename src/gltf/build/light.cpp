@@ -50,7 +50,14 @@ std::optional<Light> lightAt(Document& document, const PlacedNode& node, const L
   light.source = uint32_t(index);
   light.node = nameOrPlace(source.name, "nodes", node.index);
   light.place = pointerTo("nodes", node.index);
-  light.intensity = intensityOf(sourceOf(described), space);
+  LightSource bright = sourceOf(described);
+  const double brightest = std::max({bright.color.r, bright.color.g, bright.color.b}) * bright.intensity;
+  if (brightest > double(kBrightest)) {
+    document.diagnostics.warn(place + "/intensity",
+                              "times its colour is out of range, the nearest possible value is taken: 1e+20");
+    bright.intensity *= double(kBrightest) / brightest;
+  }
+  light.intensity = intensityOf(bright, space);
   for (int c = 0; c < 3; ++c) {
     if (!std::isfinite(light.intensity[c]) || light.intensity[c] < 0.0f) {
       document.diagnostics.lose(place, "colour times intensity is negative or too large");

@@ -15,7 +15,9 @@ constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness
 const std::vector<double> kWhite = {1.0, 1.0, 1.0};
 
 void readEmissiveStrength(const MaterialPart& part, Material& m) {
-  m.emissiveStrength = part.factor("emissiveStrength", 1.0, 0.0f, kLargest);
+  const glm::vec3& factor = m.emissiveFactor;
+  const float most = kBrightest / std::max({factor.r, factor.g, factor.b, kSmallestPositive});
+  m.emissiveStrength = part.factor("emissiveStrength", 1.0, 0.0f, std::min(most, kLargest));
 }
 
 void readIor(const MaterialPart& part, Material& m) {
@@ -206,10 +208,6 @@ void readMaterialExtensions(const tinygltf::Material& source, const MaterialPart
     } else {
       row.read(core.below(name, *object), result);
     }
-  }
-  for (int c = 0; c < 3; ++c) {
-    if (!std::isfinite(result.emissiveFactor[c] * result.emissiveStrength))
-      core.lose("emissiveFactor times emissiveStrength is too large");
   }
 }
 

@@ -34,7 +34,6 @@ class MaterialPart {
   void warn(const std::string& name, const std::string& reason) const {
     diagnostics_.warn(placeOf(name), reason);
   }
-  [[noreturn]] void lose(const std::string& reason) const { diagnostics_.lose(place_, reason); }
 
   /// The value, or the nearest of least..most with a warning.
   float within(double value, float least, float most, const std::string& name) const;

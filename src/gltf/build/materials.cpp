@@ -37,7 +37,7 @@ void readMetallicRoughness(const tinygltf::PbrMetallicRoughness& pbr, const Mate
 void readCommon(const tinygltf::Material& source, const MaterialPart& part, Material& m) {
   // Above 1 is invalid but common in files from before KHR_materials_emissive_strength, and means what it
   // says.
-  m.emissiveFactor = part.colorWithin(source.emissiveFactor, kLargest, "emissiveFactor");
+  m.emissiveFactor = part.colorWithin(source.emissiveFactor, kBrightest, "emissiveFactor");
   m.normalScale = part.within(source.normalTexture.scale, -kLargest, kLargest, "normalTexture/scale");
   m.occlusionStrength =
       part.within(source.occlusionTexture.strength, 0.0f, 1.0f, "occlusionTexture/strength");
