@@ -52,6 +52,9 @@ SceneDescription describe(const Scene& scene);
 /// Says that what is selected of the scene has nothing to draw; empty: it has.
 std::string whyEmpty(const Scene& scene, const SceneSelection& selection);
 
+/// Returns true if all triangles lie in one point or line, and nothing else is there.
+bool hasNoArea(const Scene& scene);
+
 /// Says which of the user's numbers change nothing, since no surface has the material, or no node the light.
 std::vector<std::string> setInVain(const Scene& scene, const SceneSelection& selection);
 

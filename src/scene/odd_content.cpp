@@ -83,7 +83,17 @@ BoundsDouble boxOfMost(const Scene& scene, const std::vector<Piece>& pieces, siz
 
 }  // namespace
 
+bool hasNoArea(const Scene& scene) {
+  if (!scene.spheres.empty() || !scene.strokes.empty() || scene.bounds.empty() ||
+      !scene.volume.source.file.empty())
+    return false;
+  const glm::dvec3 extent = scene.bounds.extent();
+  return (extent.x == 0.0) + (extent.y == 0.0) + (extent.z == 0.0) >= 2;
+}
+
 std::string whyEmpty(const Scene& scene, const SceneSelection& selection) {
+  if (hasNoArea(scene))
+    return "all triangles lie in one point or line, such as by a scale of 0: nothing to draw";
   if (!scene.triangles.empty() || !scene.spheres.empty() || !scene.strokes.empty() || scene.volume.grid)
     return "";
   return std::string("no triangle, sphere, point or line: ") +

@@ -9,6 +9,7 @@
 #include "gl/driver_choice.h"
 #include "image/channels.h"
 #include "render/adaptive.h"
+#include "scene/describe.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
 #include "session/picture/denoising.h"
@@ -24,7 +25,8 @@ namespace {
 void sayWhatIsNotSeen(const RenderOptions& options, const LoadedScene& loaded, const ShaderVariant& variant,
                       const Statistics& stats) {
   const bool chosen = loaded.overrides == options.camera.overrides;
-  const bool nothing = stats.scene.triangles == 0 && stats.scene.spheres == 0;
+  const bool nothing =
+      (stats.scene.triangles == 0 && stats.scene.spheres == 0) || hasNoArea(loaded.scene);  // which is said
   const bool seen = stats.film.hitPixels > 0 || stats.film.samples == 0;
   if (options.camera.region || nothing || seen || variant.countsVisits) return;
   say(options,
