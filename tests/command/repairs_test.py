@@ -63,6 +63,17 @@ def instances(rotation):
     return {"/extensionsUsed": ["EXT_mesh_gpu_instancing"], INSTANCES: {}, **data(INSTANCES + "/ROTATION", "4f", rotation, 5126, "VEC4", 1)}
 
 
+def lost(length, offset, buffer=0):
+    """A second primitive, whose positions are in a view of its own."""
+    return {"/bufferViews/2": {"buffer": buffer, "byteOffset": offset, "byteLength": length},
+            "/accessors/2": {"bufferView": 2, "componentType": 5126, "count": 1, "type": "VEC3"}, "/meshes/0/primitives/1": {"attributes": {"POSITION": 2}}}
+
+
+def strong(factor, strength):
+    return {"/extensionsUsed": ["KHR_materials_emissive_strength"], "/materials/0/emissiveFactor": [0, factor, 0],
+            "/materials/0/extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": strength}}}
+
+
 # Name: parts, what is put where, what is put into the twin, where the warning is and what it says, options.
 ROWS = {
     "spot: inner = outer": ((), spot(0.4, 0.4), spot(0.39999, 0.4), LIGHTS + "/1/spot/innerConeAngle", "a hard edge"),
@@ -143,9 +154,59 @@ ROWS = {
                                      TRIANGLE, "/meshes/0/primitives/0/attributes/POSITION", "(2 times"),
     "rotation of zeros": ((), {"/nodes/0/rotation": [0, 0, 0, 0]}, {}, "/nodes/0/rotation", "zeros"),
     "rotation of an instance of zeros": ((), instances([0, 0, 0, 0]), {}, INSTANCES + "/ROTATION", "zeros"),
+    "rotation whose squares overflow": ((), {"/nodes/0/rotation": [0, 1e200, 0, 1e200]}, TURNED, "/nodes/0/rotation", "is not a unit quaternion, and normalized"),
+    "rotation whose squares vanish": ((), {"/nodes/0/rotation": [0, 1e-200, 0, 1e-200]}, TURNED, "/nodes/0/rotation", "is not a unit quaternion, and normalized"),
     "animated rotation of zeros": (("time",), {**TURN, **STILL}, {}, "/animations/0/channels/0/sampler", "zeros", *TIME),
     "spline of one key": (("time",), {**SINGLE_KEY, **data("/animations/0/samplers/0/output", "9f", [0, 0, 0, 0.5, 0, 0, 0, 0, 0], 5126, "VEC3", 3, at=3)},
                           {"/nodes/0/translation": [0.5, 0, 0]}, "/animations/0/samplers/0/input", "the only key of a spline", *TIME),
+    "spline of one key and one value": (("time",), {**SINGLE_KEY, **data("/animations/0/samplers/0/output", "3f", [0.5, 0, 0], 5126, "VEC3", 1, at=3)},
+                                        {"/nodes/0/translation": [0.5, 0, 0]}, "/animations/0/samplers/0/input", "the only key of a spline", *TIME),
+    "key that is not finite": (("time", "turn"), {**TURN, **data("/animations/0/samplers/0/input", "2f", [NAN, 1], 5126, "SCALAR", 2, at=4)}, {},
+                               "/animations/0/samplers/0/input", "key 0 is not finite; the channel is left out", *TIME),
+    "unknown path": (("time", "turn"), {**TURN, "/animations/0/channels/0/target/path": "colour"}, {}, "/animations/0/channels/0/target/path",
+                     '"colour" is no path that can be animated; the channel is left out', *TIME),
+    "path in capitals": (("time", "turn"), {**TURN, "/animations/0/channels/0/target/path": "Rotation"}, TURN, "/animations/0/channels/0/target/path",
+                         '"Rotation" is read as rotation', *TIME),
+    "null as a path": (("time", "turn"), {**TURN, "/animations/0/channels/0/target/path": NULL}, {}, "/animations/0/channels/0/target/path",
+                       "is null; the channel is left out", *TIME),
+    "null as the times of a sampler": (("time", "turn"), {**TURN, "/animations/0/samplers/0/input": NULL}, {}, "/animations/0/samplers/0/input",
+                                       "is null; the channel is left out", *TIME),
+    "pointer to nothing": (("time",), {"/extensionsUsed": ["KHR_animation_pointer"], "/animations": [{"samplers": [{"input": 2, "output": 2}], "channels": [
+        {"sampler": 0, "target": {"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": "/nodes/0/hue"}}}}]}]}, {},
+        "/animations/0/channels/0/target", 'nothing that can be animated: "/nodes/0/hue"', *TIME),
+    "weights of a mesh without targets": (("time",), {"/animations": [{"channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}}],
+                                                                       "samplers": [{"input": 2, "output": 2}]}]}, {},
+                                          "/animations/0/channels/0/target", "drives 1 weight of a mesh with 0 morph targets", *TIME),
+    "version as a number": ((), {"/asset/version": 2.0}, {}, "/asset/version", '2.0 is read as "2.0"'),
+    "version as a whole number": ((), {"/asset/version": 2}, {}, "/asset/version", '2 is read as "2.0"'),
+    "version without a point": ((), {"/asset/version": "2"}, {}, "/asset/version", '"2" is read as "2.0"'),
+    "type of an accessor in small letters": ((), {"/accessors/0/type": "vec3"}, {}, "/accessors/0/type", '"vec3" is read as VEC3'),
+    "buffer with less data than it says": ((), {"/buffers/0/byteLength": 5000}, {}, "/buffers/0", "fewer than its byteLength of 5000; what lies within"),
+    "buffer with less data than its views need": ((), {"/buffers/0/byteLength": 5000, **lost(40, 60)}, {}, "/buffers/0",
+                                                  "fewer than its byteLength of 5000; what lies past them is left out"),
+    "null as the attributes of a primitive": ((), {"/meshes/0/primitives/1": {"attributes": None}}, {}, "/meshes/0/primitives/1/attributes",
+                                              "is null; the primitive is left out"),
+    "null as the length of a buffer": ((), {"/buffers/1": {"byteLength": None, "uri": "data:,abcd"}, **lost(4, 0, buffer=1)}, {}, "/buffers/1/byteLength",
+                                       "is null; the buffer is left out"),
+    "null as the length of a view": ((), lost(None, 0), {}, "/bufferViews/2/byteLength", "is null; the buffer view is left out"),
+    "view past its buffer": ((), lost(999, 0), {}, "/bufferViews/2", "reach past the 60 of its buffer; the buffer view is left out"),
+    "accessor of an unknown type": ((), {**lost(12, 0), "/accessors/2/type": "VEC9"}, {}, "/accessors/2/type", '"VEC9" is no type of an accessor'),
+    "accessor of an unknown component type": ((), {**lost(12, 0), "/accessors/2/componentType": 5130}, {}, "/accessors/2/componentType",
+                                              "5130 is not a component type; the accessor is left out"),
+    "picture of a view that is lost": (("texcoord",), {**textured(bufferView=3, mimeType="image/png"), "/bufferViews/3": {"buffer": 0, "byteLength": "many"}},
+                                       {**UNLIT, "/materials/0/pbrMetallicRoughness/baseColorFactor": [1, 0, 1, 1]}, "/bufferViews/3/byteLength", "is left out"),
+    "texture that is no object": (("texcoord",), {**textured(), "/textures": [5]}, {**UNLIT, "/materials/0/pbrMetallicRoughness/baseColorFactor": [1, 0, 1, 1]},
+                                  "/textures/0", "is not an object"),
+    "zero byte in a URI": (("texcoord",), textured(uri="a%00b.png"), {**UNLIT, "/materials/0/pbrMetallicRoughness/baseColorFactor": [1, 0, 1, 1]},
+                           "/images/0/uri", "a%00b.png is neither a data URI nor a relative path: it holds a zero byte"),
+    "unknown extensions": ((), {"/extensionsUsed": ["A_b", "C_d", "E_f"]}, {}, "/extensionsUsed/0",
+                           'the extension "A_b" is ignored (3 times; also at /extensionsUsed/1, /extensionsUsed/2)'),
+    "emission that no float can add up": ((), {"/materials/0/emissiveFactor": [1e30, 0, 0]}, {"/materials/0/emissiveFactor": [1e20, 0, 0]},
+                                          "/materials/0/emissiveFactor", "the nearest possible value is taken: 1e+20"),
+    "strength that no float can add up": ((), strong(2, 1e25), strong(2, 5e19), "/materials/0/extensions/KHR_materials_emissive_strength/emissiveStrength",
+                                          "the nearest possible value is taken: 5e+19"),
+    "light that no float can add up": ((), light(type="point", intensity=1e30), light(type="point", intensity=1e20), LIGHTS + "/1/intensity",
+                                       "times its colour is out of range"),
     "base64 with escapes": ((), {"/buffers/0/uri": ENCODED.replace("A", "%41")}, {}, "/buffers/0/uri", "base64 with escapes"),
     "base64 with white space": ((), {"/buffers/0/uri": ENCODED.replace("AAA", "A\nA\t A ")}, {}, "/buffers/0/uri", "white space"),
     "base64 with escaped padding": ((), {"/buffers/0/uri": ENCODED.rstrip("=") + "%3D%3D"}, {}, "/buffers/0/uri", "base64 with escapes"),
@@ -246,9 +307,36 @@ class Repairs(Case):
                            "also at /accessors/3, /accessors/4, /accessors/5 and 2 more places)"]])
         self.fails(3, "render", "--strict", scene, "-o", self.folder / "x.pfm", says=["/accessors/2: 99 elements", "--strict refuses it"])
 
+    def test_messages_shorten_what_is_long(self):
+        long = "x" * 1_000_000
+        for changes in (textured(uri=long), {"/materials/0/alphaMode": long}, {"/extensionsUsed": [long]}, {"/materials/0/extensions": {long: None}}):
+            scene = self.write("broken", changed(("texcoord",), changes))
+            _, lines = self.picture(scene)
+            self.assertEqual(len(lines), 1)
+            self.assertLess(len(lines[0]), 600 + len(str(scene)))
+        for uri in (long, "http://" + long, "data:" + long):
+            self.assertLess(len(run("info", self.write("broken", changed((), {"/buffers/0/uri": uri}))).stderr), 600)
+        scene = self.write("broken", changed(("texcoord",), {
+            **UNLIT, "/images": [{"uri": f"gone{i}.png"} for i in range(900)], "/textures": [{"source": i} for i in range(900)],
+            "/materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": i}}} for i in range(900)]}))
+        said = run("info", scene).stderr
+        self.assertIn("gone1.png, gone2.png", said)
+        self.assertRegex(said, r"gone\d+\.png and \d+ more cannot be opened")
+        self.assertLess(len(said), 2000)
+
+    def test_a_scale_of_0_is_said(self):
+        scene = self.write("flat", changed((), {**camera(type="perspective", perspective={"yfov": 1, "znear": 1}), "/nodes/0/scale": [0, 0, 0]}))
+        said = run("render", scene, "-o", self.folder / "x.pfm", "--resolution", "8,8", "--spp", 1).stderr
+        self.assertIn("such as by a scale of 0: nothing to draw", said)
+        self.assertNotIn("--fit", said)
+        self.assertNotIn("shows nothing", said)
+        flat = self.write("flat", changed((), {"/nodes/0/scale": [1, 1, 0]}))
+        self.assertNotIn("nothing to draw", run("info", flat).stderr)
+
     def test_a_file_of_which_nothing_is_left_is_refused_with_the_first_reason(self):
         for changes, place in (({"/nodes/0/matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -1, 0, 0, 0, 0]}, "/nodes/0/matrix"),
                                ({"/accessors/0/count": 99}, "/accessors/0"), ({"/bufferViews/0/byteLength": 999}, "/bufferViews/0"),
+                               ({"/buffers/0/uri": "data:,abc"}, "/buffers/0"), ({"/meshes/0/primitives/0/attributes": NULL}, "/meshes/0/primitives/0/attributes"),
                                ({"/meshes/0/primitives/0/mode": 9}, "/meshes/0/primitives/0/mode")):
             scene = self.write("broken", changed((), changes))
             self.fails(3, "info", scene, says=[f"{scene}: {place}: "])

@@ -7,8 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/text.h"
 #include "gltf/build/numbers.h"
 #include "gltf/read/accessor.h"
+#include "gltf/read/json_parts.h"
 
 namespace fragtrace {
 namespace {
@@ -80,11 +82,9 @@ std::vector<double> blended(std::vector<double> from, std::vector<double> to, do
   return from;
 }
 
-std::optional<Interpolation> interpolationNamed(const std::string& name) {
+Interpolation interpolationNamed(const std::string& name) {
   if (name == "STEP") return Interpolation::Step;
-  if (name == "LINEAR") return Interpolation::Linear;
-  if (name == "CUBICSPLINE") return Interpolation::CubicSpline;
-  return std::nullopt;
+  return name == "CUBICSPLINE" ? Interpolation::CubicSpline : Interpolation::Linear;
 }
 
 /// Times of the keys, checked.
@@ -100,9 +100,9 @@ std::vector<float> readTimes(Document& document, const Channel& channel) {
   std::vector<float> times = readComponents(document, channel.input, 1, place);
   size_t equal = 0;
   for (size_t i = 0; i < times.size(); ++i) {
-    if (!std::isfinite(times[i]) || (i > 0 && times[i] < times[i - 1])) {
-      diagnostics.lose(place, "key " + std::to_string(i) + " is not later than the one before");
-    }
+    const std::string key = "key " + std::to_string(i);
+    if (!std::isfinite(times[i])) diagnostics.lose(place, key + " is not finite");
+    if (i > 0 && times[i] < times[i - 1]) diagnostics.lose(place, key + " is not later than the one before");
     equal += i > 0 && times[i] == times[i - 1];
   }
   if (equal > 0) diagnostics.warn(place, "a key at the time of the one before replaces it", equal);
@@ -116,26 +116,24 @@ Keyframes readKeyframes(Document& document, const Channel& channel, const Number
   const bool isArray = rule.width == 0;
   Diagnostics& diagnostics = document.diagnostics;
   const std::string place = channel.place + "/sampler";
+  diagnostics.need(channel.sampler);
   if (channel.input < 0) diagnostics.lose(place, "is past the samplers of its animation");
-  const auto interpolation = interpolationNamed(channel.interpolation);
-  if (!interpolation) {
-    diagnostics.lose(channel.sampler + "/interpolation",
-                     inQuotes(channel.interpolation) + " is no interpolation");
-  }
   Keyframes keys;
-  keys.interpolation = rule.isFlag ? Interpolation::Step : *interpolation;
+  keys.interpolation = rule.isFlag ? Interpolation::Step : interpolationNamed(channel.interpolation);
   keys.times = readTimes(document, channel);
-  const bool isCubic = keys.interpolation == Interpolation::CubicSpline;
-  if (isCubic && keys.times.size() < 2)
-    diagnostics.warn(channel.sampler + "/input",
-                     "is the only key of a spline, which therefore does not move");
-  const size_t perKey = keys.times.size() * (isCubic ? 3 : 1);
   const size_t count = accessorCount(document, channel.output);
+  const bool isStill = keys.interpolation == Interpolation::CubicSpline && keys.times.size() < 2;
+  if (isStill && count % 3 != 0) keys.interpolation = Interpolation::Linear;  // a value without tangents
+  const bool isCubic = keys.interpolation == Interpolation::CubicSpline;
+  const size_t perKey = keys.times.size() * (isCubic ? 3 : 1);
   keys.width = isArray ? count / perKey : rule.width;
   if (count != perKey * (isArray ? keys.width : 1) || keys.width == 0) {
     diagnostics.lose(place, std::to_string(count) + " elements do not fit its " +
                                 std::to_string(keys.times.size()) + " keys");
   }
+  if (isStill)
+    diagnostics.warn(channel.sampler + "/input",
+                     "is the only key of a spline, which therefore does not move");
   takeMemory(document, place, count * (isArray ? 1 : rule.width) * sizeof(float));
   keys.isRotation = channel.target.starts_with("/nodes/") && channel.target.ends_with("/rotation");
   keys.isScale = channel.target.starts_with("/nodes/") && channel.target.ends_with("/scale");
@@ -195,16 +193,33 @@ std::vector<double> mirroredAt(const Keyframes& keys, const std::vector<double>&
   return value;
 }
 
+/// The number of weights that a mesh has targets for; none where the target is no weights.
+std::optional<size_t> weightsAt(const json& root, const std::string& target) {
+  if (!target.ends_with("/weights")) return std::nullopt;
+  const json& holder = root[json::json_pointer(target).parent_pointer()];
+  const json& mesh =
+      target.starts_with("/nodes/") ? elementOf(root, "meshes", memberOf(holder, "mesh")) : holder;
+  size_t most = 0;
+  for (const json& primitive : memberOf(mesh, "primitives"))
+    most = std::max(most, memberOf(primitive, "targets").size());
+  return most;
+}
+
 void applyChannel(Document& document, const Channel& channel, double seconds,
                   const std::optional<OpenShutter>& shutter, json& root) {
+  document.diagnostics.need(channel.place);
   const std::optional<NumberRule> rule =
       channel.target.empty() ? std::nullopt : numberRuleIn(root, channel.target);
+  const std::string place = channel.place + "/target";
   if (!rule) {
-    document.diagnostics.warn(channel.place + "/target",
-                              "is nothing that can be animated; the channel is ignored");
+    const std::string named = channel.target.empty() ? "" : ": " + inQuotes(channel.target);
+    document.diagnostics.warn(place, "is nothing that can be animated" + named + "; the channel is ignored");
     return;
   }
   const Keyframes keys = readKeyframes(document, channel, *rule);
+  if (const size_t targets = weightsAt(root, channel.target).value_or(keys.width); targets < keys.width)
+    document.diagnostics.warn(place, "drives " + countText(keys.width, "weight") + " of a mesh with " +
+                                         countText(targets, "morph target"));
   document.keyTimes.insert(document.keyTimes.end(), keys.times.begin(), keys.times.end());
   if (keys.isRotation) checkRotations(keys, channel, document.diagnostics);
   std::vector<double> values = shutter ? valuesWhileOpen(keys, seconds, *shutter) : valuesAt(keys, seconds);
@@ -213,8 +228,7 @@ void applyChannel(Document& document, const Channel& channel, double seconds,
     values = {0.0, 0.0, 0.0, 1.0};
   }
   if (decomposeMatrixAt(root, channel.target))
-    document.diagnostics.warn(channel.place + "/target",
-                              "has a node with a matrix, which is taken apart to be animated");
+    document.diagnostics.warn(place, "has a node with a matrix, which is taken apart to be animated");
   writeNumbers(root, channel.target, *rule, values);
 }
 

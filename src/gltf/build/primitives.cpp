@@ -40,6 +40,7 @@ class PrimitiveReader {
         material_(materials.at(materialIndex_)) {}
 
   MeshPrimitive read() {
+    diagnostics_.need(place_);
     constexpr int kLastMode = TINYGLTF_MODE_TRIANGLE_FAN;
     if (source_.mode > kLastMode)
       diagnostics_.lose(place_ + "/mode", std::to_string(source_.mode) + " is no mode");

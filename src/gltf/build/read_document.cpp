@@ -2,9 +2,9 @@
 #include "gltf/build/read_document.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <limits>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -98,7 +98,7 @@ std::vector<std::string> urisOf(json& root) {
   return uris;
 }
 
-/// Brings every buffer into memory, exactly as long as the document says; one without URI stays empty, and so
+/// Brings every buffer into memory, at most as long as the document says; one without URI stays empty, and so
 /// does one that is lost.
 Buffers readBuffers(json& root, Container& container, Worker& codecs, const IsUsed& isUsed,
                     Document& document) {
@@ -118,6 +118,7 @@ Buffers readBuffers(json& root, Container& container, Worker& codecs, const IsUs
       } catch (const InputError& error) {
         if (isUsed(place)) throw InputError(error.what() + alsoMissing(document.access, urisOf(root), uri));
         diagnostics.warn(place + "/uri", "cannot be read, and nothing uses it");
+        diagnostics.noteLost(place);
         continue;
       }
     } else if (i == 0 && container.hasBinary) {
@@ -125,59 +126,64 @@ Buffers readBuffers(json& root, Container& container, Worker& codecs, const IsUs
     } else {
       continue;  // an extension may bring it; bytesOf() loses what uses it
     }
-    if (length > bytes.size()) {
-      diagnostics.warnLoss(place,
-                           "holds " + std::to_string(bytes.size()) + " bytes, fewer than its byteLength of " +
-                               std::to_string(length),
+    if (bytes.empty()) {
+      diagnostics.warnLoss(place, "holds 0 bytes, fewer than its byteLength of " + std::to_string(length),
                            "the buffer", isUsed(place));
-      bytes.clear();
+      diagnostics.noteLost(place);
     }
-    bytes.resize(bytes.empty() ? 0 : length);
+    bytes.resize(std::min<uint64_t>(bytes.size(), length));
   }
   return buffers;
 }
 
+/// Takes buffers with less data than the document says as they are.
+void takeShortBuffers(json& root, const Buffers& data, const std::map<size_t, bool>& losesUsedView,
+                      Diagnostics& diagnostics) {
+  for (size_t i = 0; i < data.size(); ++i) {
+    json& length = root["buffers"][i]["byteLength"];
+    if (data[i].empty() || data[i].size() == length) continue;
+    const std::string reason =
+        "holds " + std::to_string(data[i].size()) + " bytes, fewer than its byteLength of " + length.dump();
+    const auto loses = losesUsedView.find(i);
+    if (loses == losesUsedView.end())
+      diagnostics.warn(pointerTo("buffers", i), reason + "; what lies within them is read");
+    else
+      diagnostics.warnLoss(pointerTo("buffers", i), reason, "what lies past them", loses->second);
+    length = data[i].size();
+  }
+}
+
 /// Buffer views that reach past their buffer are lost. Takes out strides, of which tinygltf refuses some.
-void checkBufferViews(json& root, const IsUsed& isUsed, Document& document) {
+void checkBufferViews(json& root, const Buffers& data, const IsUsed& isUsed, Document& document) {
+  Diagnostics& diagnostics = document.diagnostics;
   json& views = arrayIn(root, "bufferViews");
   const json& buffers = arrayIn(root, "buffers");
+  std::map<size_t, bool> losesUsedView;  // by short buffer
   for (size_t i = 0; i < views.size(); ++i) {
     json& view = views[i];
+    document.strides.push_back(view.value("byteStride", size_t(0)));
+    view.erase("byteStride");
+    const std::string place = pointerTo("bufferViews", i);
     const uint64_t offset = view.value("byteOffset", uint64_t(0));
     const auto length = view["byteLength"].get<uint64_t>();
     const auto buffer = view["buffer"].get<size_t>();
     const auto size = buffer < buffers.size() ? buffers[buffer]["byteLength"].get<uint64_t>() : 0;
-    if (offset > size || length > size - offset) {
-      const std::string place = pointerTo("bufferViews", i);
-      document.diagnostics.warnLoss(place,
-                                    std::to_string(length) + " bytes from byte " + std::to_string(offset) +
-                                        " reach past the " + std::to_string(size) + " of its buffer",
-                                    "the buffer view", isUsed(place));
-      view["byteLength"] = 0;
-      view["byteOffset"] = 0;
-    }
-    document.strides.push_back(view.value("byteStride", size_t(0)));
-    view.erase("byteStride");
+    const uint64_t there = buffer < data.size() && !data[buffer].empty() ? data[buffer].size() : size;
+    const auto reachesPast = [&](uint64_t end) { return offset > end || length > end - offset; };
+    const bool isTold = diagnostics.isLost(place) || diagnostics.isLost(pointerTo("buffers", buffer));
+    if (!isTold && !reachesPast(there)) continue;
+    if (!isTold && reachesPast(size))
+      diagnostics.warnLoss(place,
+                           std::to_string(length) + " bytes from byte " + std::to_string(offset) +
+                               " reach past the " + std::to_string(size) + " of its buffer",
+                           "the buffer view", isUsed(place));
+    else if (!isTold)
+      losesUsedView[buffer] = losesUsedView[buffer] || isUsed(place);
+    diagnostics.noteLost(place);
+    view["byteLength"] = 0;
+    view["byteOffset"] = 0;
   }
-}
-
-/// tinygltf refuses files with an accessor of a kind that it does not know. Such a one becomes empty.
-void emptyUnknownAccessors(json& root, const IsUsed& isUsed, Diagnostics& diagnostics) {
-  constexpr std::array<std::string_view, 7> kTypes = {"SCALAR", "VEC2", "VEC3", "VEC4",
-                                                      "MAT2",   "MAT3", "MAT4"};
-  constexpr std::array<int, 6> kComponentTypes = {5120, 5121, 5122, 5123, 5125, 5126};
-  json& accessors = arrayIn(root, "accessors");
-  for (size_t i = 0; i < accessors.size(); ++i) {
-    json& accessor = accessors[i];
-    const bool knowsType =
-        std::ranges::any_of(kTypes, [&](std::string_view type) { return accessor["type"] == type; });
-    const bool knowsComponents =
-        std::ranges::any_of(kComponentTypes, [&](int type) { return accessor["componentType"] == type; });
-    if (knowsType && knowsComponents) continue;
-    const std::string place = pointerTo("accessors", i);
-    diagnostics.warnLoss(place, "has a type that glTF does not know", "the accessor", isUsed(place));
-    accessor = {{"type", "SCALAR"}, {"componentType", kComponentTypes.back()}, {"count", 0}};
-  }
+  takeShortBuffers(root, data, losesUsedView, diagnostics);
 }
 
 /// Notes the names that the user may choose from.
@@ -334,19 +340,16 @@ KeptDocument readDocument(const std::filesystem::path& path, const GltfOptions& 
   takeMemory(document, "", container.binary.size());
   json root = parseJson(container.json, document.memory, diagnostics);
   container.json = std::string();
-  dropNulls(root, diagnostics);
-  checkVersion(root, diagnostics);
+  checkMembers(root, diagnostics);
+  checkVersions(root, diagnostics);
   const IsUsed isUsed = applySchema(root, options.selection, diagnostics);
-  checkLeastVersion(root, diagnostics);
-  checkPlacesOfExtensions(root, diagnostics);
   mendValues(root, isUsed, diagnostics);
   checkExtensions(root, options.limits.ignoredExtensions, diagnostics);
   noteNames(root, document);
   applySelection(root, options.selection, diagnostics);
   Worker codecs(kGeometryCodecs);
   Buffers buffers = readBuffers(root, container, codecs, isUsed, document);
-  checkBufferViews(root, isUsed, document);
-  emptyUnknownAccessors(root, isUsed, diagnostics);
+  checkBufferViews(root, buffers, isUsed, document);
   document.access.progress = tellReading(options.progress, "reading textures", kBuffersPart, kBuffersPart);
   if (options.progress) options.progress("unpacking", kBuffersPart);
   decompressViews(root, buffers, codecs, document);

@@ -35,6 +35,7 @@ std::optional<PlacedSphere> sphereAt(Document& document, const PlacedNode& node)
     document.diagnostics.refuse(place + "/extras/shape", "index " + std::to_string(index) + " is past the " +
                                                              std::to_string(shapes.ArrayLen()) + " shapes");
   }
+  document.diagnostics.need(pointerTo("extensions", "KHR_implicit_shapes", "shapes", index));
   const tinygltf::Value& shape = shapes.Get(index);
   const std::string& type = memberOf(shape, "type").Get<std::string>();
   if (type != "sphere") {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "base/text.h"
 #include "gltf/read/uri.h"
 #include "gltf/read/value.h"
 #include "image/files/header.h"
@@ -111,7 +110,7 @@ bool isMissing(const Document& document, int image) {
 /// A reason without the name of the file, with which it begins, or else after a space.
 std::string withoutName(const Document& document, const std::string& uri, const std::string& reason) {
   if (!uri.empty() && !isDataUri(uri)) {
-    for (const std::string& name : {pathOfUri(document.access, uri).string(), uri}) {
+    for (const std::string& name : {pathOfUri(document.access, uri).string(), inQuotes(uri), uri}) {
       if (reason.starts_with(name)) return reason.substr(name.size());
     }
   }
@@ -149,6 +148,7 @@ TextureRef TextureTable::lose(int image, const std::string& place, const std::st
     document_.diagnostics.refuse(place, reason + alsoMissing(document_.access, uris, uri) +
                                             " (--missing-textures magenta draws the scene without it)");
   }
+  if (document_.diagnostics.isLost(place)) return ref;  // which has been told
   const std::string kind = withoutName(document_, uri, reason);
   auto group = std::ranges::find_if(
       reasons_, [&](const LostPictures& one) { return one.reason == kind && one.isDrawn == isDrawn_; });
@@ -162,7 +162,7 @@ void TextureTable::warnOfLost() {
   for (const LostPictures& lost : reasons_) {
     const bool isNamed = lost.names.size() > 1 || lost.names[0] != lost.place;
     document_.diagnostics.warn(
-        lost.place, (isNamed ? joined(lost.names) + lost.reason : lost.reason.substr(1)) +
+        lost.place, (isNamed ? listed(lost.names) + lost.reason : lost.reason.substr(1)) +
                         (lost.isDrawn ? "; a base colour is drawn in magenta, other textures are left out"
                                       : "; no drawn material has it"));
   }

@@ -11,23 +11,26 @@ namespace {
 using nlohmann::json;
 
 constexpr LostObject kLostObjects[] = {
-    {"/buffers/*", "the buffer", R"({"byteLength": 0, "extras": "lost"})"},
-    {"/bufferViews/*", "the buffer view", R"({"buffer": 0, "byteLength": 0, "extras": "lost"})"},
+    {"/buffers/*", "the buffer", R"({"byteLength": 0})"},
+    {"/bufferViews/*", "the buffer view", R"({"buffer": 0, "byteLength": 0})"},
     {"/accessors/*", "the accessor", R"({"componentType": 5126, "count": 0, "type": "SCALAR"})"},
     {"/images/*", "the picture", "{}"},
     {"/samplers/*", "the sampler", "{}"},
     {"/textures/*", "the texture", "{}"},
     {"/materials/*", "the material", "{}"},
-    {"/meshes/*", "the mesh", R"({"primitives": [], "extras": "lost"})"},
+    {"/meshes/*", "the mesh", R"({"primitives": []})"},
     {"/meshes/*/primitives/*", "the primitive", R"({"attributes": {}})"},
     {"/meshes/*/primitives/*/targets/*", "the target", "{}"},
-    {"/cameras/*", "the camera", R"({"type": "perspective", "perspective": {"yfov": 1, "znear": 1}})"},
-    {"/extensions/KHR_lights_punctual/lights/*", "the light", R"({"type": "point"})"},
+    {"/cameras/*", "the camera", R"({"type": "perspective", "perspective": {"yfov": 1, "znear": 1}})",
+     "/camera"},
+    {"/extensions/KHR_lights_punctual/lights/*", "the light", R"({"type": "point"})",
+     "/extensions/KHR_lights_punctual/light"},
     {"/extensions/KHR_implicit_shapes/shapes/*", "the shape", R"({"type": ""})"},
     {"/extensions/KHR_materials_variants/variants/*", "the variant", R"({"name": ""})"},
     {"/nodes/*", "the node", "{}"},
-    {"/skins/*", "the skin", R"({"joints": []})"},
+    {"/skins/*", "the skin", R"({"joints": []})", "/skin"},
     {"/animations/*", "the animation", R"({"channels": [], "samplers": []})"},
+    {"/animations/*/samplers/*", "the channel", R"({"interpolation": ""})"},
     {"/animations/*/channels/*", "the channel", R"({"sampler": 0, "target": {"path": ""}})"},
     {"/scenes/*", "the scene", "{}"},
 };
@@ -39,18 +42,21 @@ const LostObject* lostObjectAt(std::string_view pattern) {
   return found == std::end(kLostObjects) ? nullptr : found;
 }
 
-void emptyObject(json& root, const LostObject& object, json& element, size_t index) {
-  element = json::parse(object.empty);
-  const std::string_view pattern = object.pattern;
-  if (!root.contains("nodes") || !root["nodes"].is_array()) return;
+void loseObject(json& root, const LostObject& object, const std::string& place, const Loss& loss,
+                const IsUsed& isUsed, Diagnostics& diagnostics) {
+  const bool isSeen = isUsed(place) && !place.starts_with("/animations/");  // what does not move is drawn
+  diagnostics.warnLoss(loss.place, loss.reason, object.name, isSeen);
+  diagnostics.noteLost(place);
+  root[json::json_pointer(place)] = json::parse(object.empty);
+  if (object.reference == nullptr || !root.contains("nodes") || !root["nodes"].is_array()) return;
+  const json::json_pointer reference(object.reference);
+  const std::string index = place.substr(place.rfind('/') + 1);
+  // A light's extension cannot do without the light.
+  const json::json_pointer holder = reference.parent_pointer();
+  const json::json_pointer erased = holder.empty() ? reference : holder;
   for (json& node : root["nodes"]) {
-    if (!node.is_object()) continue;
-    for (const auto& [member, array] : {std::pair("camera", "/cameras/*"), std::pair("skin", "/skins/*")}) {
-      if (pattern == array && node.contains(member) && node[member] == index) node.erase(member);
-    }
-    const json::json_pointer light("/extensions/KHR_lights_punctual/light");
-    if (pattern.ends_with("/lights/*") && node.contains(light) && node[light] == index)
-      node["extensions"].erase("KHR_lights_punctual");
+    if (node.is_object() && node.contains(reference) && node[reference].dump() == index)
+      node[erased.parent_pointer()].erase(erased.back());
   }
 }
 

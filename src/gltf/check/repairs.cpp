@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
-#include "gltf/check/lost_objects.h"
+#include "gltf/read/component_types.h"
 #include "gltf/read/json_parts.h"
-#include "scene/parts.h"
 
 namespace fragtrace {
 namespace {
@@ -35,25 +33,9 @@ struct Element {
     value.erase(member);
   }
   double number(const char* member, double otherwise) const { return value.value(member, otherwise); }
-
-  /// Warns of what the file itself has empty.
-  void warnEmpty(const std::string& member) const {
-    if (memberOf(value, "extras") != "lost") warn(member, "is empty, and nothing is drawn of it");
-  }
 };
 
-/// Returns true if the word of a member is one of those, or one but for the case of its letters, which is
-/// mended.
-bool isOneOf(const Element& element, const char* member, std::initializer_list<const char*> words) {
-  json& word = element.value[member];
-  const auto& given = word.get_ref<const std::string&>();
-  const auto* found =
-      std::ranges::find_if(words, [&](const char* one) { return isSameButForCase(one, given); });
-  if (found == words.end()) return false;
-  if (given != *found) element.warn(pointerTo(member), inQuotes(given) + " is read as " + *found);
-  word = *found;
-  return true;
-}
+constexpr const char* kIsEmpty = "is empty, and nothing is drawn of it";
 
 void mendUri(const Element& element) {
   const json& uri = memberOf(element.value, "uri");
@@ -62,11 +44,11 @@ void mendUri(const Element& element) {
 
 void mendBuffer(const Element& buffer) {
   mendUri(buffer);
-  if (buffer.value["byteLength"] == 0) buffer.warnEmpty("/byteLength");
+  if (buffer.value["byteLength"] == 0) buffer.warn("/byteLength", kIsEmpty);
 }
 
 void mendMesh(const Element& mesh) {
-  if (mesh.value["primitives"].empty()) mesh.warnEmpty("/primitives");
+  if (mesh.value["primitives"].empty()) mesh.warn("/primitives", kIsEmpty);
 }
 
 void mendImage(const Element& image) {
@@ -80,10 +62,17 @@ void mendImage(const Element& image) {
 void mendView(const Element& view) {
   constexpr uint64_t kLargest = 252;
   const uint64_t stride = view.value.value("byteStride", uint64_t(4));
-  if (view.value["byteLength"] == 0) view.warnEmpty("/byteLength");
+  if (view.value["byteLength"] == 0) view.warn("/byteLength", kIsEmpty);
   if (stride == 0) return view.takeAsAbsent("byteStride", "is 0");
   if (stride % 4 != 0 || stride > kLargest)
     view.warn("/byteStride", "is not a multiple of 4 from 4 to 252; it is applied all the same");
+}
+
+/// tinygltf refuses files with others.
+void mendAccessor(const Element& accessor) {
+  const auto type = accessor.value["componentType"].get<unsigned>();
+  if (!isComponentType(type))
+    accessor.lose("/componentType", std::to_string(type) + " is not a component type");
 }
 
 void mendSampler(const Element& sampler) {
@@ -99,16 +88,7 @@ void mendSampler(const Element& sampler) {
   }
 }
 
-void mendMaterial(const Element& material) {
-  if (!material.value.contains("alphaMode") || isOneOf(material, "alphaMode", {"OPAQUE", "MASK", "BLEND"}))
-    return;
-  material.warn("/alphaMode", material.value["alphaMode"].dump() + " is no alpha mode; it is read as OPAQUE");
-  material.value["alphaMode"] = "OPAQUE";
-}
-
 void mendCamera(const Element& camera) {
-  if (!isOneOf(camera, "type", {"perspective", "orthographic"}))
-    camera.lose("/type", camera.value["type"].dump() + " is no kind of camera");
   const auto& type = camera.value["type"].get_ref<const std::string&>();
   if (!camera.value.contains(type)) camera.lose("", inQuotes(type) + " is missing");
   json& lens = camera.value[type];
@@ -122,8 +102,6 @@ void mendCamera(const Element& camera) {
 }
 
 void mendLight(const Element& light) {
-  if (!isOneOf(light, "type", {"point", "spot", "directional"}))
-    light.lose("/type", light.value["type"].dump() + " is no kind of light");
   if (light.number("range", 1.0) <= 0.0) light.takeAsAbsent("range", "is not above 0");
   if (light.value["type"] != "spot") return;
   constexpr double kRightAngle = 1.5707963267948966;
@@ -169,25 +147,17 @@ void mendMatrix(const Element& node) {
 
 void mendNode(const Element& node) {
   if (node.value.contains("matrix")) mendMatrix(node);
-  const json& rotation = memberOf(node.value, "rotation");
-  if (!rotation.is_array()) return;
-  double squared = 0.0;
-  for (const json& r : rotation) squared += r.get<double>() * r.get<double>();
+  if (!node.value.contains("rotation")) return;
+  json& rotation = node.value["rotation"];
+  double largest = 0.0, squared = 0.0;
+  for (const json& r : rotation) largest = std::max(largest, std::abs(r.get<double>()));
+  if (largest == 0.0) return node.takeAsAbsent("rotation", "is a quaternion of zeros");
+  const int exponent = std::ilogb(largest);  // so that squares neither overflow nor vanish
+  for (const json& r : rotation) squared += std::pow(std::ldexp(r.get<double>(), -exponent), 2);
   constexpr double kRoundedToBytes = 0.00788;  // four components, each off by half of 1 / 127
-  if (squared == 0.0)
-    node.takeAsAbsent("rotation", "is a quaternion of zeros");
-  else if (!(std::abs(std::sqrt(squared) - 1.0) <= kRoundedToBytes))
-    node.warn("/rotation", "is not a unit quaternion, and normalized");
-}
-
-void mendAnimation(const Element& animation) {
-  json& samplers = animation.value["samplers"];
-  for (size_t i = 0; i < samplers.size(); ++i) {
-    const std::string place = animation.place + pointerTo("samplers", i);
-    const Element sampler{samplers[i], place, animation.diagnostics};
-    if (sampler.value.contains("interpolation"))
-      isOneOf(sampler, "interpolation", {"LINEAR", "STEP", "CUBICSPLINE"});  // others lose their channels
-  }
+  if (std::abs(std::ldexp(std::sqrt(squared), exponent) - 1.0) <= kRoundedToBytes) return;
+  node.warn("/rotation", "is not a unit quaternion, and normalized");
+  for (json& r : rotation) r = std::ldexp(r.get<double>(), -exponent);
 }
 
 struct Repair {
@@ -198,39 +168,12 @@ struct Repair {
 constexpr Repair kRepairs[] = {
     {"/buffers", mendBuffer},     {"/bufferViews", mendView},
     {"/images", mendImage},       {"/samplers", mendSampler},
-    {"/materials", mendMaterial}, {"/meshes", mendMesh},
+    {"/accessors", mendAccessor}, {"/meshes", mendMesh},
     {"/cameras", mendCamera},     {"/extensions/KHR_lights_punctual/lights", mendLight},
-    {"/nodes", mendNode},         {"/animations", mendAnimation},
+    {"/nodes", mendNode},
 };
 
-bool hasNull(const json& value) {
-  return value.is_null() || (value.is_structured() && std::ranges::any_of(value, hasNull));
-}
-
-void dropNullsIn(json& value, const std::string& place, Diagnostics& diagnostics) {
-  if (value.is_array()) {
-    for (size_t i = 0; i < value.size(); ++i) {
-      if (value[i].is_structured()) dropNullsIn(value[i], place + pointerTo(i), diagnostics);
-    }
-  } else if (value.is_object()) {
-    for (auto member = value.begin(); member != value.end();) {
-      const std::string there = place + pointerTo(member.key());
-      if (member->is_null()) {
-        diagnostics.warn(there, "is null, and taken as absent");
-        member = value.erase(member);
-        continue;
-      }
-      if (member->is_structured() && member.key() != "extras") dropNullsIn(*member, there, diagnostics);
-      ++member;
-    }
-  }
-}
-
 }  // namespace
-
-void dropNulls(json& root, Diagnostics& diagnostics) {
-  if (hasNull(root)) dropNullsIn(root, "", diagnostics);
-}
 
 void mendValues(json& root, const IsUsed& isUsed, Diagnostics& diagnostics) {
   for (const Repair& repair : kRepairs) {
@@ -238,13 +181,12 @@ void mendValues(json& root, const IsUsed& isUsed, Diagnostics& diagnostics) {
     if (!root.contains(array)) continue;
     const LostObject& object = *lostObjectAt(std::string(repair.array) + "/*");
     for (size_t i = 0; i < root[array].size(); ++i) {
-      json& value = root[array][i];
       const std::string place = repair.array + pointerTo(i);
+      if (diagnostics.isLost(place)) continue;
       try {
-        repair.mend({value, place, diagnostics});
+        repair.mend({root[array][i], place, diagnostics});
       } catch (const Loss& loss) {
-        diagnostics.warnLoss(loss.place, loss.reason, object.name, isUsed(place));
-        emptyObject(root, object, value, i);
+        loseObject(root, object, place, loss, isUsed, diagnostics);
       }
     }
   }

@@ -9,10 +9,6 @@
 
 namespace fragtrace {
 
-/// Takes out members that are null, outside of extras. To be called before the schema is looked at.
-void dropNulls(nlohmann::json& root, Diagnostics& diagnostics);
-
-/// Mends the rest.
 void mendValues(nlohmann::json& root, const IsUsed& isUsed, Diagnostics& diagnostics);
 
 }  // namespace fragtrace

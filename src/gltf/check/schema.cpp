@@ -20,14 +20,13 @@ namespace {
 
 using nlohmann::json;
 
-/// Rules for everything that the loader reads; the rule of a container comes before those of its members.
+/// Rules for what the loader reads. Containers without a rule of their own are objects.
 constexpr Rule kRules[] = {
     {"/asset!", Kind::Object},
     {"/asset/version!", Kind::Text},
     {"/asset/minVersion", Kind::Text},
     {"/extensionsUsed", Kind::Texts},
     {"/extensionsRequired", Kind::Texts},
-    {"/extensions", Kind::Object},
 
     {"/buffers", Kind::Objects},
     {"/buffers/*/byteLength!", Kind::Size},
@@ -37,36 +36,13 @@ constexpr Rule kRules[] = {
     {"/bufferViews/*/byteLength!", Kind::Size},
     {"/bufferViews/*/byteOffset", Kind::Size},
     {"/bufferViews/*/byteStride", Kind::Size},
-    {"/buffers/*/extensions", Kind::Object},
-    {"/buffers/*/extensions/EXT_meshopt_compression", Kind::Object},
-    {"/buffers/*/extensions/EXT_meshopt_compression/fallback", Kind::Flag},
-    {"/bufferViews/*/extensions", Kind::Object},
-    {"/bufferViews/*/extensions/EXT_meshopt_compression", Kind::Object},
-    {"/bufferViews/*/extensions/EXT_meshopt_compression/buffer!", Kind::Index, "/buffers"},
-    {"/bufferViews/*/extensions/EXT_meshopt_compression/byteOffset", Kind::Size},
-    {"/bufferViews/*/extensions/EXT_meshopt_compression/byteLength!", Kind::Size},
-    {"/bufferViews/*/extensions/EXT_meshopt_compression/byteStride!", Kind::Size},
-    {"/bufferViews/*/extensions/EXT_meshopt_compression/count!", Kind::Size},
-    {"/bufferViews/*/extensions/EXT_meshopt_compression/mode!", Kind::Text},
-    {"/bufferViews/*/extensions/EXT_meshopt_compression/filter", Kind::Text},
-    {"/buffers/*/extensions/KHR_meshopt_compression", Kind::Object},
-    {"/buffers/*/extensions/KHR_meshopt_compression/fallback", Kind::Flag},
-    {"/bufferViews/*/extensions/KHR_meshopt_compression", Kind::Object},
-    {"/bufferViews/*/extensions/KHR_meshopt_compression/buffer!", Kind::Index, "/buffers"},
-    {"/bufferViews/*/extensions/KHR_meshopt_compression/byteOffset", Kind::Size},
-    {"/bufferViews/*/extensions/KHR_meshopt_compression/byteLength!", Kind::Size},
-    {"/bufferViews/*/extensions/KHR_meshopt_compression/byteStride!", Kind::Size},
-    {"/bufferViews/*/extensions/KHR_meshopt_compression/count!", Kind::Size},
-    {"/bufferViews/*/extensions/KHR_meshopt_compression/mode!", Kind::Text},
-    {"/bufferViews/*/extensions/KHR_meshopt_compression/filter", Kind::Text},
     {"/accessors", Kind::Objects},
     {"/accessors/*/bufferView", Kind::Index, "/bufferViews"},
     {"/accessors/*/byteOffset", Kind::Size},
     {"/accessors/*/componentType!", Kind::Int},
     {"/accessors/*/count!", Kind::Size},
-    {"/accessors/*/type!", Kind::Text},
+    {"/accessors/*/type!", Kind::Word, "type of an accessor: SCALAR VEC2 VEC3 VEC4 MAT2 MAT3 MAT4"},
     {"/accessors/*/normalized", Kind::Flag},
-    {"/accessors/*/sparse", Kind::Object},
     {"/accessors/*/sparse/count!", Kind::Int},
     {"/accessors/*/sparse/indices!", Kind::Object},
     {"/accessors/*/sparse/indices/bufferView!", Kind::Index, "/bufferViews"},
@@ -87,32 +63,21 @@ constexpr Rule kRules[] = {
     {"/textures", Kind::Objects},
     {"/textures/*/source", Kind::Index, "/images"},
     {"/textures/*/sampler", Kind::Index, "/samplers"},
-    {"/textures/*/extensions", Kind::Object},
-    {"/textures/*/extensions/KHR_texture_basisu", Kind::Object},
-    {"/textures/*/extensions/KHR_texture_basisu/source", Kind::Index, "/images"},
-    {"/textures/*/extensions/EXT_texture_avif", Kind::Object},
-    {"/textures/*/extensions/EXT_texture_avif/source", Kind::Index, "/images"},
-    {"/textures/*/extensions/EXT_texture_webp", Kind::Object},
-    {"/textures/*/extensions/EXT_texture_webp/source", Kind::Index, "/images"},
 
     {"/materials", Kind::Objects},
     {"/materials/*/name", Kind::Text},
-    {"/materials/*/pbrMetallicRoughness", Kind::Object},
     {"/materials/*/pbrMetallicRoughness/baseColorFactor", Kind::Numbers, nullptr, 4},
     {"/materials/*/pbrMetallicRoughness/metallicFactor", Kind::Number},
     {"/materials/*/pbrMetallicRoughness/roughnessFactor", Kind::Number},
     {"/materials/*/emissiveFactor", Kind::Numbers, nullptr, 3},
-    {"/materials/*/alphaMode", Kind::Text},
+    {"/materials/*/alphaMode", Kind::Word, "alpha mode: OPAQUE MASK BLEND"},
     {"/materials/*/alphaCutoff", Kind::Number},
     {"/materials/*/doubleSided", Kind::Flag},
-    {"/materials/*/extensions", Kind::Object},
     {"/materials/*/normalTexture/scale", Kind::Number},
     {"/materials/*/occlusionTexture/strength", Kind::Number},
-    {"/materials/*/extras/perlinNormal", Kind::Object},
     {"/materials/*/extras/perlinNormal/frequency", Kind::Number},
     {"/materials/*/extras/perlinNormal/amplitude", Kind::Number},
     {"/materials/*/extras/perlinNormal/octaves", Kind::Int},
-    {"/nodes/*/extras/fragtrace_volume", Kind::Object},
     {"/nodes/*/extras/fragtrace_volume/volume!", Kind::Text},
     {"/nodes/*/extras/fragtrace_volume/position", Kind::Numbers, nullptr, 3},
     {"/nodes/*/extras/fragtrace_volume/scale", Kind::Number},
@@ -132,16 +97,12 @@ constexpr Rule kRules[] = {
     {"/meshes/*/primitives/*/mode", Kind::Int},
     {"/meshes/*/primitives/*/targets", Kind::Objects},
     {"/meshes/*/primitives/*/targets/*/*", Kind::Index, "/accessors"},
-    {"/meshes/*/primitives/*/extensions", Kind::Object},
-    {"/meshes/*/primitives/*/extensions/KHR_draco_mesh_compression", Kind::Object},
     {"/meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/bufferView", Kind::Index, "/bufferViews"},
     {"/meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/attributes", Kind::Object},
     {"/meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/attributes/*", Kind::Int},
 
-    {"/extensions/KHR_materials_variants", Kind::Object},
     {"/extensions/KHR_materials_variants/variants!", Kind::Objects},
     {"/extensions/KHR_materials_variants/variants/*/name!", Kind::Text},
-    {"/meshes/*/primitives/*/extensions/KHR_materials_variants", Kind::Object},
     {"/meshes/*/primitives/*/extensions/KHR_materials_variants/mappings!", Kind::Objects},
     {"/meshes/*/primitives/*/extensions/KHR_materials_variants/mappings/*/material!", Kind::Index,
      "/materials"},
@@ -151,30 +112,24 @@ constexpr Rule kRules[] = {
 
     {"/cameras", Kind::Objects},
     {"/cameras/*/name", Kind::Text},
-    {"/cameras/*/type!", Kind::Text},
-    {"/cameras/*/perspective", Kind::Object},
+    {"/cameras/*/type!", Kind::Word, "kind of camera: perspective orthographic"},
     {"/cameras/*/perspective/yfov!", Kind::Number},
     {"/cameras/*/perspective/znear", Kind::Number},
     {"/cameras/*/perspective/aspectRatio", Kind::Number},
-    {"/cameras/*/orthographic", Kind::Object},
     {"/cameras/*/orthographic/xmag!", Kind::Number},
     {"/cameras/*/orthographic/ymag!", Kind::Number},
     {"/cameras/*/orthographic/zfar", Kind::Number},
     {"/cameras/*/orthographic/znear", Kind::Number},
 
-    {"/extensions/KHR_lights_punctual", Kind::Object},
     {"/extensions/KHR_lights_punctual/lights!", Kind::Objects},
-    {"/extensions/KHR_lights_punctual/lights/*/type!", Kind::Text},
+    {"/extensions/KHR_lights_punctual/lights/*/type!", Kind::Word, "kind of light: point spot directional"},
     {"/extensions/KHR_lights_punctual/lights/*/color", Kind::Numbers, nullptr, 3},
     {"/extensions/KHR_lights_punctual/lights/*/intensity", Kind::Number},
     {"/extensions/KHR_lights_punctual/lights/*/range", Kind::Number},
-    {"/extensions/KHR_lights_punctual/lights/*/spot", Kind::Object},
     {"/extensions/KHR_lights_punctual/lights/*/spot/innerConeAngle", Kind::Number},
     {"/extensions/KHR_lights_punctual/lights/*/spot/outerConeAngle", Kind::Number},
-    {"/extensions/KHR_implicit_shapes", Kind::Object},
     {"/extensions/KHR_implicit_shapes/shapes!", Kind::Objects},
     {"/extensions/KHR_implicit_shapes/shapes/*/type!", Kind::Text},
-    {"/extensions/KHR_implicit_shapes/shapes/*/sphere", Kind::Object},
     {"/extensions/KHR_implicit_shapes/shapes/*/sphere/radius", Kind::Number},
 
     {"/nodes", Kind::Objects},
@@ -189,10 +144,7 @@ constexpr Rule kRules[] = {
     {"/nodes/*/scale", Kind::Numbers, nullptr, 3},
     {"/nodes/*/weights", Kind::Numbers},
     {"/nodes/*/skin", Kind::Index, "/skins"},
-    {"/nodes/*/extensions", Kind::Object},
-    {"/nodes/*/extensions/KHR_node_visibility", Kind::Object},
     {"/nodes/*/extensions/KHR_node_visibility/visible", Kind::Flag},
-    {"/nodes/*/extensions/KHR_lights_punctual", Kind::Object},
     {"/nodes/*/extensions/KHR_lights_punctual/light!", Kind::Index, "/extensions/KHR_lights_punctual/lights"},
     {"/skins", Kind::Objects},
     {"/skins/*/joints!", Kind::Array},
@@ -204,16 +156,14 @@ constexpr Rule kRules[] = {
     {"/animations/*/samplers!", Kind::Objects},
     {"/animations/*/samplers/*/input!", Kind::Index, "/accessors"},
     {"/animations/*/samplers/*/output!", Kind::Index, "/accessors"},
-    {"/animations/*/samplers/*/interpolation", Kind::Text},
+    {"/animations/*/samplers/*/interpolation", Kind::Word, "interpolation: LINEAR STEP CUBICSPLINE"},
     {"/animations/*/channels!", Kind::Objects},
     {"/animations/*/channels/*/sampler!", Kind::Int},
     {"/animations/*/channels/*/target!", Kind::Object},
     {"/animations/*/channels/*/target/node", Kind::Index, "/nodes"},
-    {"/animations/*/channels/*/target/path!", Kind::Text},
-    {"/animations/*/channels/*/target/extensions", Kind::Object},
-    {"/animations/*/channels/*/target/extensions/KHR_animation_pointer", Kind::Object},
+    {"/animations/*/channels/*/target/path!", Kind::Word,
+     "path that can be animated: translation rotation scale weights pointer"},
     {"/animations/*/channels/*/target/extensions/KHR_animation_pointer/pointer!", Kind::Text},
-    {"/nodes/*/extensions/EXT_mesh_gpu_instancing", Kind::Object},
     {"/nodes/*/extensions/EXT_mesh_gpu_instancing/attributes", Kind::Object},
     {"/nodes/*/extensions/EXT_mesh_gpu_instancing/attributes/*", Kind::Index, "/accessors"},
     {"/scenes", Kind::Objects},
@@ -234,34 +184,53 @@ constexpr const char* kTextureSlots[] = {
 
 /// The members of such a use of a texture.
 constexpr Rule kTextureInfoRules[] = {
-    {"", Kind::Object},
     {"/index!", Kind::Index, "/textures"},
     {"/texCoord", Kind::Int},
-    {"/extensions", Kind::Object},
-    {"/extensions/KHR_texture_transform", Kind::Object},
     {"/extensions/KHR_texture_transform/offset", Kind::Numbers, nullptr, 2},
     {"/extensions/KHR_texture_transform/scale", Kind::Numbers, nullptr, 2},
     {"/extensions/KHR_texture_transform/rotation", Kind::Number},
     {"/extensions/KHR_texture_transform/texCoord", Kind::Int},
 };
 
-/// kRules, and the rules of material extensions and of all uses of textures.
+/// The members of both extensions in buffer views, after their names.
+constexpr Rule kMeshoptRules[] = {
+    {"/buffer!", Kind::Index, "/buffers"},
+    {"/byteOffset", Kind::Size},  {"/byteLength!", Kind::Size},
+    {"/byteStride!", Kind::Size}, {"/count!", Kind::Size},
+    {"/mode!", Kind::Text},       {"/filter", Kind::Text},
+};
+
+/// kRules, and the rules of extensions and of all uses of textures.
 const std::vector<Rule>& rules() {
   static std::deque<std::string> patterns;  // the rules point to them
   static const std::vector<Rule> all = [] {
-    std::vector<Rule> made(std::begin(kRules), std::end(kRules));
-    const auto add = [&](std::string pattern, Rule rule) {
-      rule.pattern = patterns.emplace_back(std::move(pattern)).c_str();
+    std::vector<Rule> made;
+    std::set<std::string> known = {"/materials/*/extras", "/nodes/*/extras"};  // which may be anything
+    const auto add = [&](const std::string& pattern, Rule rule) {
+      for (size_t end = pattern.find('/', 1); end != pattern.npos; end = pattern.find('/', end + 1)) {
+        const std::string holder = pattern.substr(0, end);
+        if (pattern[end + 1] != '*' && !holder.ends_with('*') && known.insert(holder).second)
+          made.push_back({patterns.emplace_back(holder).c_str(), Kind::Object});
+      }
+      known.insert(pattern.substr(0, pattern.find('!')));
+      rule.pattern = patterns.emplace_back(pattern).c_str();
       made.push_back(rule);
     };
+    for (const Rule& rule : kRules) add(rule.pattern, rule);
     const auto addTexture = [&](const std::string& place) {
       for (const Rule& rule : kTextureInfoRules) add(place + rule.pattern, rule);
     };
     for (const char* place : kTextureSlots) addTexture(place);
+    for (const std::string name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+      add("/buffers/*/extensions/" + name + "/fallback", {"", Kind::Flag});
+      for (const Rule& rule : kMeshoptRules) add("/bufferViews/*/extensions/" + name + rule.pattern, rule);
+    }
+    for (const std::string name : {"KHR_texture_basisu", "EXT_texture_avif", "EXT_texture_webp"}) {
+      add("/textures/*/extensions/" + name + "/source", {"", Kind::Index, "/images"});
+    }
     for (const Extension& extension : extensions()) {
       if (extension.members.empty()) continue;
       const std::string place = "/materials/*/extensions/" + std::string(extension.name);
-      add(place, {"", Kind::Object});
       for (const std::string_view member : wordsIn(extension.members)) {
         const size_t bracket = member.find('[');
         const std::string at = place + "/" + std::string(member.substr(0, bracket));
@@ -302,15 +271,16 @@ IsUsed applySchema(json& root, const SceneSelection& selection, Diagnostics& dia
     if (used->empty()) *used = usedObjects(root, rules(), selection);  // few documents ask for it
     return used->contains(ownerOf(place));
   };
-  const auto isRequired = [](std::string_view pattern) {
-    return std::ranges::any_of(rules(), [&](const Rule& rule) {
-      const std::string_view one = rule.pattern;
-      return one.ends_with('!') && one.substr(0, one.size() - 1) == pattern;
-    });
-  };
-  const SchemaContext context{diagnostics, isRequired, isUsed};
+  const SchemaContext context{diagnostics, isRequiredAt, isUsed};
   for (const Rule& rule : rules()) applyRule(rule, root, context);
   return isUsed;
+}
+
+bool isRequiredAt(std::string_view pattern) {
+  return std::ranges::any_of(rules(), [&](const Rule& rule) {
+    const std::string_view one = rule.pattern;
+    return one.ends_with('!') && one.substr(0, one.size() - 1) == pattern;
+  });
 }
 
 std::optional<NumberRule> numberRuleAt(std::string_view pointer) {

@@ -4,13 +4,13 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "gltf/check/lost_objects.h"
 #include "gltf/read/diagnostics.h"
 #include "scene/selection.h"
 
@@ -21,8 +21,10 @@ namespace fragtrace {
 /// integers. Throws InputError for a reference to something that does not exist, in an object that the
 /// selected scene uses. Returns what tells if it uses the object at a place, as long as the document is
 /// there.
-using IsUsed = std::function<bool(std::string_view place)>;
 IsUsed applySchema(nlohmann::json& root, const SceneSelection& selection, Diagnostics& diagnostics);
+
+/// Returns true if what holds the member at a pattern cannot do without it.
+bool isRequiredAt(std::string_view pattern);
 
 /// Numbers that the loader reads.
 struct NumberRule {

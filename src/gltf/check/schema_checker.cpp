@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "gltf/check/lost_objects.h"
+#include "base/split.h"
 
 namespace fragtrace {
 namespace {
@@ -18,7 +18,8 @@ using nlohmann::json;
 /// Members without which what holds them would be read as something else.
 bool isIndispensable(std::string_view pattern) {
   return pattern.starts_with("/accessors/*/") || pattern.starts_with("/bufferViews/*/") ||
-         pattern == "/cameras/*/orthographic" || pattern == "/cameras/*/perspective" ||
+         pattern == "/animations/*/samplers/*/interpolation" || pattern == "/cameras/*/orthographic" ||
+         pattern == "/cameras/*/perspective" ||
          pattern == "/meshes/*/primitives/*/extensions/KHR_draco_mesh_compression";
 }
 
@@ -30,7 +31,7 @@ class Checker {
     required_ = pattern.ends_with('!');
     if (required_) pattern.remove_suffix(1);
     pattern_ = pattern;
-    targetSize_ = rule.target != nullptr ? arraySize(rule.target) : 0;
+    targetSize_ = rule.kind == Kind::Index ? arraySize(rule.target) : 0;
   }
 
   void apply() {
@@ -80,13 +81,13 @@ class Checker {
 
   bool descendArray(json& array, std::string_view rest, std::string_view here) {
     const LostObject* object = lostObjectAt(here);
+    const bool mayBeLost = object != nullptr && context_.diagnostics.hasLost();
     for (size_t i = 0; i < array.size(); ++i) {
+      if (mayBeLost && context_.diagnostics.isLost(place_ + pointerTo(i))) continue;
       if (visit(array[i], std::to_string(i), rest)) continue;
       const std::string place = place_ + pointerTo(i);
       if (object != nullptr) {
-        const bool isUsed = context_.isUsed(place);
-        emptyObject(root_, *object, array[i], i);
-        context_.diagnostics.warnLoss(faultPlace_, fault_, object->name, isUsed);
+        loseObject(root_, *object, place, {"", faultPlace_, fault_}, context_.isUsed, context_.diagnostics);
       } else if (mayLoseElements(here)) {
         array.erase(i--);
         warn("; it is taken as absent");
@@ -113,6 +114,7 @@ class Checker {
   }
 
   bool check(json& value) {
+    if (value.is_null()) return note("is null");
     switch (rule_.kind) {
       case Kind::Object:
         return value.is_object() || note("is not an object");
@@ -122,6 +124,8 @@ class Checker {
         return checkObjects(value);
       case Kind::Text:
         return value.is_string() || note("is not a string");
+      case Kind::Word:
+        return checkWord(value);
       case Kind::Texts:
         return isOfEach(value, &json::is_string) || note("is not an array of strings");
       case Kind::Flag:
@@ -146,6 +150,25 @@ class Checker {
     return value.is_array() && std::ranges::all_of(value, [&](const json& e) { return (e.*isRight)(); });
   }
 
+  bool checkWord(json& value) {
+    if (!value.is_string()) return note("is not a string");
+    const std::string given = value;
+    const std::string_view rule = rule_.target;
+    const size_t colon = rule.find(':');
+    const auto words = wordsIn(rule.substr(colon + 2));
+    const auto word =
+        std::ranges::find_if(words, [&](std::string_view one) { return isSameButForCase(one, given); });
+    const std::string is = inQuotes(given) + " is ";
+    const std::string isNone = is + "no " + std::string(rule.substr(0, colon));
+    const bool isKnown = word != words.end();
+    if (!isKnown && (required_ || isIndispensable(pattern_))) return note(isNone);
+    value = isKnown ? *word : words.front();
+    if (value != given)
+      context_.diagnostics.warn(place_,
+                                (isKnown ? is : isNone + "; it is ") + "read as " + std::string(value));
+    return true;
+  }
+
   /// Elements that are no objects become ones without content.
   bool checkObjects(json& value) {
     if (!value.is_array()) return note("is not an array of objects");
@@ -155,11 +178,13 @@ class Checker {
       if (object == nullptr) return note("is not an array of objects");
       const std::string place = place_ + pointerTo(i);
       const std::string is = value[i].is_null() ? "is null" : "is not an object";
-      const bool isUsed = context_.isUsed(place);
-      const bool needsNone = std::string_view(object->empty) == "{}";
-      emptyObject(root_, *object, value[i], i);
-      needsNone ? context_.diagnostics.warn(place, is + ", and taken as one without members")
-                : context_.diagnostics.warnLoss(place, is, object->name, isUsed);
+      if (std::string_view(object->empty) == "{}") {
+        context_.diagnostics.warn(place, is + ", and taken as one without members");
+        context_.diagnostics.noteLost(place);
+        value[i] = json::object();
+      } else {
+        loseObject(root_, *object, place, {"", place, is}, context_.isUsed, context_.diagnostics);
+      }
     }
     return true;
   }
@@ -175,7 +200,6 @@ class Checker {
   }
 
   bool checkIndex(json& value) {
-    if (value.is_null()) return note("is null");
     bool isIndex = checkWhole(value, uint64_t(std::numeric_limits<int32_t>::max()));
     if (isIndex && value.get<uint64_t>() >= targetSize_) {
       isIndex = note("index " + value.dump() + " is past the " + std::to_string(targetSize_) +

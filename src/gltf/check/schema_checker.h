@@ -3,11 +3,11 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
+#include "gltf/check/lost_objects.h"
 #include "gltf/read/diagnostics.h"
 
 namespace fragtrace {
@@ -17,6 +17,7 @@ enum class Kind {
   Array,
   Objects,  ///< an array of objects
   Text,
+  Word,  ///< one of those in `target`, "what they are: A B", without regard to case
   Texts,
   Flag,
   Number,
@@ -36,12 +37,12 @@ struct Rule {
 
 /// Checks the rule. Whole numbers written as 1.0 become integers. What breaks the rule goes, with a warning:
 /// an optional member; else the member or element that holds it, and so on. An object of lost_objects.h
-/// becomes one without content. Throws InputError where that ends at the root, and for a broken reference in
-/// an object that is used.
+/// becomes one without content, and an optional word the first one. Throws InputError where that ends at the
+/// root, and for a broken reference in an object that is used.
 struct SchemaContext {
   Diagnostics& diagnostics;
-  std::function<bool(std::string_view pattern)> isRequired;  ///< a member's pattern, without its !
-  std::function<bool(std::string_view place)> isUsed;        ///< by the chosen scene
+  bool (*isRequired)(std::string_view pattern);  ///< a member's pattern, without its !
+  const IsUsed& isUsed;
 };
 void applyRule(const Rule& rule, nlohmann::json& root, const SchemaContext& context);
 

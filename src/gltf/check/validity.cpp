@@ -2,10 +2,13 @@
 #include "gltf/check/validity.h"
 
 #include <algorithm>
-#include <charconv>
+#include <iterator>
+#include <optional>
 #include <string>
 
+#include "base/text.h"
 #include "gltf/check/extensions.h"
+#include "gltf/check/schema.h"
 #include "gltf/read/json_parts.h"
 
 namespace fragtrace {
@@ -21,24 +24,26 @@ bool isAtHome(std::string_view name, std::string_view place, std::string_view ow
   return std::ranges::find(extension->places, place) != extension->places.end();
 }
 
-/// Warns of extensions at places where they are not read. Extras are the author's own.
-class PlaceChecker {
+class MemberChecker {
  public:
-  explicit PlaceChecker(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  explicit MemberChecker(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
-  void visit(const json& value, std::string_view owner) {
+  /// `owner` is the name of the member that holds the value.
+  void visit(json& value, std::string_view owner) {
     if (value.is_array()) {
       for (size_t i = 0; i < value.size(); ++i) descend(value[i], std::to_string(i), "*", owner);
     } else if (value.is_object()) {
-      for (const auto& member : value.items()) {
-        if (member.key() == "extensions") warnOfStrangers(member.value(), owner);
-        if (member.key() != "extras") descend(member.value(), member.key(), member.key(), member.key());
+      for (auto member = value.begin(); member != value.end();) {
+        const std::string& name = member.key();
+        if (name == "extensions") warnOfStrangers(*member, owner);
+        if (name != "extras") descend(*member, name, name, name);
+        member = member->is_null() && takesOut(name) ? value.erase(member) : std::next(member);
       }
     }
   }
 
  private:
-  void descend(const json& value, const std::string& part, std::string_view pattern, std::string_view owner) {
+  void descend(json& value, const std::string& part, std::string_view pattern, std::string_view owner) {
     if (!value.is_structured()) return;
     const size_t place = place_.size();
     const size_t length = pattern_.size();
@@ -47,6 +52,13 @@ class PlaceChecker {
     visit(value, owner);
     place_.resize(place);
     pattern_.resize(length);
+  }
+
+  /// Returns true, with a warning, if a null can be taken for an absent member.
+  bool takesOut(const std::string& name) {
+    if (isRequiredAt(pattern_ + "/" + name)) return false;
+    diagnostics_.warn(place_ + pointerTo(name), "is null, and taken as absent");
+    return true;
   }
 
   void warnOfStrangers(const json& extensions, std::string_view owner) {
@@ -68,42 +80,39 @@ struct Version {
   auto operator<=>(const Version&) const = default;  // NOLINT(modernize-use-nullptr): it is none
 };
 
-Version versionOf(const std::string& text, const std::string& place, const Diagnostics& diagnostics) {
-  Version version;
-  const char* end = text.data() + text.size();
-  const auto major = std::from_chars(text.data(), end, version.major);
-  if (major.ec == std::errc{} && major.ptr != end && *major.ptr == '.') {
-    const auto minor = std::from_chars(major.ptr + 1, end, version.minor);
-    if (minor.ec == std::errc{} && minor.ptr == end) return version;
-  }
-  diagnostics.refuse(place, inQuotes(text) + " is not a version such as 2.0");
+/// The version in a member of the asset, where it is a text or a number; it becomes a text such as 2.0.
+std::optional<Version> readVersion(json& asset, const char* member, Diagnostics& diagnostics) {
+  const auto given = asset.find(member);
+  if (given == asset.end() || !(given->is_string() || given->is_number())) return std::nullopt;
+  const std::string place = pointerTo("asset", member);
+  const std::string text = given->is_string() ? given->get<std::string>() : given->dump();
+  const size_t point = std::min(text.find('.'), text.size());
+  const auto major = numberOfAll<unsigned>(text.substr(0, point));
+  const auto minor = point == text.size() ? std::optional(0u) : numberOfAll<unsigned>(text.substr(point + 1));
+  if (!major || !minor) diagnostics.refuse(place, inQuotes(text) + " is not a version such as 2.0");
+  const std::string read = std::to_string(*major) + "." + std::to_string(*minor);
+  if (*given != read) diagnostics.warn(place, given->dump() + " is read as " + inQuotes(read));
+  *given = read;
+  return Version{*major, *minor};
 }
 
 }  // namespace
 
-void checkVersion(const json& root, const Diagnostics& diagnostics) {
-  const json& version = memberOf(memberOf(root, "asset"), "version");
-  if (!version.is_string()) return;
-  const auto& text = version.get_ref<const std::string&>();
-  if (versionOf(text, "/asset/version", diagnostics).major != 2)
-    diagnostics.refuse("/asset/version", "glTF " + inQuotes(text) + " is not supported, only 2.x is");
-}
+void checkMembers(json& root, Diagnostics& diagnostics) { MemberChecker(diagnostics).visit(root, ""); }
 
-void checkLeastVersion(const json& root, const Diagnostics& diagnostics) {
-  const json& asset = root["asset"];
-  const auto& text = asset["version"].get_ref<const std::string&>();
-  const Version version = versionOf(text, "/asset/version", diagnostics);
-  if (!asset.contains("minVersion")) return;
-  const auto& least = asset["minVersion"].get_ref<const std::string&>();
-  const Version minVersion = versionOf(least, "/asset/minVersion", diagnostics);
-  if (minVersion > version)
-    diagnostics.refuse("/asset/minVersion", "is above the version, " + inQuotes(text));
-  if (minVersion > Version{2, 0})
-    diagnostics.refuse("/asset/minVersion", "glTF 2.0 is supported, not " + inQuotes(least));
-}
-
-void checkPlacesOfExtensions(const json& root, Diagnostics& diagnostics) {
-  PlaceChecker(diagnostics).visit(root, "");
+void checkVersions(json& root, Diagnostics& diagnostics) {
+  if (!memberOf(root, "asset").is_object()) return;
+  json& asset = root["asset"];
+  const std::optional<Version> version = readVersion(asset, "version", diagnostics);
+  if (version && version->major != 2)
+    diagnostics.refuse("/asset/version",
+                       "glTF " + asset["version"].dump() + " is not supported, only 2.x is");
+  const std::optional<Version> least = readVersion(asset, "minVersion", diagnostics);
+  if (!version || !least) return;
+  if (*least > *version)
+    diagnostics.refuse("/asset/minVersion", "is above the version, " + asset["version"].dump());
+  if (*least > Version{2, 0})
+    diagnostics.refuse("/asset/minVersion", "glTF 2.0 is supported, not " + asset["minVersion"].dump());
 }
 
 }  // namespace fragtrace

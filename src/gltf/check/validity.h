@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checks what a document says of itself. What only glTF's rules forbid and no picture shows is left to
-// Khronos' validator (docs/gltf.md).
+// Checks what a document says of itself before its schema is looked at. What only glTF's rules forbid and no
+// picture shows is left to Khronos' validator (docs/gltf.md).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,13 +9,12 @@
 
 namespace fragtrace {
 
-/// Refuses versions but 2.x, before their schema is looked at. Says nothing of an asset without a version.
-void checkVersion(const nlohmann::json& root, const Diagnostics& diagnostics);
+/// Walks over all members outside of extras: takes out those that are null, unless their objects cannot do
+/// without, and warns of extensions at places where they are ignored.
+void checkMembers(nlohmann::json& root, Diagnostics& diagnostics);
 
-/// Refuses a document that has passed the schema and asks for a higher version than 2.0.
-void checkLeastVersion(const nlohmann::json& root, const Diagnostics& diagnostics);
-
-/// Warns of extensions at places where they are ignored.
-void checkPlacesOfExtensions(const nlohmann::json& root, Diagnostics& diagnostics);
+/// Refuses versions but 2.x, and documents that ask for a higher version than 2.0. Numbers become texts. Says
+/// nothing of an asset without a version.
+void checkVersions(nlohmann::json& root, Diagnostics& diagnostics);
 
 }  // namespace fragtrace

@@ -114,6 +114,7 @@ class PrimitiveDecoder {
   const json& accessorOf(const json& index) const { return root_["accessors"][index.get<size_t>()]; }
 
   uint64_t countOf(const json& index) const {
+    document_.diagnostics.need(pointerTo("accessors", index.get<size_t>()));
     const auto count = accessorOf(index)["count"].get<uint64_t>();
     if (count >= kMissIndex) lose("", "has an accessor with too many elements");
     return count;
@@ -151,7 +152,9 @@ class PrimitiveDecoder {
 
   std::span<const uint8_t> encodedBytes(const Buffers& buffers) const {
     if (!extension_.contains("bufferView")) lose("", "\"bufferView\" is missing");
-    const json& view = root_["bufferViews"][extension_["bufferView"].get<size_t>()];
+    const auto index = extension_["bufferView"].get<size_t>();
+    document_.diagnostics.need(pointerTo("bufferViews", index));
+    const json& view = root_["bufferViews"][index];
     const auto buffer = view["buffer"].get<size_t>();
     if (buffer >= buffers.size() || buffers[buffer].empty())
       lose("/bufferView", "is of a buffer without data");
@@ -223,12 +226,13 @@ void decompressPrimitives(json& root, Buffers& buffers, Worker& codecs, Document
       const json::json_pointer extension(pointerTo("extensions", kExtension));
       if (!primitives[i].contains(extension)) continue;
       const std::string place = pointerTo("meshes", m, "primitives", i, "extensions", kExtension);
-      try {
+      const auto decode = [&] {
         decompressPrimitive(root, primitives[i], place, buffers, codecs, document);
-      } catch (const Loss& loss) {
-        document.diagnostics.warnLoss(loss.place, loss.reason, "the primitive");
-        primitives[i] = {{"attributes", json::object()}};
-      }
+        return true;
+      };
+      if (document.diagnostics.keepRest("the primitive", decode)) continue;
+      document.diagnostics.noteLost(pointerTo("meshes", m, "primitives", i));
+      primitives[i] = {{"attributes", json::object()}};
     }
   }
 }

@@ -94,7 +94,9 @@ CodecRequest requestOf(const json& extension, bool isKhr, uint64_t viewBytes, co
 
 std::span<const uint8_t> encodedBytes(const json& extension, const Buffers& buffers, const std::string& place,
                                       const Diagnostics& diagnostics) {
-  const std::vector<uint8_t>& bytes = buffers[extension["buffer"].get<size_t>()];
+  const auto buffer = extension["buffer"].get<size_t>();
+  diagnostics.need(pointerTo("buffers", buffer));
+  const std::vector<uint8_t>& bytes = buffers[buffer];
   const uint64_t offset = extension.value("byteOffset", uint64_t(0));
   const auto length = extension["byteLength"].get<uint64_t>();
   if (offset > bytes.size() || length > bytes.size() - offset) {
@@ -148,12 +150,13 @@ void decompressViews(json& root, Buffers& buffers, Worker& codecs, Document& doc
       diagnostics.warn(place, "cannot be decoded, the uncompressed data are taken: " + codecs.whyNot());
       continue;
     }
-    try {
+    const auto decode = [&] {
       decompressView(root, i, buffers, codecs, document);
-    } catch (const Loss& loss) {
-      diagnostics.warnLoss(loss.place, loss.reason, "the buffer view");
-      view["byteLength"] = 0;
-    }
+      return true;
+    };
+    if (diagnostics.keepRest("the buffer view", decode)) continue;
+    diagnostics.noteLost(pointerTo("bufferViews", i));
+    root["bufferViews"][i]["byteLength"] = 0;
   }
 }
 

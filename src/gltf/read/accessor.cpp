@@ -100,15 +100,12 @@ Elements checkedRange(const Document& document, const std::string& place, int vi
 Elements elementsOf(const Document& document, int index) {
   const tinygltf::Accessor& accessor = document.model.accessors.at(size_t(index));
   const std::string place = pointerTo("accessors", index);
+  document.diagnostics.need(place);
   Elements elements;
   elements.count = accessor.count;
   elements.componentType = accessor.componentType;
   elements.components = tinygltf::GetNumComponentsInType(uint32_t(accessor.type));
   elements.normalized = accessor.normalized;
-  if (!isComponentType(unsigned(accessor.componentType))) {
-    document.diagnostics.lose(place + "/componentType",
-                              std::to_string(accessor.componentType) + " is not a component type");
-  }
   if (accessor.bufferView >= 0) {
     return checkedRange(document, place, accessor.bufferView, accessor.byteOffset, elements, true);
   }

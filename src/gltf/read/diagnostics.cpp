@@ -23,23 +23,38 @@ namespace {
 
 constexpr size_t kNamedPlaces = 4;
 
-/// A reason without the numbers in it, except those of names, which stand in quotes.
+/// A reason without the numbers and the names in it, which stand in quotes.
 std::string kindOf(std::string_view reason) {
   std::string kind;
   bool isQuoted = false;
   for (const char c : reason) {
     isQuoted = isQuoted != (c == '"');
-    if (isQuoted || c < '0' || c > '9') kind += c;
+    if (!isQuoted && (c < '0' || c > '9')) kind += c;
   }
   return kind;
+}
+
+/// Shortens words, such as URIs and names of members, that would fill a screen.
+std::string withoutLongWords(std::string_view text) {
+  constexpr size_t kLongest = 300, kBeginning = 120, kEnd = 40;
+  std::string shown;
+  while (!text.empty()) {
+    const std::string_view word = text.substr(0, text.find(' ', 1));
+    text.remove_prefix(word.size());
+    if (word.size() > kLongest)
+      shown.append(word.substr(0, kBeginning)).append("...").append(word.substr(word.size() - kEnd));
+    else
+      shown.append(word);
+  }
+  return shown;
 }
 
 }  // namespace
 
 std::string Diagnostics::line(std::string_view place, std::string_view reason) const {
   std::string text = file_ + ": ";
-  if (!place.empty()) text.append(place).append(": ");
-  text.append(reason);
+  if (!place.empty()) text.append(withoutLongWords(place)).append(": ");
+  text.append(withoutLongWords(reason));
   return withoutControls(text);
 }
 
@@ -58,6 +73,14 @@ void Diagnostics::refuse(std::string_view place, std::string_view reason) const 
 void Diagnostics::lose(std::string_view place, std::string_view reason) const {
   throwIfSet(place, reason);
   throw Loss(line(place, reason), place, reason);
+}
+
+void Diagnostics::need(std::string_view place) const {
+  if (!isLost(place)) return;
+  constexpr const char* kReason = "is left out";
+  Loss loss(line(place, kReason), place, kReason);
+  loss.isTold = true;
+  throw loss;
 }
 
 void Diagnostics::warnLoss(std::string_view place, std::string_view reason, const std::string& object,

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -42,6 +44,7 @@ struct Loss : InputError {
       : InputError(line), place(lostPlace), reason(lostReason) {}
 
   std::string place, reason;
+  bool isTold = false;  ///< what it follows from has been told
 };
 
 /// Names the file in every message, and collects the warnings. Control characters become question marks.
@@ -69,7 +72,7 @@ class Diagnostics {
     try {
       return action();
     } catch (const Loss& loss) {
-      warnLoss(loss.place, loss.reason, object);
+      if (!loss.isTold) warnLoss(loss.place, loss.reason, object);
       return std::nullopt;
     }
   }
@@ -77,6 +80,14 @@ class Diagnostics {
   /// Warns that an object is left out for that reason. firstLoss() does not count one that nothing uses.
   void warnLoss(std::string_view place, std::string_view reason, const std::string& object,
                 bool isUsed = true);
+
+  /// Notes that the object at a place is lost, so that what needs it is lost without a further warning.
+  void noteLost(std::string place) { lost_.insert(std::move(place)); }
+  bool hasLost() const { return !lost_.empty(); }
+  bool isLost(std::string_view place) const { return lost_.contains(place); }
+
+  /// Throws a Loss that keepRest() does not tell if that object is lost.
+  void need(std::string_view place) const;
 
   /// The message of the first object that was lost, which refuses a file of which nothing is left.
   const std::optional<std::string>& firstLoss() const { return firstLoss_; }
@@ -107,8 +118,8 @@ class Diagnostics {
     }
   }
 
-  /// Notes something that is skipped or repaired. The same reason at several places, but for its numbers,
-  /// makes one line with a count and the first place.
+  /// Notes something that is skipped or repaired. The same reason at several places, but for its numbers and
+  /// quoted names, makes one line with a count and the first places.
   void warn(std::string_view place, std::string_view reason, size_t count = 1);
 
   /// Notes something that follows from the user's options, and is no fault of the file.
@@ -136,6 +147,7 @@ class Diagnostics {
   std::vector<Warning> warnings_;
   std::unordered_map<std::string, size_t> warningOf_;  ///< index of a warning by its kind
   std::optional<std::string> firstLoss_;
+  std::set<std::string, std::less<>> lost_;  ///< places of objects
 };
 
 }  // namespace fragtrace

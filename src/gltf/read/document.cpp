@@ -6,6 +6,7 @@
 namespace fragtrace {
 
 std::span<const uint8_t> bytesOf(const Document& document, int bufferView) {
+  document.diagnostics.need(pointerTo("bufferViews", bufferView));
   const tinygltf::BufferView& view = document.model.bufferViews.at(size_t(bufferView));
   if (view.byteLength == 0) return {};
   static const std::vector<unsigned char> kNone;

@@ -30,8 +30,7 @@ std::string targetOf(const json& target) {
   const auto& path = target["path"].get_ref<const std::string&>();
   if (path == "pointer")
     return target.contains(pointer) && !target.contains("node") ? target[pointer].get<std::string>() : "";
-  const bool isKnown = path == "translation" || path == "rotation" || path == "scale" || path == "weights";
-  return isKnown && target.contains("node") ? pointerTo("nodes", target["node"].get<size_t>(), path) : "";
+  return target.contains("node") ? pointerTo("nodes", target["node"].get<size_t>(), path) : "";
 }
 
 Channel channelOf(const json& channel, const json& samplers, const std::string& animation,
@@ -44,8 +43,8 @@ Channel channelOf(const json& channel, const json& samplers, const std::string& 
   if (index >= samplers.size()) return result;
   const json& sampler = samplers[index];
   result.interpolation = sampler.value("interpolation", std::string("LINEAR"));
-  result.input = sampler["input"].get<int>();
-  result.output = sampler["output"].get<int>();
+  result.input = sampler.value("input", -1);
+  result.output = sampler.value("output", -1);
   return result;
 }
 
@@ -82,6 +81,7 @@ std::vector<std::string> namesOf(const json& array) {
 std::optional<double> durationOf(const json& animation, const json& accessors) {
   std::optional<double> duration;
   for (const json& sampler : animation["samplers"]) {
+    if (!sampler.contains("input")) continue;  // it is lost
     const json& times = accessors[sampler["input"].get<size_t>()];
     if (!times.contains("max") || times["max"].empty() || !times["max"][0].is_number()) return std::nullopt;
     duration = std::max(duration.value_or(0.0), times["max"][0].get<double>());

@@ -181,33 +181,40 @@ bool isMissing(const FileAccess& access, std::string_view uri) {
   return !std::filesystem::exists(pathOfUri(access, uri), error);
 }
 
-std::string alsoMissing(const FileAccess& access, const std::vector<std::string>& uris,
-                        std::string_view one) {
-  constexpr size_t kLongest = 1000;  // of a message
-  std::set<std::string_view> named = {one};
+std::string listed(const std::vector<std::string>& names) {
+  constexpr size_t kLongest = 1000;
   std::string text;
   size_t left = 0;
-  for (const std::string& uri : uris) {
-    if (!isMissing(access, uri) || !named.insert(uri).second) continue;
-    if (text.size() + uri.size() > kLongest)
+  for (const std::string& name : names) {
+    const std::string shown = name.size() <= kLongest / 4 ? name : inQuotes(name);
+    if (text.size() + shown.size() > kLongest)
       ++left;
     else
-      text += (text.empty() ? "; also missing: " : ", ") + uri;
+      text += (text.empty() ? "" : ", ") + shown;
   }
-  if (left == 0) return text;
-  return (text.empty() ? "; also missing: " : text + " and ") + std::to_string(left) + " more";
+  return left == 0 ? text : text + " and " + std::to_string(left) + " more";
+}
+
+std::string alsoMissing(const FileAccess& access, const std::vector<std::string>& uris,
+                        std::string_view one) {
+  std::set<std::string_view> named = {one};
+  std::vector<std::string> others;
+  for (const std::string& uri : uris) {
+    if (isMissing(access, uri) && named.insert(uri).second) others.push_back(uri);
+  }
+  return others.empty() ? "" : "; also missing: " + listed(others);
 }
 
 std::vector<uint8_t> readUri(const FileAccess& access, std::string_view uri, const MemoryBudget& memory) {
   if (isDataUri(uri)) return decodeDataUri(uri, memory);
   const std::string decoded = percentDecoded(uri);
-  const std::string isNone = "the URI " + inQuotes(uri) + " is neither a data URI nor a relative path";
+  const std::string isNone = inQuotes(uri) + " is neither a data URI nor a relative path";
   if (hasScheme(uri)) throw AtStake(isNone);
-  if (decoded.empty() || decoded.find('\0') != std::string::npos) throw std::runtime_error(isNone);
+  if (decoded.empty()) throw std::runtime_error(isNone);
+  if (decoded.find('\0') != decoded.npos) throw std::runtime_error(isNone + ": it holds a zero byte");
   const bool isOutside = leadsOut(isBackslashed(access, decoded) ? withSlashes(decoded) : decoded);
   if (!access.allowExternal && isOutside) {
-    throw AtStake("the URI " + inQuotes(uri) +
-                  " leads out of the scene's folder (--allow-external-files reads it)");
+    throw AtStake(inQuotes(uri) + " leads out of the scene's folder (--allow-external-files reads it)");
   }
   const std::filesystem::path path = pathOfUri(access, uri);
   // A data URI whose first letters are wrong is such a name, too.

@@ -34,6 +34,9 @@ std::string oddityOf(const FileAccess& access, std::string_view uri);
 /// Returns true if it is a relative URI, within the folder, to a file that is not there.
 bool isMissing(const FileAccess& access, std::string_view uri);
 
+/// The names of files, as many as a message has room for.
+std::string listed(const std::vector<std::string>& names);
+
 /// The other ones of these URIs that are missing, as the end of a message about one; empty: none.
 std::string alsoMissing(const FileAccess& access, const std::vector<std::string>& uris, std::string_view one);
 
