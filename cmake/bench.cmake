@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# The instruments: what measures and attacks the tracer, as a library that tests link, too, and the program fragtrace-bench.
-# Nothing in src sees them.
-file(GLOB instrument_sources CONFIGURE_DEPENDS bench/report/*.cpp bench/rays/*.cpp bench/stress/*.cpp)
+# The instruments: what measures (bench) and attacks (tests/instruments) the tracer, a library that tests link, too, and
+# the program fragtrace-bench. Nothing in src sees them.
+file(GLOB instrument_sources CONFIGURE_DEPENDS bench/report/*.cpp tests/instruments/rays/*.cpp tests/instruments/stress/*.cpp)
 add_library(fragtrace_instruments STATIC ${instrument_sources})
 target_include_directories(fragtrace_instruments PUBLIC ${CMAKE_SOURCE_DIR})
 target_compile_definitions(fragtrace_instruments PRIVATE FRAGTRACE_VERSION="${PROJECT_VERSION}")

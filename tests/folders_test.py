@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The order of the folders of src and bench: a file includes what is in its own folder or in one that is named before (docs/design/architecture.md).
+"""The order of the folders of src, bench and tests/instruments: a file includes what is in its own folder or in one that is named before (docs/design/architecture.md).
 Each class of tests in tests/command and tests/viewer stands in tests/CMakeLists.txt.
 
 usage: folders_test.py SOURCE_FOLDER"""
@@ -13,7 +13,7 @@ LAYERS = (".", "base", "base/worker", "image", "image/display", "image/compare",
           "gltf/codecs/worker", "gltf/read", "gltf/check", "gltf/codecs", "gltf/build", "gltf/edit", "shader", "options", "pack", "render/film", "gl", "render",
           "view/picture", "view/files", "view", "view/window/draw", "view/window/dialog", "view/window", "session", "session/picture", "python", "view/live", "cli",
           # The instruments see the product, which does not see them.
-          "bench/report", "bench/rays", "bench/stress", "bench/command", "bench/gpu", "bench/peers")
+          "bench/report", "tests/instruments/rays", "tests/instruments/stress", "bench/command", "bench/gpu", "bench/peers")
 MOST_FILES = 40  # in a folder: more is more than one concept
 
 
@@ -55,8 +55,8 @@ def unlisted_tests(tests):
 
 def main():
     source = Path(sys.argv[1])
-    wrong = [*wrong_includes(sources(source / "src"), source / "src"), *wrong_includes(sources(source / "bench"), source)]
-    wrong += [one for name in ("src", "shaders", "bench") for one in full_folders(source / name)]
+    wrong = [*wrong_includes(sources(source / "src"), source / "src"), *wrong_includes(sources(source / "bench") + sources(source / "tests/instruments"), source)]
+    wrong += [one for name in ("src", "shaders", "bench", "tests/instruments") for one in full_folders(source / name)]
     wrong += unlisted_tests(source / "tests")
     print("\n".join(wrong))
     return 1 if wrong else 0

@@ -12,15 +12,15 @@
 #include "bench/command/configurations.h"
 #include "bench/command/peak_memory.h"
 #include "bench/command/results.h"
-#include "bench/rays/ball_scene.h"
-#include "bench/rays/hit_check.h"
-#include "bench/rays/ray_sets.h"
 #include "bench/report/scale_report.h"
 #include "options/choose.h"
 #include "options/numbers.h"
 #include "pack/pack_tree.h"
 #include "session/progress_bar.h"
 #include "session/setup.h"
+#include "tests/instruments/rays/ball_scene.h"
+#include "tests/instruments/rays/hit_check.h"
+#include "tests/instruments/rays/ray_sets.h"
 
 namespace fragtrace {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `fragtrace bench stress`: every row of bench/stress, as a table; status 1 when one is over its limit.
+// `fragtrace bench stress`: every row of tests/instruments/stress, as a table; status 1 when one is over its
+// limit.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
@@ -7,10 +8,10 @@
 #include "bench/command/commands.h"
 #include "bench/command/configurations.h"
 #include "bench/command/results.h"
-#include "bench/stress/stress.h"
 #include "options/choose.h"
 #include "session/progress_bar.h"
 #include "session/setup.h"
+#include "tests/instruments/stress/stress.h"
 
 namespace fragtrace {
 

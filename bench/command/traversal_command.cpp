@@ -10,15 +10,15 @@
 #include "bench/command/commands.h"
 #include "bench/command/configurations.h"
 #include "bench/command/results.h"
-#include "bench/rays/hit_check.h"
-#include "bench/rays/ray_caster.h"
-#include "bench/rays/ray_sets.h"
 #include "bench/report/traversal_report.h"
 #include "image/files/whole_file.h"
 #include "options/numbers.h"
 #include "pack/literals.h"
 #include "session/progress_bar.h"
 #include "session/setup.h"
+#include "tests/instruments/rays/hit_check.h"
+#include "tests/instruments/rays/ray_caster.h"
+#include "tests/instruments/rays/ray_sets.h"
 
 namespace fragtrace {
 

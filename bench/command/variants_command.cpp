@@ -9,9 +9,9 @@
 #include "bench/command/results.h"
 #include "bench/command/setting_check.h"
 #include "bench/report/frame_report.h"
-#include "bench/stress/forced_variants.h"
 #include "options/choose.h"
 #include "pack/gpu_scene.h"
+#include "tests/instruments/stress/forced_variants.h"
 
 namespace fragtrace {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "bench/stress/random_sketch.h"
-#include "bench/stress/scene_drawing.h"
 #include "gl_probe.h"
+#include "tests/instruments/stress/random_sketch.h"
+#include "tests/instruments/stress/scene_drawing.h"
 
 namespace fragtrace {
 namespace {

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "bench/rays/ball_scene.h"
-#include "bench/rays/hit_check.h"
-#include "bench/rays/ray_caster.h"
-#include "bench/rays/ray_sets.h"
 #include "gl_probe.h"
 #include "scene/camera.h"
+#include "tests/instruments/rays/ball_scene.h"
+#include "tests/instruments/rays/hit_check.h"
+#include "tests/instruments/rays/ray_caster.h"
+#include "tests/instruments/rays/ray_sets.h"
 
 namespace fragtrace {
 namespace {

@@ -7,13 +7,13 @@
 #include <cmath>
 #include <memory>
 
-#include "bench/rays/hit_check.h"
-#include "bench/stress/tree_shapes.h"
 #include "bvh/exact_tracer.h"
 #include "gl_probe.h"
 #include "glsl.h"
 #include "pack/pack_tree.h"
 #include "render/renderer.h"
+#include "tests/instruments/rays/hit_check.h"
+#include "tests/instruments/stress/tree_shapes.h"
 
 namespace fragtrace {
 namespace {

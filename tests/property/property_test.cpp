@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // property_test BACKEND FIRST COUNT [FORM]: scenes of the seeds FIRST, FIRST + 1, ... are drawn as they are
-// and in an equivalent form (bench/stress/forms.h), which must show the same. Seed s takes form s / 6 % 7
-// unless one is named. A scene that does not is printed with its seed and form: `property_test egl SEED 1
-// FORM` draws it again.
+// and in an equivalent form (tests/instruments/stress/forms.h), which must show the same. Seed s takes form s
+// / 6 % 7 unless one is named. A scene that does not is printed with its seed and form: `property_test egl
+// SEED 1 FORM` draws it again.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 
-#include "bench/stress/likeness.h"
-#include "bench/stress/random_sketch.h"
 #include "osmesa.h"
+#include "tests/instruments/stress/likeness.h"
+#include "tests/instruments/stress/random_sketch.h"
 
 namespace fragtrace {
 namespace {

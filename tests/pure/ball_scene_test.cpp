@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "bench/rays/ball_scene.h"
+#include "tests/instruments/rays/ball_scene.h"
 
 namespace fragtrace {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/stress/forced_variants.h"
+#include "tests/instruments/stress/forced_variants.h"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "base/errors.h"
-#include "bench/rays/ball_scene.h"
-#include "bench/rays/hit_check.h"
-#include "bench/rays/ray_sets.h"
+#include "tests/instruments/rays/ball_scene.h"
+#include "tests/instruments/rays/hit_check.h"
+#include "tests/instruments/rays/ray_sets.h"
 
 namespace fragtrace {
 namespace {

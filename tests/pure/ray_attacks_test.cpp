@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The shader's traversals in float, under attack (bench/rays/ray_attacks.h): nothing is found or missed
-// beyond rounding. The oracle is the same text in double precision.
+// The shader's traversals in float, under attack (tests/instruments/rays/ray_attacks.h): nothing is found or
+// missed beyond rounding. The oracle is the same text in double precision.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdlib>
 
-#include "bench/rays/ray_attacks.h"
-#include "bench/rays/ray_judge.h"
 #include "bvh/exact_tracer.h"
 #include "shader_scenes.h"
+#include "tests/instruments/rays/ray_attacks.h"
+#include "tests/instruments/rays/ray_judge.h"
 
 namespace fragtrace {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "bench/rays/ball_scene.h"
-#include "bench/rays/ray_sets.h"
+#include "tests/instruments/rays/ball_scene.h"
+#include "tests/instruments/rays/ray_sets.h"
 
 namespace fragtrace {
 namespace {
