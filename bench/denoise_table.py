@@ -7,7 +7,7 @@ usage: denoise_table.py FRAGTRACE [--assets DIR] --out FOLDER [--filters varianc
 DIR holds scenes/ and env/lightroom_14b.hdr. Seven scenes of 250 x 250 pixels, 1 to --spp samples per pixel,
 --repetitions seeds, by `bench error --denoise`, against references of 4096 samples. FOLDER keeps NAME-FILTER.json and
 references: what stands there is not made again. --references: makes these alone, which needs no quiet machine as the
-rest does. --print: the tables of what is there. Writes FOLDER/denoise-NAME.svg, the charts of the variance filter.
+rest does. --print: the tables of what is there. bench/charts.py draws NAME-variance.json.
 bench/tables.py puts the tables of docs/measurements/data/denoise into the document.
 """
 
@@ -62,9 +62,8 @@ def measure(options, name, arguments, filter_name):
     result = options.out / f"{name}-{filter_name}.json"
     if result.exists():
         return
-    chart = ["--chart", options.out / f"denoise-{name}.svg"] if filter_name == "variance" else []
     run(options.fragtrace, "bench", "error", *arguments, *size, "--spp", options.spp, "--repetitions", options.repetitions, "--reference", reference, "--configs", "default",
-        "--denoise", filter_name, "--goal", GOALS[1], "--json", result, *chart)
+        "--denoise", filter_name, "--goal", GOALS[1], "--json", result)
 
 
 def measure_baseline(options):

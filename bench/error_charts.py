@@ -10,6 +10,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import charts
+
 BOOM_BOX = ["{assets}/scenes/BoomBoxWithAxes/BoomBoxWithAxes.gltf", "--camera-orbit", "0,0", "--hdri-file", "{assets}/env/lightroom_14b.hdr"]
 RUNS = {
     "cornell-box": ["scenes/cornell-box.gltf", "--reference", "tests/reference/cornell-box.gi.exr", "--spp", "1024",
@@ -31,9 +33,10 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     for name in names:
         arguments = [a.replace("{assets}", assets) for a in RUNS[name]]
-        subprocess.run([program, "bench", "error", *arguments, "--resolution", "64,64", "--repetitions", "3", "--quiet",
-                        "--chart", folder / f"error-{name}.svg", "--json", folder / f"error-{name}.json"],
+        result = folder / f"error-{name}.json"
+        subprocess.run([program, "bench", "error", *arguments, "--resolution", "64,64", "--repetitions", "3", "--quiet", "--json", result],
                        check=True, env={**os.environ, "MESA_SHADER_CACHE_DISABLE": "true"})
+        charts.draw(result, result.with_suffix(".svg"))
         print(flush=True)
 
 

@@ -8,8 +8,7 @@ Without DOCUMENT: all of docs/measurements, and docs/design/accuracy.md. A docum
 the status is also 1 where a mark has no data or no end, and where data have no mark. The data are benchmarks' files,
 whole:
 
-  report.json      fragtrace bench report --rounds 3 --round-time 0.3 --json FILE
-  scale.json       fragtrace bench scale --json FILE
+  report.json      bench/report.py FRAGTRACE --rounds 3 --round-time 0.3 --json FILE
   aims.json        bench/peers/aims.py FRAGTRACE --assets DIR --json FILE
   aims-again.json  the same, parts that were measured again by a later program and replace those of aims.json
   gpu-compilers.json            bench/gpu/compilers --json FILE
@@ -32,7 +31,7 @@ import compiler_figures  # noqa: E402
 import denoise_table  # noqa: E402
 import light_table  # noqa: E402
 import markdown  # noqa: E402
-import program_tables  # noqa: E402
+import report  # noqa: E402
 
 DOCUMENTS, DATA = REPOSITORY / "docs/measurements", REPOSITORY / "docs/measurements/data"
 
@@ -67,10 +66,8 @@ def denoise(filter_name, what, folder):
 
 
 # The tables: each has the place of its data and the function that makes lines of text of them.
-TABLES = {"report": ("report.json", program_tables.report_times),
-          "report shapes": ("report.json", program_tables.report_shapes),
-          "scale": ("scale.json", program_tables.scale_times),
-          "scale exponents": ("scale.json", program_tables.scale_exponents),
+TABLES = {"report": ("report.json", report.report_times),
+          "report shapes": ("report.json", report.report_shapes),
           "aims": ("aims.json", aims_table),
           "light": ("light.json", light),
          "gpu compilers": ("gpu-compilers.json", gpu_compilers),

@@ -11,9 +11,6 @@ namespace fragtrace {
 
 RunCommand addBenchError(CLI::App& app);
 RunCommand addBenchFrame(CLI::App& app);
-RunCommand addBenchReport(CLI::App& app);
-RunCommand addBenchVariants(CLI::App& app);
-RunCommand addBenchScale(CLI::App& app);
 RunCommand addBenchTraversal(CLI::App& app);
 RunCommand addBenchStart(CLI::App& app);
 RunCommand addBenchMotion(CLI::App& app);
@@ -23,10 +20,6 @@ RunCommand addBenchStress(CLI::App& app);
 inline constexpr std::array kBenchRows{
     CommandRow{"error", "measure error as a function of samples and time", addBenchError},
     CommandRow{"frame", "measure frame times of several settings in turn", addBenchFrame},
-    CommandRow{"report", "repeat the frame time measurements of the report on which this program is based",
-               addBenchReport},
-    CommandRow{"variants", "measure how much time a smaller shader saves in a scene", addBenchVariants},
-    CommandRow{"scale", "measure time and memory from 1 thousand to 10 million triangles", addBenchScale},
     CommandRow{"traversal", "measure rays per second without shading", addBenchTraversal},
     CommandRow{"start", "measure the steps from a cold start to a written picture", addBenchStart},
     CommandRow{"motion", "measure the viewer's pictures while something moves", addBenchMotion},

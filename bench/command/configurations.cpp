@@ -166,15 +166,6 @@ std::vector<BenchConfiguration> configurationsOf(const RawConfigurations& raw, c
   return configurations;
 }
 
-BenchConfiguration configurationOf(const CLI::App& app, const std::string& name, const std::string& text,
-                                   const std::string& scene) {
-  BenchConfiguration c{name, text, {}, {}, false};
-  const GivenOptions shared = givenOptions(app);
-  checkShared(shared);
-  parseRender(shared, c, scene, nullptr);
-  return c;
-}
-
 std::vector<std::filesystem::path> inputsOf(std::span<const BenchConfiguration> configurations) {
   std::vector<std::filesystem::path> inputs;
   for (const BenchConfiguration& c : configurations)

@@ -41,10 +41,6 @@ std::vector<BenchConfiguration> configurationsOf(const RawConfigurations& raw, c
                                                  const std::vector<std::string>& defaults,
                                                  const char* defaultSamples);
 
-/// One configuration of the program's own, with what was given for all where it has none. Throws UsageError.
-BenchConfiguration configurationOf(const CLI::App& app, const std::string& name, const std::string& text,
-                                   const std::string& scene);
-
 /// The files that they read, except for the pictures that scenes refer to.
 std::vector<std::filesystem::path> inputsOf(std::span<const BenchConfiguration> configurations);
 

@@ -58,7 +58,6 @@ void declareError(CLI::App& app, ErrorOptions& o) {
       ->capture_default_str();
   addJsonOption(app, o.files, "write all measurements to this JSON file");
   app.add_option("--csv", o.files.csv, "write all measurements to this table")->type_name("FILE");
-  addChartOption(app, o.files, "write a chart of error against time, an .svg");
   addConfigurationOptions(app, o.raw, "default,random,baseline, or default alone with --config");
   app.get_option("--spp")->description(std::string("samples per pixel of the last step, by default ") +
                                        kDefaultSamples);
@@ -85,7 +84,6 @@ void settleError(const CLI::App& app, ErrorOptions& o) {
   const auto isAdaptive = [](const BenchConfiguration& c) { return c.adaptive(); };
   if (o.reference.empty() && std::ranges::all_of(o.configurations, isAdaptive))
     throw UsageError("--reference: needed where every configuration is adaptive");
-  checkChart(o.files);
 }
 
 /// One configuration on the device.
@@ -364,7 +362,7 @@ int runError(const ErrorOptions& options) {
   checkResultFiles(options.files, inputs);
   const auto context = contextOf(options.configurations.front().render);
   const ErrorReport report = measure(options, *context);
-  writeResults(options.files, {errorTable(report), errorJson(report), errorCsv(report), errorChart(report)});
+  writeResults(options.files, {errorTable(report), errorJson(report), errorCsv(report)});
   return 0;
 }
 

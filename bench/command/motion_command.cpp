@@ -15,7 +15,6 @@
 #include "bench/command/motion_run.h"
 #include "bench/command/results.h"
 #include "bench/command/window_picture.h"
-#include "bench/report/chart.h"
 #include "bench/report/json.h"
 #include "image/compare/difference.h"
 #include "image/compare/flip.h"
@@ -86,7 +85,6 @@ void declareMotion(CLI::App& app, MotionOptions& o) {
   app.add_flag("--wait", o.plan.view.waitsForPasses,
                "wait for the device after each step of a picture, so that each has its time");
   addJsonOption(app, o.files, "write all measurements to this JSON file");
-  addChartOption(app, o.files, "write a chart of error against time per picture, an .svg; needs --compare");
   addOptions(app, OptionGroup::Tracing, o.raw);
   addOptions(app, OptionGroup::Filter, o.raw);
 }
@@ -99,8 +97,6 @@ void settleMotion(const CLI::App&, MotionOptions& o) {
   o.plan.size = o.render.camera.resolution.value_or(o.plan.size);
   o.render.camera.resolution = o.plan.size;
   o.plan.move = motionOf(o.path, o.period, o.render);
-  checkChart(o.files);
-  if (!o.files.chart.empty() && o.plan.compared == 0) throw UsageError("--chart: needs --compare");
 }
 
 /// The viewer's options in that mode.
@@ -265,15 +261,6 @@ std::string tableOf(const std::vector<MotionRow>& rows) {
          "moved between host and device\n";
 }
 
-std::string chartOf(const std::vector<MotionRow>& rows, const std::string& scene) {
-  Chart chart{"error in motion: " + scene, "milliseconds per picture", "mean FLIP", {}, {}, {}};
-  for (const MotionRow& row : rows) {
-    const double ms = 1e3 * row.figures.seconds / std::max(row.figures.pictures, 1);
-    chart.series.push_back({row.mode, {{ms, row.error.flip, {}, {}}}});
-  }
-  return chartSvg(chart);
-}
-
 int runMotionCommand(const MotionOptions& o) {
   checkResultFiles(o.files, inputsOf(o.render));
   countInterrupts();
@@ -312,10 +299,8 @@ int runMotionCommand(const MotionOptions& o) {
   for (const MotionRow& row : rows) json["rows"].push_back(jsonOf(row, o.plan.view.waitsForPasses));
   const std::string head = formatted("%s, %d x %d, %s of %g s\n\n", scene.c_str(), o.plan.size.x,
                                      o.plan.size.y, o.path.c_str(), o.period);
-  writeResults(o.files, {head + tableOf(rows) + passTable(rows, o.plan.view.waitsForPasses),
-                         jsonLine(json),
-                         {},
-                         chartOf(rows, scene)});
+  writeResults(o.files,
+               {head + tableOf(rows) + passTable(rows, o.plan.view.waitsForPasses), jsonLine(json), {}});
   return 0;
 }
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdio>
 
-#include "base/errors.h"
 #include "session/interrupt.h"
 
 namespace fragtrace {
@@ -14,18 +13,8 @@ void addJsonOption(CLI::App& app, ResultFiles& files, const char* help) {
   app.add_option("--json", files.json, help)->type_name("FILE");
 }
 
-void addChartOption(CLI::App& app, ResultFiles& files, const char* help) {
-  app.add_option("--chart", files.chart, help)->type_name("FILE");
-}
-
-void checkChart(const ResultFiles& files) {
-  if (!files.chart.empty() && files.chart.extension() != ".svg")
-    throw UsageError("--chart: '" + files.chart.string() + "' does not end in .svg");
-}
-
 void checkResultFiles(const ResultFiles& files, std::span<const std::filesystem::path> inputs) {
-  const std::array<NamedOutput, 3> outputs{
-      {{"--json", files.json}, {"--csv", files.csv}, {"--chart", files.chart}}};
+  const std::array<NamedOutput, 2> outputs{{{"--json", files.json}, {"--csv", files.csv}}};
   checkOutputs(outputs, inputs);
 }
 
@@ -34,7 +23,6 @@ void writeResults(const ResultFiles& files, const ResultTexts& texts) {
   std::fputs(texts.table.c_str(), stdout);
   replaceText(files.json, texts.json);
   replaceText(files.csv, texts.csv);
-  replaceText(files.chart, texts.chart);
 }
 
 }  // namespace fragtrace

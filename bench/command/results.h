@@ -16,14 +16,10 @@ namespace fragtrace {
 struct ResultFiles {
   std::filesystem::path json;
   std::filesystem::path csv;
-  std::filesystem::path chart;
 };
 
 /// `help` says what is in the file.
 void addJsonOption(CLI::App& app, ResultFiles& files, const char* help);
-void addChartOption(CLI::App& app, ResultFiles& files, const char* help);
-/// Throws UsageError where the chart's name does not end in .svg.
-void checkChart(const ResultFiles& files);
 
 /// Must be called before long work, like checkOutputs of session/outputs.h.
 void checkResultFiles(const ResultFiles& files, std::span<const std::filesystem::path> inputs);
@@ -32,7 +28,6 @@ struct ResultTexts {
   std::string table;  ///< the table for standard output
   std::string json;
   std::string csv;
-  std::string chart;
 };
 /// Prints and writes what was measured. Interrupts no longer stop the program, so that it is written whole.
 void writeResults(const ResultFiles& files, const ResultTexts& texts);

@@ -55,7 +55,7 @@ void checkGroup(const Context& context, std::vector<TimedSetting*> group, Progre
   const char* way = tracer.variant.traversal == TraversalMethod::Bvh ? "bvh" : "front-to-back";
   int samples = 0;
   for (TimedSetting* s : group) {
-    const bool same = !s->otherSamples && drawSameSamples(first.render, s->configuration.render);
+    const bool same = drawSameSamples(first.render, s->configuration.render);
     const int wanted = same ? s->report.frames : std::max(kLeastSamples, s->report.frames);
     if (wanted > samples) {
       RenderTimes times;

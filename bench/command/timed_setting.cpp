@@ -36,12 +36,6 @@ void warmUp(TimedSetting& s) {
   RenderTimes first;
   drawSamples(s, 0, 1, first);
   s.report.firstFrameMs = first.drawMs;
-  if (s.timing.mostSeconds > 0.0 && first.drawMs > 1000.0 * s.timing.mostSeconds) {
-    s.report.frameMs.push_back(first.drawMs);
-    s.report.wallFrameMs.push_back(first.renderMs);
-    s.timing.rounds = 0;
-    return;
-  }
   // Step: frames until a round's time has passed; the last of them tell how many a round needs.
   const double roundMs = 1000.0 * s.timing.roundSeconds;
   double frameMs = std::max(first.drawMs, 1e-6);
@@ -61,10 +55,6 @@ void warmUp(TimedSetting& s) {
   const double least = std::min(double(s.timing.leastFrames), affordable);
   const double wanted = std::clamp(std::max(roundMs / frameMs, least), 1.0, double(kMost));
   s.report.frames = s.configuration.samplesGiven ? s.configuration.render.sampling.spp : int(wanted);
-  if (s.timing.mostSeconds > 0.0) {
-    const double rounds = 1000.0 * s.timing.mostSeconds / (frameMs * s.report.frames);
-    s.timing.rounds = int(std::clamp(rounds, 1.0, double(s.timing.rounds)));
-  }
 }
 
 /// Draws one round on a cleared film.
@@ -104,19 +94,11 @@ TimedSetting makeSetting(const Context& context, const BenchConfiguration& confi
   RenderOptions options = configuration.render;
   // Frames are timed without what comes before them, so the variant is that of a long render.
   if (!configuration.samplesGiven) options.sampling.spp = std::numeric_limits<int>::max();
-  auto loaded = std::make_shared<LoadedScene>(loadScene(options, stats));
-  Tracer tracer = makeTracer(context, *loaded, options, stats);
-  return makeSetting(context, configuration, timing, std::move(loaded), std::move(tracer));
-}
-
-TimedSetting makeSetting(const Context& context, const BenchConfiguration& configuration,
-                         const FrameTiming& timing, std::shared_ptr<const LoadedScene> loaded,
-                         Tracer tracer) {
   TimedSetting s;
   s.configuration = configuration;
   s.timing = timing;
-  s.loaded = std::move(loaded);
-  s.tracer = std::move(tracer);
+  s.loaded = std::make_shared<LoadedScene>(loadScene(options, stats));
+  s.tracer = makeTracer(context, *s.loaded, options, stats);
   s.film = std::make_unique<Film>(s.loaded->size);
   if (!context.software) s.tracer.renderer->setDrawTime(kTimedDrawMs);
   FrameSetting& r = s.report;
@@ -135,15 +117,10 @@ TimedSetting makeSetting(const Context& context, const BenchConfiguration& confi
 void measureInTurn(std::span<TimedSetting> settings, bool quiet) {
   if (settings.empty()) return;
   ProgressBar bar("measuring", quiet);
-  int rounds = 0;
-  for (TimedSetting& s : settings) {
-    warmUp(s);
-    rounds = std::max(rounds, s.timing.rounds);
-  }
+  for (TimedSetting& s : settings) warmUp(s);
+  const int rounds = settings.front().timing.rounds;
   for (int r = 0; r < rounds; ++r) {
-    for (TimedSetting& s : settings) {
-      if (r < s.timing.rounds) drawRound(s);
-    }
+    for (TimedSetting& s : settings) drawRound(s);
     bar.show(double(r + 1) / rounds);
   }
   bar.clear();

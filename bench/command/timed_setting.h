@@ -22,9 +22,7 @@ struct FrameTiming {
   int rounds = 10;
   /// A round has as many frames as take this long, unless --spp sets their number.
   double roundSeconds = 0.5;
-  int leastFrames = 8;  ///< a round, as long as these take no more than 5 times as long
-  double mostSeconds =
-      0.0;  ///< fewer rounds where they take longer; a first frame that does is the only one; 0: no limit
+  int leastFrames = 8;     ///< a round, as long as these take no more than 5 times as long
   int samplesPerDraw = 0;  ///< at most; 0: as many as the renderer puts into a draw
 };
 
@@ -39,7 +37,6 @@ struct TimedSetting {
   FrameTiming timing;
   std::shared_ptr<const LoadedScene> loaded;
   Tracer tracer;
-  bool otherSamples = false;   ///< its variant samples lights otherwise than its options alone ask for
   std::unique_ptr<Film> film;  ///< samples from 0 on of the last round
   FrameSetting report;
 };
@@ -47,9 +44,6 @@ struct TimedSetting {
 /// Loads and uploads. Throws InputError, UsageError, RenderError.
 TimedSetting makeSetting(const Context& context, const BenchConfiguration& configuration,
                          const FrameTiming& timing);
-/// Makes a setting of a scene that is already loaded and uploaded.
-TimedSetting makeSetting(const Context& context, const BenchConfiguration& configuration,
-                         const FrameTiming& timing, std::shared_ptr<const LoadedScene> loaded, Tracer tracer);
 
 /// Warms up all, then draws round after round in turn.
 void measureInTurn(std::span<TimedSetting> settings, bool quiet);

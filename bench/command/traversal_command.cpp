@@ -58,7 +58,7 @@ void settleTraversal(const CLI::App&, TraversalOptions& o) {
   o.raw.options.device.instancing = Instancing::Flatten;
   o.render = finishRender(o.raw);
   if (o.render.device.traversal == TraversalMethod::Iterative)
-    throw UsageError("--traversal: 'iterative' takes more than one draw; `bench scale` measures it");
+    throw UsageError("--traversal: 'iterative' takes more than one draw; `bench frame` measures it");
   if (o.render.device.traversal == TraversalMethod::Literals)
     throw UsageError("--traversal: 'literals' has no tree; 'bench traversal' measures trees");
 }
@@ -209,7 +209,7 @@ int runTraversal(const TraversalOptions& options) {
   const std::vector<Json> lines = measure(options, *context);
   std::string json;
   for (const Json& line : lines) json += jsonLine(line);
-  writeResults(options.files, {traversalTable(lines), json, {}, {}});
+  writeResults(options.files, {traversalTable(lines), json, {}});
   return 0;
 }
 

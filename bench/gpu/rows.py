@@ -31,8 +31,18 @@ EGL = ["--rendering-backend", "egl"]
 BOX_SAMPLES = 128
 BOX_AIM = "< 12.5 ms"
 
-# Parts of `bench report`: the name, and its seconds.
-REPORT_PARTS = (("traversal", 60), ("gi", 40), ("primitives", 120))
+# Rows of the report's Table I: part, subject, scene, the method that the options for all draw, these, and other methods by name.
+AWAY = "--camera-position 0,900,0 --camera-focal-point 0,1000,0 --camera-view-up 0,0,1"  # sees nothing
+STEPS = {"nothing hit": AWAY, "Blinn-Phong": "--stage phong", "shadow rays": "--stage shadows", "reflections": "--stage reflections"}
+TRAVERSALS = {"bvh": "--traversal bvh", "iterative": "--traversal iterative"}
+REPORT_SCENES = (
+    *(("primitives", subject, f"scenes/{scene}.gltf", "flat", ["--stage", "flat"], STEPS)
+      for subject, scene in (("1 primitive", "sphere-phong"), ("2 primitives", "sphere-plane"), ("3 primitives", "sphere-plane-mirror"))),
+    *(("traversal", subject, f"scenes/{scene}.gltf", "front-to-back", ["--stage", "flat", "--default-light", "white", "--traversal", "front-to-back"], TRAVERSALS)
+      for subject, scene in (("15,743 triangles", "mesh-15743"), ("62,975 triangles", "mesh-62975"))),
+    ("gi", "Cornell box", "scenes/cornell-box.gltf", f"{BOX_SAMPLES} samples", ["--stage", "gi"], {}),
+)
+REPORT_SECONDS = 40  # limit for a call
 # Milliseconds of the report's GPU by the end of a row's name, from docs/measurements/benchmarks.md; None: the row has
 # no figure.
 REPORT = {
@@ -43,6 +53,17 @@ REPORT = {
 }
 MESH_AIM = "< 0.1 ms"
 REPORT_AIMS = {"62,975 triangles, front-to-back": MESH_AIM, "Cornell box, 128 samples": BOX_AIM}
+
+
+def report_calls(parts):
+    """Yields subject, scene, the method called default, and arguments of each call of `bench frame`. A second one draws a sample at a time, as in a
+    viewer, where that is not the same: pictures of many samples have one way, and the iterative traversal's frames are too long."""
+    for part, subject, scene, default, shared, methods in REPORT_SCENES:
+        for single in (False, True) if part in parts else ():
+            if single and part == "gi":
+                continue
+            own = [word for name, options in methods.items() if not (single and name == "iterative") for word in ("--config", f"{name}={options}")]
+            yield subject, scene, default, [*shared, *own, *(("--samples-per-draw", "1") if single else ())]
 
 
 @dataclass
@@ -126,8 +147,6 @@ STRESS_CALLS = (("rays", []), ("shell", []), ("strips", ["--quick"]), ("boxes", 
                 ("hits", []), ("tree", []), ("film", ["--quick"]), ("no numbers", []))  # strips: each wedge has a program of its own
 STRESS_SECONDS = 500  # limit for all seeds together, so this part needs a call of its own
 
-SCALE = ["--from", "10000000", "--to", "10000000", "--traversals", "front-to-back,bvh"]
-SCALE_SECONDS = 80
 RAYS = ["scenes/room-ball.gltf"]
 RAYS_SECONDS = 40
 RAY_AIMS = {"diffuse": "2000 Mrays/s"}
@@ -161,5 +180,5 @@ PICTURES = (
     ("room-ball.png", ["scenes/room-ball.gltf", *SIZE, "--spp", "64"], []),
     ("helmet.png", [HELMET[0], *SIZE, "--spp", "64", "--hdri-file", HELMET[1]], HELMET),
 )
-PARTS = ("correctness", "report", *dict.fromkeys(frame.part for frame in FRAMES), "scale", "rays", "motion", "pace", "start", "pictures")
+PARTS = ("correctness", "report", *dict.fromkeys(frame.part for frame in FRAMES), "rays", "motion", "pace", "start", "pictures")
 ASKED_PARTS = ("stress",)  # parts that run only if they are named

@@ -61,23 +61,17 @@ def frame_cells(frame, line, compiled_before):
     return frame.title, measured, aim_text(frame.aim), ", ".join(notes)
 
 
-def report_rows(lines):
-    """A row of cells for each row of the report's table, from the lines of its settings."""
-    by_name = {}
+def report_rows(subject, default, lines):
+    """The cells of each setting of a scene of the report's table."""
     for line in lines:
-        by_name.setdefault(line["configuration"], {})["single" if line["samples_per_draw"] == 1 else "many"] = line
-    for name, found in by_name.items():
-        samples = BOX_SAMPLES if name.startswith("Cornell") else 1
-        times = {key: milliseconds(line["frame_ms"]["mean"] * samples) for key, line in found.items()}
-        measured = f"{times.get('many', '-')} ms"
-        if "single" in times:
-            measured += f"; one draw per sample: {times['single']} ms"
-        report = REPORT.get(name, REPORT.get(name.split(", ")[-1]))
-        beside = [f"report {report} ms"] if report else []
+        method = default if line["configuration"] == "default" else line["configuration"]
+        name = f"{subject}, {method}"
+        samples = BOX_SAMPLES if subject == "Cornell box" else 1
+        beside = [f"report {REPORT.get(name, REPORT.get(method))} ms"] if REPORT.get(name, REPORT.get(method)) else []
         if name in REPORT_AIMS:
             beside.append(aim_text(REPORT_AIMS[name]))
-        wrong = [verdict(line["picture"]) for line in found.values() if not line["picture"]["right"]]
-        yield name, measured, ", ".join(beside), wrong[0] if wrong else "right"
+        yield (name + (", one draw per sample" if line["samples_per_draw"] == 1 else ""), f"{milliseconds(line['frame_ms']['mean'] * samples)} ms", ", ".join(beside),
+               verdict(line["picture"]))
 
 
 def stress_cells(seed, lines):
@@ -119,18 +113,6 @@ def pace_rows(name, lines):
             measured = (f"{row['pictures'] / row['seconds']:.1f} pictures/s of {row['pixels'] / max(row['pictures'], 1) / 1e6:.2f} Mpixels; one after "
                         f"{statistics.median(gaps):.1f} ms, 95 % within {gaps[int(0.95 * (len(gaps) - 1))]:.1f}, all within {gaps[-1]:.1f}")
             yield name, measured, aim_text(PACE_AIM), ""
-
-
-def scale_rows(lines):
-    for line in lines:
-        if "traversals" not in line:
-            continue
-        size = f"{line['triangles']:,} triangles"
-        yield (f"{size}, tree", f"built in {line['build_ms']:.0f} ms, packed in {line['pack_ms']:.0f}, uploaded in {line['upload_ms']:.0f}", "",
-               f"{line['gpu_bytes_per_triangle']:.1f} bytes per triangle on the device, peak {line['peak_bytes'] / 1e6:.0f} MB here")
-        for t in line["traversals"]:
-            wrong = f"{t['wrong_pixels']} of {t['compared_pixels']} pixels wrong"
-            yield f"{size}, flat, {t['traversal']}", f"{milliseconds(t['median_ms'])} ms per frame", "", wrong
 
 
 def ray_rows(lines):

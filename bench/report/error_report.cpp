@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/text.h"
-#include "bench/report/chart.h"
 #include "bench/report/json.h"
 
 namespace fragtrace {
@@ -241,28 +240,6 @@ std::string errorCsv(const ErrorReport& report) {
     }
   }
   return text;
-}
-
-std::string errorChart(const ErrorReport& report) {
-  Chart chart;
-  chart.title = "Error against time: " + report.scene;
-  const bool filtered = std::ranges::any_of(report.curves, [](const auto& c) { return !c.filter.empty(); });
-  chart.xLabel = filtered ? "seconds of drawing, and of filtering where denoised" : "seconds of drawing";
-  chart.yLabel = "relative MSE";
-  chart.line = ChartLine{report.goal, formatted("goal %g", report.goal)};
-  chart.caption =
-      std::to_string(report.width) + " x " + std::to_string(report.height) + " on " + report.renderer +
-      ". Points are 1, 2, 4, ... samples per pixel, or adaptive goals; bars the least and the largest of the "
-      "repetitions. Reference: " +
-      report.reference + ".";
-  for (const ErrorCurve& curve : report.curves) {
-    ChartSeries series;
-    series.name = labelOf(curve) + formatted(" (slope %.2f)", slopeOf(curve));
-    for (const ErrorStep& step : stepsOf(curve))
-      series.points.push_back({step.mean.seconds, step.mean.relmse, step.lowRelmse, step.highRelmse});
-    chart.series.push_back(std::move(series));
-  }
-  return chartSvg(chart);
 }
 
 }  // namespace fragtrace

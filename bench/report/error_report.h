@@ -67,7 +67,5 @@ double slopeOf(const ErrorCurve& curve);
 std::string errorTable(const ErrorReport& report);
 std::string errorJson(const ErrorReport& report);
 std::string errorCsv(const ErrorReport& report);
-/// Relative MSE against seconds, both axes logarithmic, as SVG.
-std::string errorChart(const ErrorReport& report);
 
 }  // namespace fragtrace

@@ -4,7 +4,6 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/summary.h"
@@ -61,22 +60,10 @@ std::string ratioText(const std::optional<PairedRatio>& ratio);
 /// Settings of one scene stand together; the first of each is what the others are compared with.
 std::string frameTable(const BenchMachine& machine, const std::vector<FrameSetting>& settings);
 
-/// One object per line and setting, "schema": 1. `command` is that of `bench`.
-std::string frameJson(const std::string& command, const BenchMachine& machine,
-                      const std::vector<FrameSetting>& settings);
+/// One object per line and setting, "schema": 1.
+std::string frameJson(const BenchMachine& machine, const std::vector<FrameSetting>& settings);
 
 /// The first setting of a scene, which ratios are to.
 const FrameSetting& firstOfScene(const std::vector<FrameSetting>& settings, const FrameSetting& setting);
-
-// The table of `bench variants`.
-
-/// Says whether frames are faster without a feature: "saves", "costs", or "no difference" where the middle
-/// half of the ratios holds 1.
-std::string gainText(const std::vector<double>& withMs, const std::vector<double>& withoutMs);
-
-/// The first setting is the scene's own variant, each other has something turned on; `notForced` holds what
-/// could not be, and why.
-std::string variantsTable(const BenchMachine& machine, const std::vector<FrameSetting>& settings,
-                          const std::vector<std::pair<std::string, std::string>>& notForced);
 
 }  // namespace fragtrace

@@ -38,7 +38,7 @@ Words packVertices(size_t count, Row&& row) {
 void packAttributes(const Vertices& v, const TraitSet& traits, GpuScene& packed) {
   using namespace layout;
   const size_t count = v.position.size();
-  // A variant may read arrays that the scene lacks (fragtrace-bench variants).
+  // A variant may read arrays that the scene lacks (tests/probe).
   if (has(traits, Trait::VertexNormals)) {
     packed.buffers[kNormalsBinding] = packVertices(
         count, [&](size_t i) { return v.normal.empty() ? glm::vec4(0.0f) : glm::vec4(v.normal[i], 0.0f); });
@@ -261,7 +261,7 @@ KeptArrays::KeptEnvironment packMap(const Environment& environment, const Shader
                                      suns,
                                      environment.mapSun ? environment.mapSun->power : sunPower};
   if (has(variant.traits, Trait::Backdrop)) {
-    // A program that is forced to have one (bench variants) draws the map itself.
+    // A program that is forced to have one (tests/probe) draws the map itself.
     const Image& seen = environment.backdrop.values.empty() ? environment.image : environment.backdrop;
     result.backdropSize = {seen.width, seen.height};
     appendBackdrop(seen, map.texels);

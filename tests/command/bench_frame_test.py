@@ -61,6 +61,12 @@ class FrameTimes(Frame):
         _, long = self.frame("--quiet", "--rounds", 1, *SIZE, "--round-time", 1.6, "--stage", "flat")
         self.assertGreater(long[BOX.name, "default"]["frames_per_round"], 2 * short[BOX.name, "default"]["frames_per_round"])
 
+    def test_a_tree_is_many_times_faster_than_none(self):
+        scene = SCENES / "mesh-15743.gltf"
+        _, found = self.frame("--quiet", "--rounds", 3, "--round-time", 0.1, "--resolution", "64,64", "--stage", "flat", "--config", "loop=--traversal iterative",
+                              scenes=[scene])
+        self.assertGreater(found[scene.name, "loop"]["ratio"]["median"], 20)
+
     def test_samples_can_be_draws_of_their_own(self):
         _, found = self.frame(*QUICK, "--spp", 4, "--samples-per-draw", 1)
         self.assertEqual(found[BOX.name, "default"]["samples_per_draw"], 1)
@@ -187,8 +193,8 @@ class FrameRefusals(Frame):
 
 class BenchFrameInterruption(Frame):
     def test_ctrl_c_writes_nothing_and_gives_130(self):
-        for command in (["frame", BOX], ["variants", BOX], ["report", "--scenes", SCENES]):
-            self.interrupts("bench", *command, "--quiet", "--resolution", "64,64", "--rounds", 10000, "--json", self.folder / "b.json")
+        for command in ("frame", "traversal"):
+            self.interrupts("bench", command, BOX, "--quiet", "--resolution", "64,64", "--rounds", 10000, "--json", self.folder / "b.json")
 
 
 if __name__ == "__main__":

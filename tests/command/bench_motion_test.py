@@ -17,8 +17,7 @@ class BenchMotion(Case):
         return result.stdout, json.loads(path.read_text())
 
     def test_each_mode_has_its_figures_and_its_error(self):
-        chart = self.folder / "motion.svg"
-        table, report = self.motion(BOX, *SHORT, "--compare", 2, "--reference-spp", 64, "--modes", "raw,filtered,no-past", "--chart", chart)
+        table, report = self.motion(BOX, *SHORT, "--compare", 2, "--reference-spp", 64, "--modes", "raw,filtered,no-past")
         self.assertEqual((report["bench"], report["scene"], report["width"], report["height"]), ("motion", "cornell-box.gltf", 32, 24))
         self.assertEqual([row["mode"] for row in report["rows"]], ["raw", "filtered", "no-past"])
         for row in report["rows"]:
@@ -29,7 +28,6 @@ class BenchMotion(Case):
             self.assertTrue(0 < row["flip"] < 0.3 and 0 < row["relmse"], row)
         # A picture may come before the next move of the camera.
         self.assertTrue(any(row["latency_ms"] for row in report["rows"]))
-        self.assertIn("<svg", chart.read_text())
 
     def test_without_a_target_pictures_have_full_resolution(self):
         _, report = self.motion(BOX, *SHORT, "--target", 0, "--path", "dolly", "--stage", "phong")
@@ -56,7 +54,6 @@ class BenchMotion(Case):
 
     def test_what_cannot_be_measured_is_refused(self):
         self.fails(2, "bench", "motion", BOX, *SHORT, "--time", 1, says=["--time"])
-        self.fails(2, "bench", "motion", BOX, *SHORT, "--chart", self.folder / "c.svg", says=["--chart", "--compare"])
         self.fails(2, "bench", "motion", BOX, *SHORT, "--modes", "blurred", says=["--modes"])
         self.fails(2, "bench", "motion", BOX, *SHORT, "--path", "sun", says=["--path sun: needs --sky"])
         self.fails(3, "bench", "motion", self.folder / "none.gltf", *SHORT, says=["none.gltf"])

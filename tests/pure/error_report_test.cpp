@@ -93,7 +93,6 @@ TEST(ErrorReport, FilteredCurvesAreReportedBesideThoseOfTheSamePicturesAndNotExt
                            "default denoised against slow: 40 times", "slow denoised      not reached"})
     EXPECT_NE(table.find(line), std::string::npos) << line << "\n" << table;
   EXPECT_NE(errorCsv(report).find("\nslow denoised,0,64,"), std::string::npos);
-  EXPECT_NE(errorChart(report).find("slow denoised"), std::string::npos);
 }
 
 TEST(ErrorReport, TimeOfAnErrorAboveTheFirstStepIsThatOfTheStep) {

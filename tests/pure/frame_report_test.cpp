@@ -60,7 +60,7 @@ TEST(FrameReport, JsonHoldsOneLineASettingWithAllFigures) {
                                         settingOf("c.glb", "default", {5})};
   settings[1].picture.wrong = "\"too\xff dark\"";
   settings[1].budgetHits = 3;
-  const auto lines = linesOf(frameJson("frame", machineOf(), settings));
+  const auto lines = linesOf(frameJson(machineOf(), settings));
   ASSERT_EQ(lines.size(), 3u);
   for (size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(lines[i].at("schema"), 1);
@@ -106,7 +106,7 @@ TEST(Baseline, WhatIsWrittenIsReadAgain) {
   std::vector<FrameSetting> settings = {settingOf("a.glb", "default", {10, 12, 11}),
                                         settingOf("a.glb", "b", {20})};
   settings[1].samplesPerDraw = 1;
-  const auto entries = parseBaseline(frameJson("frame", machineOf(), settings), "old.json");
+  const auto entries = parseBaseline(frameJson(machineOf(), settings), "old.json");
   ASSERT_EQ(entries.size(), 2u);
   EXPECT_EQ(entries[0].medianMs, 11);
   EXPECT_EQ(entries[1].options, "--b");
@@ -118,8 +118,7 @@ TEST(Baseline, WhatIsWrittenIsReadAgain) {
 }
 
 TEST(Baseline, SlowerIsWhatTakesLongerThanTheTolerance) {
-  const auto then =
-      parseBaseline(frameJson("frame", machineOf(), {settingOf("a.glb", "default", {100})}), "old");
+  const auto then = parseBaseline(frameJson(machineOf(), {settingOf("a.glb", "default", {100})}), "old");
   for (const auto& [ms, slower] : {std::pair(50.0, false), {109.0, false}, {111.0, true}, {300.0, true}}) {
     const auto changes = compareWithBaseline(then, machineOf(), {settingOf("a.glb", "default", {ms})}, 0.1);
     ASSERT_EQ(changes.size(), 1u);
@@ -131,7 +130,7 @@ TEST(Baseline, SlowerIsWhatTakesLongerThanTheTolerance) {
 
 TEST(Baseline, WhatDoesNotMatchIsSaid) {
   const FrameSetting setting = settingOf("a.glb", "default", {100});
-  const auto then = parseBaseline(frameJson("frame", machineOf(), {setting}), "old");
+  const auto then = parseBaseline(frameJson(machineOf(), {setting}), "old");
   FrameSetting size = setting;
   size.width = 99;
   FrameSetting clock = setting;
@@ -151,17 +150,16 @@ TEST(Baseline, WhatDoesNotMatchIsSaid) {
 }
 
 TEST(Baseline, OfEntriesThatMatchTheLastCounts) {
-  const auto then =
-      parseBaseline(frameJson("frame", machineOf(),
-                              {settingOf("a.glb", "default", {100}), settingOf("a.glb", "default", {50})}),
-                    "old");
+  const auto then = parseBaseline(
+      frameJson(machineOf(), {settingOf("a.glb", "default", {100}), settingOf("a.glb", "default", {50})}),
+      "old");
   const auto changes = compareWithBaseline(then, machineOf(), {settingOf("a.glb", "default", {100})}, 0.1);
   ASSERT_EQ(changes.size(), 1u);
   EXPECT_EQ(changes[0].ratio, 2.0);
 }
 
 TEST(Baseline, WhatIsNoSettingIsRefusedWithItsLine) {
-  const std::string good = frameJson("frame", machineOf(), {settingOf("a.glb", "default", {100})});
+  const std::string good = frameJson(machineOf(), {settingOf("a.glb", "default", {100})});
   std::string other = good;
   other.replace(other.find("\"schema\":1"), 10, "\"schema\":2");
   for (const std::string& bad : {std::string("nonsense\n"), std::string("{\"schema\":1}\n"), other}) {
@@ -176,29 +174,8 @@ TEST(Baseline, WhatIsNoSettingIsRefusedWithItsLine) {
     }
   }
   EXPECT_THROW(parseBaseline("", "old.json"), InputError);
-  EXPECT_THROW(parseBaseline(frameJson("frame", machineOf(), {settingOf("a.glb", "default", {0})}), "old"),
+  EXPECT_THROW(parseBaseline(frameJson(machineOf(), {settingOf("a.glb", "default", {0})}), "old"),
                InputError);
-}
-
-// ---- variants ----
-
-TEST(VariantsTable, AGainIsWhatMostRoundsShow) {
-  const std::vector<double> own(8, 10.0);
-  EXPECT_EQ(gainText({11, 12, 11, 10.5, 11, 9, 12, 11}, own), "saves");
-  EXPECT_EQ(gainText({9, 8, 9, 9.5, 9, 11, 8, 9}, own), "costs");
-  EXPECT_EQ(gainText({9, 11, 9.5, 10.5, 9.9, 10.1, 9, 11}, own), "no difference");
-  EXPECT_EQ(gainText(own, own), "no difference");
-  EXPECT_EQ(gainText({}, own), "-");
-}
-
-TEST(VariantsTable, HoldsEverySettingAndWhatCouldNotBe) {
-  const std::string table = variantsTable(
-      machineOf(), {settingOf("a.glb", "own variant", {10, 10}), settingOf("a.glb", "alpha", {15, 14})},
-      {{"unlit", "no stage that is on reads it"}});
-  EXPECT_NE(table.find("alpha                        1.4 (1.4 to 1.5)         saves"), std::string::npos)
-      << table;
-  EXPECT_NE(table.find("unlit                        not forced: no stage that is on reads it"),
-            std::string::npos);
 }
 
 }  // namespace

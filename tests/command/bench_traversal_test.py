@@ -1,15 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""`bench scale` and `bench traversal`: what they measure, write and refuse; memory stated by `info` and `--stats`."""
+"""`bench traversal`: what it measures, writes and refuses; memory stated by `info` and `--stats`."""
 import json
 import math
 import shutil
 import struct
-import xml.etree.ElementTree
 
 from support import SCENES, SHADERS, SMALL, Case, main, run
 
-FEW = ["--from", 1000, "--to", 3000, "--per-decade", 2, "--resolution", "40,30", "--rounds", 2, "--quiet"]
 RAYS = ["--resolution", "64,48", "--rounds", 2, "--quiet"]
 ROOM = SCENES / "room-ball.gltf"
 
@@ -29,56 +27,6 @@ class Bench(Case):
         self.assertEqual(text.count(old), 1, old)
         (folder / name).write_text(text.replace(old, new))
         return folder
-
-
-class BenchScale(Bench):
-    def test_every_size_is_timed_checked_and_drawn(self):
-        chart = self.folder / "s.svg"
-        result, (*sizes, growth) = self.lines("scale", *FEW, "--chart", chart)
-        self.assertEqual([round(s["triangles"], -2) for s in sizes], [1000, 3000])
-        for size in sizes:
-            self.assertEqual((size["schema"], size["bench"], size["width"], size["height"]), (1, "scale", 40, 30))
-            for key in ("make_ms", "build_ms", "pack_ms", "upload_ms", "peak_bytes", "sah_cost"):
-                self.assertGreater(size[key], 0, key)
-            self.assertLess(size["gpu_bytes_per_triangle"], 160)
-            self.assertEqual([t["traversal"] for t in size["traversals"]], ["front-to-back", "bvh", "iterative"])
-            for entry in size["traversals"]:
-                self.assertIn(entry["traversal"], entry["variant"])
-                self.assertEqual(len(entry["frame_ms"]), 1 if entry["traversal"] == "iterative" else 2)
-                self.assertEqual((entry["wrong_pixels"], entry["differing_pixels"]), (0, 0))
-                self.assertGreater(entry["compared_pixels"], 40 * 30 // 2)
-        self.assertEqual(growth["schema"], 1)
-        self.assertAlmostEqual(growth["exponents"]["GPU memory"]["all"], 1, delta=0.1)
-        self.assertIn("iterative frame", growth["exponents"])
-        self.assertIn("growth", result.stdout)
-        root = xml.etree.ElementTree.fromstring(chart.read_text())
-        texts = " ".join("".join(node.itertext()) for node in root.iter())
-        for name in ("front-to-back frame (p ", "bvh frame (p ", "build (p ", "triangles"):
-            self.assertIn(name, texts)
-
-    def test_the_iterative_traversal_ends_with_its_time(self):
-        _, (first, last, _) = self.lines("scale", *FEW, "--longest", "0.001", "--traversals", "front-to-back,iterative")
-        for size in (first, last):
-            self.assertIn("--longest", size["traversals"][1]["left_out"])
-            self.assertEqual(size["traversals"][0]["traversal"], "front-to-back")
-
-    def test_a_wrong_picture_fails(self):
-        # Every second triangle is lost.
-        folder = self.broken("traverse.glsl", "bool hitb = ", "bool hitb = false && ")
-        result = run("bench", "scale", *FEW, "--shader-folder", folder, "--json", self.folder / "b.json")
-        self.assertEqual((result.returncode, result.stdout), (1, ""))
-        self.assertIn("wrong", result.stderr)
-        self.assertFalse((self.folder / "b.json").exists())
-
-    def test_refusals(self):
-        for options, says in ((["--from", 2000, "--to", 1000], "--to"), (["--from", 1], "--from"), (["--to", 10**9], "--to"),
-                              (["--traversals", "fast"], "fast"), (["--traversals", "bvh,bvh"], "twice"),
-                              (["--chart", "c.png"], ".svg"), (["--rounds", 0], "--rounds"), (["--longest", 0], "--longest"),
-                              (["--resolution", "4,4"], "--resolution"), (["--per-decade", 0], "--per-decade"),
-                              (["--json", self.folder / "x", "--chart", self.folder / "x"], "x")):
-            with self.subTest(options):
-                self.fails(2, "bench", "scale", *options, says=[says])
-        self.fails(1, "bench", "scale", "--json", self.folder / "no" / "b.json", says=["b.json"])
 
 
 class BenchTraversal(Bench):
@@ -154,12 +102,6 @@ class GpuMemory(Bench):
         self.assertNotIn("bytes per triangle", run("info", SCENES / "sphere-black.gltf").stdout)
         self.renders(SCENES / "sphere-black.gltf", "-o", self.folder / "p.pfm", *SMALL, "--stats", stats)
         self.assertNotIn("gpu_bytes_per_triangle", json.loads(stats.read_text()))
-
-
-class BenchScaleInterruption(Bench):
-    def test_ctrl_c_writes_nothing_and_gives_130(self):
-        for arguments in (("scale", "--to", 30000, "--rounds", 1000, "--traversals", "iterative"), ("traversal", ROOM, "--rounds", 10000)):
-            self.interrupts("bench", *arguments, "--quiet", "--json", self.folder / "b.json")
 
 
 if __name__ == "__main__":

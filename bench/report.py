@@ -1,11 +1,24 @@
+#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The tables of what `fragtrace bench report` and `bench scale` write, a JSON object per line, for bench/tables.py."""
+"""Measures Table I and Figure 9 of the report that fragtrace began with again, by `bench frame`.
 
+usage: report.py [FRAGTRACE] [--parts NAME,...] [--json FILE] [--chart FILE.svg] [OPTIONS OF bench frame ...]
+Each row is drawn with as many samples a draw as the renderer chooses and, where that differs, with one, as in a viewer. Prints both tables. --chart is
+charts.py on the file, which --json keeps. Status 1: a picture is wrong. bench/tables.py puts the tables into docs/measurements/benchmarks.md.
+"""
+import argparse
 import json
 import statistics
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
 
-import markdown
-from rows import BOX_SAMPLES, REPORT
+REPOSITORY = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(REPOSITORY / folder) for folder in ("bench", "bench/gpu")]
+
+import markdown  # noqa: E402
+from rows import BOX_SAMPLES, REPORT, REPORT_SCENES, report_calls  # noqa: E402
 
 NOTHING = "nothing hit"
 REPORT_GROWTH = {"iterative": "4.11", "bvh": "1.38", "front-to-back": "1.13"}  # 62,975 / 15,743 triangles
@@ -16,13 +29,8 @@ def lines_of(path):
     return [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
 
 
-def brief(ms):
-    """Formats a number with two or three figures."""
-    return f"{ms:,.{2 if ms < 1 else 1 if ms < 100 else 0}f}"
-
-
 def settings_of(path):
-    """The lines of `bench report` by row, each by whether a draw has a single sample."""
+    """The lines by row, each by whether a draw has a single sample."""
     rows = {}
     for line in lines_of(path):
         rows.setdefault(line["configuration"], {})["single" if line["samples_per_draw"] == 1 else "many"] = line
@@ -89,34 +97,37 @@ def report_shapes(path):
     return markdown.table(["shape, as ratio", "here", "report"], rows)
 
 
-def scale_head(sizes, drawn):
-    most = {key: max(frames[f"{key}_pixels"] for frames in drawn) for key in ("wrong", "differing")}
-    return markdown.wrapped(
-        f"{sizes[0]['gl_renderer']}; {sizes[0]['width']} x {sizes[0]['height']}, medians of "
-        f"{max(len(frames['frame_ms']) for frames in drawn)} rounds. In each picture at least "
-        f"{min(frames['compared_pixels'] for frames in drawn):,} pixels were compared with the double-precision "
-        f"tracer's, of which at most {most['wrong']:,} differ; at most {most['differing']:,} are not those of the "
-        f"first traversal.")
+def measure(program, parts, path, words):
+    """Writes the lines of all rows. Returns whether their pictures are right."""
+    right, lines, size = True, [], [] if "--resolution" in words else ["--resolution", "500,500"]
+    for _, scene, default, arguments in report_calls(parts):
+        result = subprocess.run([program, "bench", "frame", REPOSITORY / scene, *size, *arguments, *words, "--json", path], stdout=subprocess.DEVNULL)
+        if result.returncode not in (0, 1):
+            sys.exit(result.returncode)
+        right = right and result.returncode == 0
+        subject = next(row[1] for row in REPORT_SCENES if row[2] == scene)
+        for line in lines_of(path):
+            method = default if line["configuration"] == "default" else line["configuration"]
+            lines.append({**line, "command": "report", "configuration": f"{subject}, {method}"})
+    order = {name: number for number, name in enumerate(dict.fromkeys(line["configuration"] for line in lines))}
+    path.write_text("".join(json.dumps(line) + "\n" for line in sorted(lines, key=lambda line: order[line["configuration"]])), encoding="utf-8")
+    return right
 
 
-def scale_times(path):
-    sizes = [line for line in lines_of(path) if "triangles" in line]
-    drawn = [frames for size in sizes for frames in size["traversals"] if "median_ms" in frames]
-    names, rows = list(dict.fromkeys(frames["traversal"] for frames in drawn)), []
-    for size in sizes:
-        ms = {frames["traversal"]: brief(frames["median_ms"]) for frames in size["traversals"] if "median_ms" in frames}
-        steps = [brief(size[f"{step}_ms"]) for step in ("make", "build", "pack", "upload")]
-        rows.append([f"{size['triangles']:,}", *steps, f"{size['sah_cost']:.1f}", str(size["depth"]),
-                     f"{size['gpu_bytes_per_triangle']:.1f}",
-                     f"{size['peak_bytes'] / 1e6:,.0f}" if size["peak_bytes"] else "-",
-                     *(ms.get(name, "-") for name in names)])
-    head = ["triangles", "make ms", "build ms", "pack ms", "upload ms", "SAH cost", "depth", "GPU bytes per triangle",
-            "peak MB", *(f"{name} ms" for name in names)]
-    return scale_head(sizes, drawn) + markdown.table(head, rows)
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", nargs="?", type=Path, default=REPOSITORY / "build/fragtrace")
+    parser.add_argument("--parts", default=",".join(dict.fromkeys(row[0] for row in REPORT_SCENES)))
+    parser.add_argument("--json", type=Path)
+    parser.add_argument("--chart", type=Path)
+    options, words = parser.parse_known_args()
+    with tempfile.TemporaryDirectory() as folder:
+        path = options.json or Path(folder) / "report.json"
+        right = measure(options.program, options.parts.split(","), path, words)
+        print("\n".join([*report_times(path), "", *report_shapes(path)]))
+        charted = subprocess.run([sys.executable, REPOSITORY / "bench/charts.py", path, options.chart]).returncode if options.chart else 0
+    sys.exit(charted if right else 1)
 
 
-def scale_exponents(path):
-    exponents = next(line["exponents"] for line in lines_of(path) if "exponents" in line)
-    rows = [[title, *("-" if one[key] is None else f"{one[key]:.2f}" for one in exponents.values())]
-            for title, key in (("the larger half of the sizes", "larger_half"), ("all sizes", "all"))]
-    return markdown.table(["p over", *exponents], rows)
+if __name__ == "__main__":
+    main()
