@@ -28,7 +28,6 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "bench"))
 
 import markdown  # noqa: E402
-import traversals  # noqa: E402
 
 GOAL = "1e-3"
 NAMES = {"cornell-box": "Cornell box", "room-ball": "room with the ball", "asset": "FlightHelmet under lightroom_14b",
@@ -131,21 +130,33 @@ def rays(options):
     return found, figures
 
 
+def frame_ms(program, mesh, rounds, *words):
+    """Milliseconds of a flat frame of a mesh, round by round, by traversal. `bench frame` compares the pictures."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "frames.json"
+        subprocess.run([program, "bench", "frame", REPOSITORY / f"scenes/{mesh}.gltf", "--stage", "flat", "--default-light", "white", "--resolution", "500,500",
+                        "--traversal", "front-to-back", "--rounds", str(rounds), "--quiet", "--json", path, *words], check=True, stdout=subprocess.DEVNULL)
+        lines = map(json.loads, path.read_text().splitlines())
+        return {line["configuration"].replace("default", "front-to-back"): line["round_frame_ms"] for line in lines}
+
+
 def meshes(options):
-    times = traversals.measure(options.program, REPOSITORY / "scenes", options.rounds, 64)
-    seconds = {f"{kind}, {mesh}": values for (kind, mesh), values in times.items()}
-    return [row(name, values, note="the same pictures") for name, values in traversals.ratios(times).items()], seconds
+    small, large = (frame_ms(options.program, mesh, options.rounds, "--config", "bvh=--traversal bvh") for mesh in ("mesh-15743", "mesh-62975"))
+    front, slow = large["front-to-back"], frame_ms(options.program, "mesh-62975", 1, "--config", "iterative=--traversal iterative")["iterative"]
+    found = {"bvh / front-to-back, 62,975 triangles": [b / f for b, f in zip(large["bvh"], front)],
+             "front-to-back, 62,975 / 15,743 triangles": [b / a for a, b in zip(small["front-to-back"], front)],
+             "iterative / front-to-back, 62,975 triangles": [slow[0] / f for f in front]}
+    return [row(name, values, note="the same pictures") for name, values in found.items()], {"15,743": small, "62,975": large, "iterative": slow}
 
 
 def kept(options):
     """The smaller mesh is enough for the iterative traversal: both are one loop over all triangles."""
     found, figures = [], {}
-    with tempfile.TemporaryDirectory() as folder:
-        for kind, mesh, spp in (("bvh", "mesh-62975", 64), ("iterative", "mesh-15743", 1)):
-            pairs = [[traversals.frame_ms(program, REPOSITORY / f"scenes/{mesh}.gltf", kind, spp, Path(folder))[0]
-                      for program in (options.before, options.program)] for _ in range(options.rounds)]
-            found.append(row(f"{kind}, {KEPT}", [before / now for before, now in pairs]))
-            figures[kind] = pairs
+    for kind, mesh in (("bvh", "mesh-62975"), ("iterative", "mesh-15743")):
+        pairs = [[frame_ms(program, mesh, 1, "--config", f"{kind}=--traversal {kind}")[kind][0] for program in (options.before, options.program)]
+                 for _ in range(options.rounds)]
+        found.append(row(f"{kind}, {KEPT}", [before / now for before, now in pairs]))
+        figures[kind] = pairs
     return found, figures
 
 
