@@ -121,7 +121,6 @@ class Tunes(BothSchedules):
         self.assertEqual(picture, other, (scene, options))
 
     def test_by_each_entry(self):
-        # The picture tests by OSMesa draw the text for GPUs, too.
         for scene, options in TUNED if EXTENDED else TUNED[:2]:
             for entry in ENTRIES:
                 self.same_tuned(scene, *options, *entry)
