@@ -59,6 +59,21 @@ class Documents(Case):
         found = self.faults("# One\n", "a.cpp", "b.md", "c.py", "d.svg")
         self.assertEqual([fault.split(" ")[0] for fault in found if "lines" in fault], ["a.cpp:", "b.md:"])
 
+    def test_folders_that_outgrow_their_budget_are_found(self):
+        for name, lines in (("src/a/x.cpp", 300), ("src/a/b/y.h", 20), ("docs/d/z.md", 100), ("src/a/x.png", 9), ("x.md", 9)):
+            (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (self.folder / name).write_text("x\n" * lines)
+        check = script()
+        found = check.sizes(self.folder, ["src/a/x.cpp", "src/a/b/y.h", "docs/d/z.md", "src/a/x.png", "x.md"])
+        self.assertEqual(found, {"src/a": (2, 320), "docs": (1, 100)})
+        budget = check.budget_of(found)
+        self.assertEqual([line.split() for line in budget.splitlines()], [["docs", "1", "110"], ["src/a", "2", "330"]])
+        self.assertEqual(list(check.budget_faults(found, budget)), [])
+        for size, says in (((2, 331), "raise the row"), ((3, 320), "raise the row"), ((1, 200), "lowers it")):
+            faults = list(check.budget_faults({**found, "src/a": size}, budget))
+            self.assertEqual((len(faults), says in faults[0]), (1, True), faults)
+        self.assertIn("src/new: has 1 files of 5 lines", "".join(check.budget_faults({**found, "src/new": (1, 5)}, budget)))
+
     def test_a_file_that_does_not_belong_into_the_root_is_found(self):
         found = self.faults("# One\n", "-", "src/main.cpp", "docs/x.png")
         self.assertEqual(len(found), 1)
