@@ -57,7 +57,6 @@ void declareError(CLI::App& app, ErrorOptions& o) {
       ->check(realNumber(1e-12, 1e3))
       ->capture_default_str();
   addJsonOption(app, o.files, "write all measurements to this JSON file");
-  app.add_option("--csv", o.files.csv, "write all measurements to this table")->type_name("FILE");
   addConfigurationOptions(app, o.raw, "default,random,baseline, or default alone with --config");
   app.get_option("--spp")->description(std::string("samples per pixel of the last step, by default ") +
                                        kDefaultSamples);
@@ -362,7 +361,7 @@ int runError(const ErrorOptions& options) {
   checkResultFiles(options.files, inputs);
   const auto context = contextOf(options.configurations.front().render);
   const ErrorReport report = measure(options, *context);
-  writeResults(options.files, {errorTable(report), errorJson(report), errorCsv(report)});
+  writeResults(options.files, {errorTable(report), errorJson(report)});
   return 0;
 }
 

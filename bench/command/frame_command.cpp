@@ -110,7 +110,7 @@ int runFrame(const FrameOptions& options) {
   const auto context = contextOf(options.first());
   const BenchMachine machine = describeMachine(*context);
   const std::vector<FrameSetting> measured = measure(options, *context, reference);
-  writeResults(options.files, {frameTable(machine, measured), frameJson(machine, measured), {}});
+  writeResults(options.files, {frameTable(machine, measured), frameJson(machine, measured)});
   bool slower = false;
   if (!options.baseline.empty()) {
     const auto changes = compareWithBaseline(baseline, machine, measured, options.tolerance);

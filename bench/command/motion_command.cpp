@@ -299,8 +299,7 @@ int runMotionCommand(const MotionOptions& o) {
   for (const MotionRow& row : rows) json["rows"].push_back(jsonOf(row, o.plan.view.waitsForPasses));
   const std::string head = formatted("%s, %d x %d, %s of %g s\n\n", scene.c_str(), o.plan.size.x,
                                      o.plan.size.y, o.path.c_str(), o.period);
-  writeResults(o.files,
-               {head + tableOf(rows) + passTable(rows, o.plan.view.waitsForPasses), jsonLine(json), {}});
+  writeResults(o.files, {head + tableOf(rows) + passTable(rows, o.plan.view.waitsForPasses), jsonLine(json)});
   return 0;
 }
 

@@ -14,15 +14,13 @@ void addJsonOption(CLI::App& app, ResultFiles& files, const char* help) {
 }
 
 void checkResultFiles(const ResultFiles& files, std::span<const std::filesystem::path> inputs) {
-  const std::array<NamedOutput, 2> outputs{{{"--json", files.json}, {"--csv", files.csv}}};
-  checkOutputs(outputs, inputs);
+  checkOutputs(std::array{NamedOutput{"--json", files.json}}, inputs);
 }
 
 void writeResults(const ResultFiles& files, const ResultTexts& texts) {
   countInterrupts();
   std::fputs(texts.table.c_str(), stdout);
   replaceText(files.json, texts.json);
-  replaceText(files.csv, texts.csv);
 }
 
 }  // namespace fragtrace

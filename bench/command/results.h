@@ -15,7 +15,6 @@ namespace fragtrace {
 
 struct ResultFiles {
   std::filesystem::path json;
-  std::filesystem::path csv;
 };
 
 /// `help` says what is in the file.
@@ -27,7 +26,6 @@ void checkResultFiles(const ResultFiles& files, std::span<const std::filesystem:
 struct ResultTexts {
   std::string table;  ///< the table for standard output
   std::string json;
-  std::string csv;
 };
 /// Prints and writes what was measured. Interrupts no longer stop the program, so that it is written whole.
 void writeResults(const ResultFiles& files, const ResultTexts& texts);

@@ -251,7 +251,7 @@ int runStart(const StartOptions& options) {
     addStart(report, process, readStatistics(file));
   }
   bar.clear();
-  writeResults(options.files, {startTable(report), jsonLine(report), {}});
+  writeResults(options.files, {startTable(report), jsonLine(report)});
   return 0;
 }
 

@@ -97,7 +97,7 @@ int runStress(const StressOptions& options) {
   const std::vector<StressRow> rows = chosenRows(options);
   const auto context = contextOf(options.render);
   const StressReport report = measure(options, rows, *context);
-  writeResults(options.files, {stressTable(report), stressJson(report), {}});
+  writeResults(options.files, {stressTable(report), stressJson(report)});
   if (report.rowsOver() > 0)
     throw RenderError(std::to_string(report.rowsOver()) + " of " + std::to_string(report.rows.size()) +
                       " rows are over their limit");

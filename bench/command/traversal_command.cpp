@@ -209,7 +209,7 @@ int runTraversal(const TraversalOptions& options) {
   const std::vector<Json> lines = measure(options, *context);
   std::string json;
   for (const Json& line : lines) json += jsonLine(line);
-  writeResults(options.files, {traversalTable(lines), json, {}});
+  writeResults(options.files, {traversalTable(lines), json});
   return 0;
 }
 

@@ -14,8 +14,6 @@ LITERALS = ["--traversal", "literals"]
 TREE = ["--traversal", "front-to-back"]
 WAVEFRONT = ["--schedule", "wavefront"]  # it needs a tree
 
-GPU_TEXT = ["--tune", "gpu"]
-
 # The ways to draw reference pictures: the name, the options of `render`, and the only stage that this way draws, or
 # None.
 ENTRIES = (
@@ -134,11 +132,6 @@ FRAMES = (
       for title, options, wants in (("compute", COMPUTE, {"compute"}), ("wavefront", WAVEFRONT, {"wavefront"}))),
     *(row(f"{entry}, text for software", [*options, "--tune", "software"], wants) for row in (mesh, ball, helmet)
       for entry, options, wants in (("fragment", FRAGMENT, {"fragment"}), ("compute", COMPUTE, {"compute"}))),
-    # These rows use the folders of edits.py. They are compared with "FlightHelmet ..., compute" and "room with the
-    # ball, compute".
-    *(row(f"compute, {title}", [*COMPUTE, *GPU_TEXT, "--shader-folder", f"edited/{name}"], {"compute", "gpu"}) for row in (mesh, ball, helmet)
-      for name, title in (("copied-frame", "uniforms copied"), ("kept-film", "film in registers"), ("two-traversals", "a traversal for each kind of ray"),
-                          ("array-stack", "stack in an array"), ("128-lanes", "groups of 128 lanes"), ("256-lanes", "groups of 256 lanes"), ("film-and-128-lanes", "film in registers, groups of 128 lanes"))),
 )
 
 # Cases that break ray tracers, each seed with others.

@@ -33,17 +33,6 @@ std::string labelOf(const ErrorCurve& curve) {
   return curve.name + (curve.filter.empty() ? "" : " denoised");
 }
 
-/// A field of a CSV file (RFC 4180): names of configurations are the user's.
-std::string csvField(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
-}
-
 /// The factors by which `curve` needs less time and fewer samples than `slower` to reach the goal.
 struct Gain {
   double time = 0.0;
@@ -227,19 +216,6 @@ std::string errorJson(const ErrorReport& report) {
     json["configurations"].push_back(std::move(entry));
   }
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-}
-
-std::string errorCsv(const ErrorReport& report) {
-  std::string text = "configuration,repetition,samples,seconds,mse,relmse,flip\n";
-  for (const ErrorCurve& curve : report.curves) {
-    for (size_t r = 0; r < curve.repetitions.size(); ++r) {
-      for (const ErrorSample& s : curve.repetitions[r]) {
-        text += csvField(labelOf(curve)) + formatted(",%zu,%.9g,%.9g,%.9g,%.9g,%.9g\n", r, s.samples,
-                                                     s.seconds, s.mse, s.relmse, s.flip);
-      }
-    }
-  }
-  return text;
 }
 
 }  // namespace fragtrace

@@ -66,6 +66,5 @@ double slopeOf(const ErrorCurve& curve);
 
 std::string errorTable(const ErrorReport& report);
 std::string errorJson(const ErrorReport& report);
-std::string errorCsv(const ErrorReport& report);
 
 }  // namespace fragtrace

@@ -6,13 +6,9 @@ import os
 import shutil
 import signal
 import subprocess
-import sys
 import time
 
 from support import FRAGTRACE, SCENES, Case, main
-
-sys.path.insert(0, str(SCENES.parent / "bench/gpu"))
-from edits import EDITS, write_edited  # noqa: E402
 
 GPU = SCENES.parent / "bench/gpu"
 # Draws everything by fragments, tells nothing of the ball, never ends its rays, and does not start.
@@ -88,8 +84,8 @@ class GpuTable(Case):
                           "FLIP 0.0500, relative MSE 0.1 |"])
         self.assertEqual(rows["Cornell box"], ["2.0 pictures/s of 1.00 Mpixels; one after 16.5 ms, 95 % within 17.0, all within 40.0",
                                                "aim 60 pictures/s, none after more than 50 ms", " |"])
-        self.assertIn("40 rows failed or are wrong", text.splitlines()[-1])
-        self.assertEqual(len((self.out / "figures.jsonl").read_text().splitlines()), 29)
+        self.assertIn("19 rows failed or are wrong", text.splitlines()[-1])
+        self.assertEqual(len((self.out / "figures.jsonl").read_text().splitlines()), 15)
 
     def test_cases_that_break_ray_tracers(self):
         process = self.begin("--seconds", "60", "--only", "stress")
@@ -112,14 +108,10 @@ class GpuTable(Case):
         process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130)
         self.assertLess(time.monotonic() - began, 10)
-        self.assertEqual(len(self.rows()), 11)
+        self.assertEqual(len(self.rows()), 4)
         self.assertIn("INTERRUPTED", (self.out / "table.md").read_text())
         with self.assertRaises(ProcessLookupError):
             os.kill(int((self.bundle / "process").read_text()), 0)
-
-    def test_edits_find_their_texts(self):
-        write_edited(SCENES.parent / "shaders", self.folder / "edited")
-        self.assertEqual({path.name for path in (self.folder / "edited").iterdir()}, set(EDITS))
 
     def test_what_cannot_be_done_is_refused(self):
         for options, says in ((["--only", "boxes"], "'boxes' is none of correctness, report"), (["--seconds", "0"], "above 0"),
@@ -127,19 +119,6 @@ class GpuTable(Case):
             process = self.begin(*options)
             self.assertIn(says, process.communicate(timeout=60)[1])
             self.assertEqual((process.returncode, self.out.exists()), (2, False))
-
-
-class GpuEdits(Case):
-    def test_edited_shaders_draw_the_same_bits(self):
-        write_edited(SCENES.parent / "shaders", self.folder / "edited")
-        drawn = {}
-        for name in (None, *EDITS):
-            path = self.folder / "x.pfm"
-            shaders = ["--shader-folder", self.folder / "edited" / name] if name else []
-            self.renders(SCENES / "room-ball.gltf", "-o", path, "--resolution", "43,21", "--spp", "2", "--quiet", "--tune", "gpu", "--dispatch", "compute",
-                         "--schedule", "megakernel", "--traversal", "front-to-back", *shaders)
-            drawn[name] = path.read_bytes()
-        self.assertEqual([name for name in EDITS if drawn[name] != drawn[None]], [])
 
 
 class GpuBundle(Case):

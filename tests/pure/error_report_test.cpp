@@ -92,7 +92,6 @@ TEST(ErrorReport, FilteredCurvesAreReportedBesideThoseOfTheSamePicturesAndNotExt
   for (const char* line : {"default denoised against default: 10 times", "default against slow: 4 times",
                            "default denoised against slow: 40 times", "slow denoised      not reached"})
     EXPECT_NE(table.find(line), std::string::npos) << line << "\n" << table;
-  EXPECT_NE(errorCsv(report).find("\nslow denoised,0,64,"), std::string::npos);
 }
 
 TEST(ErrorReport, TimeOfAnErrorAboveTheFirstStepIsThatOfTheStep) {
@@ -152,52 +151,6 @@ ErrorReport reportOfTwo() {
   report.curves[1].variant = "gi";
   report.curves[1].compileMs = 12.5;
   return report;
-}
-
-/// The rows of a CSV file by their fields (RFC 4180).
-std::vector<std::vector<std::string>> parseCsv(const std::string& text) {
-  std::vector<std::vector<std::string>> rows;
-  std::vector<std::string> row(1);
-  bool quoted = false;
-  for (size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (quoted && c == '"' && i + 1 < text.size() && text[i + 1] == '"') {
-      row.back() += text[++i];
-    } else if (c == '"') {
-      quoted = !quoted;
-    } else if (!quoted && c == ',') {
-      row.emplace_back();
-    } else if (!quoted && c == '\n') {
-      rows.push_back(std::move(row));
-      row.assign(1, "");
-    } else {
-      row.back() += c;
-    }
-  }
-  EXPECT_FALSE(quoted);
-  EXPECT_EQ(row, std::vector<std::string>(1));  // the last line ends
-  return rows;
-}
-
-TEST(ErrorReport, CsvHoldsEverySampleOfEveryRepetition) {
-  const ErrorReport report = reportOfTwo();
-  const auto rows = parseCsv(errorCsv(report));
-  ASSERT_EQ(rows.size(), 1u + 3u * 7u);
-  EXPECT_EQ(rows[0], (std::vector<std::string>{"configuration", "repetition", "samples", "seconds", "mse",
-                                               "relmse", "flip"}));
-  size_t at = 1;
-  for (const ErrorCurve& curve : report.curves) {
-    for (size_t r = 0; r < curve.repetitions.size(); ++r) {
-      for (const ErrorSample& s : curve.repetitions[r]) {
-        const auto& row = rows[at++];
-        ASSERT_EQ(row.size(), 7u);
-        EXPECT_EQ(row[0], curve.name);
-        EXPECT_EQ(row[1], std::to_string(r));
-        const double expected[] = {s.samples, s.seconds, s.mse, s.relmse, s.flip};
-        for (size_t c = 0; c < 5; ++c) EXPECT_NEAR(std::stod(row[c + 2]), expected[c], 1e-8 * expected[c]);
-      }
-    }
-  }
 }
 
 TEST(ErrorReport, JsonHoldsEverySampleAndWhatFollows) {

@@ -2,8 +2,6 @@
 // The double-precision tracer, and the comparisons of what was measured with it.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "base/errors.h"
 #include "tests/instruments/rays/ball_scene.h"
 #include "tests/instruments/rays/hit_check.h"
@@ -102,42 +100,6 @@ TEST(CountWrong, TellsOtherHitsFromTies) {
   EXPECT_EQ(countWrongNearest(rays, found, exact, 1.0), 3u);
   EXPECT_EQ(countWrongAny(rays, found, exact), 2u);
   EXPECT_LT(wrongRaysAllowed(1000000), 100u);
-}
-
-/// The picture that the hits make, first row at the top.
-Image pictureOf(const Scene& scene, const std::vector<ExactHit>& hits, glm::ivec2 size) {
-  Image picture{size.x, size.y, {"R", "G", "B"}, std::vector<float>(size_t(size.x * size.y) * 3, 0.0f), {}};
-  for (int y = 0; y < size.y; ++y) {
-    for (int x = 0; x < size.x; ++x) {
-      const ExactHit& hit = hits[size_t(y) * size_t(size.x) + size_t(x)];
-      if (hit.primitive == kMissIndex) continue;
-      const glm::vec4 c = scene.materials[scene.triangles[hit.primitive].material].baseColorFactor;
-      std::copy_n(&c.x, 3, picture.pixel(x, size.y - 1 - y));
-    }
-  }
-  return picture;
-}
-
-TEST(CheckFlatPicture, SeesEveryWrongPixelAwayFromBorders) {
-  const Scene scene = makeBallScene(1000);
-  const Bvh bvh = treeOf(scene);
-  const glm::ivec2 size(60, 40);
-  const std::vector<ExactHit> hits =
-      ExactTracer(scene, bvh).nearest(primaryRays(frameScene(scene.bounds), LocalSpace{}, size));
-  const Image right = pictureOf(scene, hits, size);
-  const FlatPictureCheck check = checkFlatPicture(right, scene, hits);
-  EXPECT_GT(check.compared, 60u * 40u * 8u / 10u);
-  EXPECT_LT(check.compared, 58u * 38u);
-  EXPECT_EQ(check.wrong, 0u);
-
-  Image holes = right;
-  std::copy_n(std::vector<float>{0, 0, 0}.begin(), 3, holes.pixel(28, 18));
-  std::copy_n(std::vector<float>{0.5f, 0, 0}.begin(), 3, holes.pixel(3, 3));
-  EXPECT_EQ(checkFlatPicture(holes, scene, hits).wrong, 2u);
-  Image upsideDown = right;
-  for (int y = 0; y < size.y; ++y)
-    std::copy_n(right.pixel(0, size.y - 1 - y), size_t(size.x) * 3, upsideDown.pixel(0, y));
-  EXPECT_GT(checkFlatPicture(upsideDown, scene, hits).wrong, 100u);
 }
 
 }  // namespace

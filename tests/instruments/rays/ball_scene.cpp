@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
-#include <thread>
-
-#include "base/parallel.h"
 
 namespace fragtrace {
 
@@ -22,24 +19,6 @@ glm::dvec3 surfacePoint(double longitude, double latitude) {
                              std::sin(latitude) * std::sin(longitude));
 }
 
-/// Returns which of the eight materials a triangle has, by the signs of its centroid.
-uint32_t octantOf(const glm::vec3& p) {
-  return (p.x > 0.0f ? 1u : 0u) | (p.y > 0.0f ? 2u : 0u) | (p.z > 0.0f ? 4u : 0u);
-}
-
-std::vector<Material> octantMaterials() {
-  std::vector<Material> materials(8);
-  for (uint32_t i = 0; i < 8; ++i) {
-    Material& m = materials[i];
-    m.name = "octant-" + std::to_string(i);
-    m.baseColorFactor = {(i & 1u) != 0 ? 0.75f : 0.25f, (i & 2u) != 0 ? 0.75f : 0.25f,
-                         (i & 4u) != 0 ? 0.75f : 0.25f, 1.0f};
-    m.metallicFactor = 0.0f;
-    m.specularFactor = 0.0f;
-  }
-  return materials;
-}
-
 }  // namespace
 
 Scene makeBallScene(size_t triangles) {
@@ -52,27 +31,24 @@ Scene makeBallScene(size_t triangles) {
   const uint32_t north = south + 1;
 
   Scene scene;
-  scene.materials = octantMaterials();
+  scene.materials.resize(1);
+  scene.materials[0].metallicFactor = 0.0f;
+  scene.materials[0].specularFactor = 0.0f;
   std::vector<glm::vec3>& points = scene.vertices.position;
   points.resize(size_t(rings) * columns + 2);
   scene.triangles.resize(size_t(2) * rings * columns);
-  const uint32_t threads = std::max(std::thread::hardware_concurrency(), 1u);
-  runOnThreads(threads, [&](uint32_t thread) {
-    const uint32_t end = uint32_t(uint64_t(rings) * (thread + 1) / threads);
-    for (uint32_t ring = uint32_t(uint64_t(rings) * thread / threads); ring < end; ++ring) {
-      for (uint32_t column = 0; column < columns; ++column) {
-        points[size_t(ring) * columns + column] =
-            glm::vec3(surfacePoint(2.0 * kPi * column / columns, kPi * (ring + 1) / rows));
-      }
+  for (uint32_t ring = 0; ring < rings; ++ring) {
+    for (uint32_t column = 0; column < columns; ++column) {
+      points[size_t(ring) * columns + column] =
+          glm::vec3(surfacePoint(2.0 * kPi * column / columns, kPi * (ring + 1) / rows));
     }
-  });
+  }
   points[south] = glm::vec3(surfacePoint(0.0, kPi));
   points[north] = glm::vec3(surfacePoint(0.0, 0.0));
 
   size_t next = 0;
   const auto add = [&](uint32_t a, uint32_t b, uint32_t c) {
-    const glm::vec3 middle = points[a] + points[b] + points[c];
-    scene.triangles[next++] = {{a, b, c}, octantOf(middle), true};
+    scene.triangles[next++] = {{a, b, c}, 0, true};
   };
   for (uint32_t column = 0; column < columns; ++column) {
     const uint32_t right = (column + 1) % columns;

@@ -13,14 +13,6 @@ namespace {
 
 constexpr double kNear = 1e-5;
 
-/// Index of the material that a pixel's middle sees, -1: none.
-int materialOf(const Scene& scene, const ExactHit& hit) {
-  if (hit.primitive == kMissIndex) return -1;
-  const size_t triangles = scene.triangles.size();
-  return int(hit.primitive < triangles ? scene.triangles[hit.primitive].material
-                                       : scene.spheres[hit.primitive - triangles].material);
-}
-
 }  // namespace
 
 std::vector<FoundHit> foundBy(const RayCaster& caster, const Bvh& bvh) {
@@ -80,31 +72,6 @@ size_t proveTree(const ExactTracer& tracer, size_t primitives, std::span<const R
                                   byTree[i].t, byAll[i].t));
   }
   return count;
-}
-
-FlatPictureCheck checkFlatPicture(const Image& picture, const Scene& scene, std::span<const ExactHit> hits) {
-  constexpr float kNearColor = 1e-3f;
-  FlatPictureCheck check;
-  const auto materialAt = [&](int x, int y) {
-    return materialOf(scene, hits[size_t(y) * size_t(picture.width) + size_t(x)]);
-  };
-  for (int y = 1; y + 1 < picture.height; ++y) {
-    for (int x = 1; x + 1 < picture.width; ++x) {
-      const int material = materialAt(x, y);
-      bool uniform = true;
-      for (int dy = -1; dy <= 1; ++dy) {
-        for (int dx = -1; dx <= 1; ++dx) uniform = uniform && materialAt(x + dx, y + dy) == material;
-      }
-      if (!uniform) continue;
-      ++check.compared;
-      const glm::vec3 color =
-          material < 0 ? glm::vec3(0.0f) : glm::vec3(scene.materials[size_t(material)].baseColorFactor);
-      const float* pixel = picture.pixel(x, picture.height - 1 - y);
-      const glm::vec3 off = glm::abs(glm::vec3(pixel[0], pixel[1], pixel[2]) - color);
-      check.wrong += std::max({off.x, off.y, off.z}) <= kNearColor ? 0 : 1;
-    }
-  }
-  return check;
 }
 
 }  // namespace fragtrace

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "bvh/exact_tracer.h"
-#include "image/image.h"
 #include "tests/instruments/rays/ray_caster.h"
 
 namespace fragtrace {
@@ -36,12 +35,5 @@ size_t wrongRaysAllowed(size_t rays);
 /// Holds nearest() against nearestOfAll() on rays spread evenly over the set, as many as take about a second.
 /// Returns how many were compared. Throws RenderError where they differ: the tree is wrong.
 size_t proveTree(const ExactTracer& tracer, size_t primitives, std::span<const Ray> rays);
-
-/// A picture of stage flat against the hits of rays through the middles of its pixels (rows from the bottom).
-struct FlatPictureCheck {
-  size_t compared = 0;  ///< pixels that see one material only, as far as their 3 x 3 neighbours tell
-  size_t wrong = 0;     ///< number of pixels whose colour is off by more than 1e-3
-};
-FlatPictureCheck checkFlatPicture(const Image& picture, const Scene& scene, std::span<const ExactHit> hits);
 
 }  // namespace fragtrace
