@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes image_samples.h: tiny encoded pictures for image_read_test.cpp. PNG by hand, the rest by Pillow, so that none
+"""Writes samples/, the tiny encoded pictures of image_samples.h. PNG by hand, the rest by Pillow, so that none
 of them comes from the library under test."""
 
 import io
@@ -38,42 +38,31 @@ def gradient(form, **options):
 
 GREY, RGB, PALETTE, GREY_ALPHA, RGBA = 0, 2, 3, 4, 6
 SAMPLES = [
-    ("Rgba8Png", "(200, 100, 50, 128), (10, 20, 30, 0)",
+    ("rgba8.png", "(200, 100, 50, 128), (10, 20, 30, 0)",
      png(2, 1, 8, RGBA, [bytes([200, 100, 50, 128, 10, 20, 30, 0])])),
-    ("Rgb16Png", "(0x0001, 0x1234, 0xffff), (0x8000, 0xabcd, 0x00ff)",
+    ("rgb16.png", "(0x0001, 0x1234, 0xffff), (0x8000, 0xabcd, 0x00ff)",
      png(2, 1, 16, RGB, [struct.pack(">6H", 0x0001, 0x1234, 0xFFFF, 0x8000, 0xABCD, 0x00FF)])),
-    ("Grey16Png", "0x1234, 0xfedc", png(2, 1, 16, GREY, [struct.pack(">2H", 0x1234, 0xFEDC)])),
-    ("Grey8Png", "top row 0, 128; bottom row 255, 1", png(2, 2, 8, GREY, [bytes([0, 128]), bytes([255, 1])])),
-    ("Grey1Png", "one bit: white, black", png(2, 1, 1, GREY, [bytes([0b10000000])])),
-    ("GreyAlpha8Png", "(200, 64), (100, 255)", png(2, 1, 8, GREY_ALPHA, [bytes([200, 64, 100, 255])])),
-    ("PalettePng", "indices 1, 0 of (255, 128, 0), (7, 8, 9)",
+    ("grey16.png", "0x1234, 0xfedc", png(2, 1, 16, GREY, [struct.pack(">2H", 0x1234, 0xFEDC)])),
+    ("grey8.png", "top row 0, 128; bottom row 255, 1", png(2, 2, 8, GREY, [bytes([0, 128]), bytes([255, 1])])),
+    ("grey1.png", "one bit: white, black", png(2, 1, 1, GREY, [bytes([0b10000000])])),
+    ("grey-alpha8.png", "(200, 64), (100, 255)", png(2, 1, 8, GREY_ALPHA, [bytes([200, 64, 100, 255])])),
+    ("palette.png", "indices 1, 0 of (255, 128, 0), (7, 8, 9)",
      png(2, 1, 8, PALETTE, [bytes([1, 0])], [chunk(b"PLTE", bytes([255, 128, 0, 7, 8, 9]))])),
-    ("PaletteAlphaPng", "the same, (255, 128, 0) having alpha 51",
+    ("palette-alpha.png", "the same, (255, 128, 0) having alpha 51",
      png(2, 1, 8, PALETTE, [bytes([1, 0])],
          [chunk(b"PLTE", bytes([255, 128, 0, 7, 8, 9])), chunk(b"tRNS", bytes([51]))])),
-    ("BadProfilePng", "(1, 2, 3) with a wrong gAMA and a broken iCCP",
+    ("bad-profile.png", "(1, 2, 3) with a wrong gAMA and a broken iCCP",
      png(1, 1, 8, RGB, [bytes([1, 2, 3])], [chunk(b"gAMA", struct.pack(">I", 0)), chunk(b"iCCP", b"x\0\0xyz")])),
-    ("HugePng", "claims 2^30 x 2^30 pixels", png(1 << 30, 1 << 30, 8, RGB, [bytes(3)])),
-    ("GradientPng", "32 x 32: (8 x, 8 y, noise)", gradient("PNG")),
-    ("GradientJpeg", "the same", gradient("JPEG", quality=80)),
-    ("ProgressiveJpeg", "the same", gradient("JPEG", quality=80, progressive=True)),
-    ("GreyJpeg", "8 x 8 of 100", pillow("L", (8, 8), 100, "JPEG", quality=95)),
-    ("CmykJpeg", "8 x 8 of cyan 0.2, magenta 0.4, yellow 0.6, black 26 / 255 (stored inverted, as Adobe does)",
+    ("huge.png", "claims 2^30 x 2^30 pixels", png(1 << 30, 1 << 30, 8, RGB, [bytes(3)])),
+    ("gradient.png", "32 x 32: (8 x, 8 y, noise)", gradient("PNG")),
+    ("gradient.jpg", "the same", gradient("JPEG", quality=80)),
+    ("progressive.jpg", "the same", gradient("JPEG", quality=80, progressive=True)),
+    ("grey.jpg", "8 x 8 of 100", pillow("L", (8, 8), 100, "JPEG", quality=95)),
+    ("cmyk.jpg", "8 x 8 of cyan 0.2, magenta 0.4, yellow 0.6, black 26 / 255 (stored inverted, as Adobe does)",
      pillow("CMYK", (8, 8), (51, 102, 153, 26), "JPEG", quality=95)),
-    ("RgbaWebP", "2 x 1, lossless, of (200, 100, 50, 128)",
+    ("rgba.webp", "2 x 1, lossless, of (200, 100, 50, 128)",
      pillow("RGBA", (2, 1), (200, 100, 50, 128), "WEBP", lossless=True, exact=True)),
 ]
 
-lines = ["// SPDX-License-Identifier: MIT",
-         "// Tiny encoded pictures, written by image_make_samples.py: do not edit.",
-         "// clang-format off",
-         "#pragma once", "", "#include <cstdint>", "", "namespace fragtrace::samples {", ""]
-for name, content, data in SAMPLES:
-    lines.append(f"/// {content}")
-    lines.append(f"inline constexpr uint8_t k{name}[] = {{")
-    for start in range(0, len(data), 27):
-        lines.append("  " + ",".join(str(byte) for byte in data[start:start + 27]) + ",")
-    lines[-1] = lines[-1].rstrip(",")
-    lines.append("};")
-lines += ["", "}  // namespace fragtrace::samples", ""]
-pathlib.Path(__file__).with_name("image_samples.h").write_text("\n".join(lines), encoding="utf-8")
+for name, _, data in SAMPLES:
+    (pathlib.Path(__file__).with_name("samples") / name).write_bytes(data)
