@@ -40,7 +40,7 @@ def write_pfm(path, width, height, radiance):
 
 
 def read_png(path):
-    """8-bit RGB or RGBA: width, height, rows of bytes, bytes a pixel (www.w3.org/TR/png)."""
+    """RGB or RGBA of 8 or 16 bits: width, height, rows of bytes, bytes a pixel (www.w3.org/TR/png)."""
     data = Path(path).read_bytes()
     at, packed = 8, b""
     while at < len(data):
@@ -48,11 +48,11 @@ def read_png(path):
         body = data[at + 8:at + 8 + size]
         if kind == b"IHDR":
             width, height, depth, color = struct.unpack_from(">IIBB", body)
-            assert depth == 8 and color in (2, 6), path
+            assert depth in (8, 16) and color in (2, 6), path
         elif kind == b"IDAT":
             packed += body
         at += size + 12
-    step = 3 if color == 2 else 4
+    step = (3 if color == 2 else 4) * depth // 8
     raw, stride, rows = zlib.decompress(packed), step * width, []
     before = bytearray(stride)
     for y in range(height):

@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Light in, through and beside solids: each cell of a matrix of cameras, lamps and receivers is drawn in ways that must agree, and compared with its closed form
 where there is one. A tank of water holds what is inside; a box of glass in the tank holds a lamp in another solid. A case is one cell."""
-import base64
-import json
 import math
 import struct
 from pathlib import Path
 
 from common import Finding, run
+from gltf_file import Gltf
 
 CAMERAS = ("outside", "glass", "absorbing", "scattering", "fog")
 # Places of lamps, and the kinds that may stand there.
@@ -23,42 +22,25 @@ POWER = {"point": 5.0, "spot": 5.0, "sun": 2.0, "quad": 20.0}
 SAMPLES, PIXELS = 64, 24
 
 
-class Model:
+class Model(Gltf):
     """A glTF file in the making."""
 
     def __init__(self):
-        self.root = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}], "nodes": [], "meshes": [], "materials": [], "accessors": [], "bufferViews": []}
-        self.data = b""
+        super().__init__(materials=[])
 
-    def accessor(self, layout, values, component, kind, **more):
-        packed = struct.pack(f"<{len(values)}{layout}", *values)
-        self.root["bufferViews"].append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(packed)})
-        self.root["accessors"].append({"bufferView": len(self.root["bufferViews"]) - 1, "componentType": component, "type": kind,
-                                       "count": len(values) // {"SCALAR": 1, "VEC3": 3}[kind], **more})
-        self.data += packed
-        return len(self.root["accessors"]) - 1
-
-    def node(self, **node):
-        self.root["nodes"].append(node)
-        self.root["scenes"][0]["nodes"].append(len(self.root["nodes"]) - 1)
-
-    def mesh(self, points, triangles, material, at=(0, 0, 0)):
-        flat = [c for p in points for c in p]
-        bounds = {"min": [min(p[i] for p in points) for i in range(3)], "max": [max(p[i] for p in points) for i in range(3)]}
-        position = self.accessor("f", flat, 5126, "VEC3", **bounds)
-        indices = self.accessor("I", [i for t in triangles for i in t], 5125, "SCALAR")
+    def body(self, points, triangles, material, at=(0, 0, 0)):
         self.root["materials"].append(material)
-        self.root["meshes"].append({"primitives": [{"attributes": {"POSITION": position}, "indices": indices, "material": len(self.root["materials"]) - 1}]})
-        self.node(mesh=len(self.root["meshes"]) - 1, translation=list(at))
+        indices, position = self.accessor([i for t in triangles for i in t], "I"), self.accessor(points)
+        self.node(mesh=self.mesh(indices, position=position, material=len(self.root["materials"]) - 1), translation=list(at))
 
     def box(self, half, material, at=(0, 0, 0)):
         points = [(half * (1 if i & 1 else -1), half * (1 if i & 2 else -1), half * (1 if i & 4 else -1)) for i in range(8)]
         quads = ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6))
-        self.mesh(points, [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))], material, at)
+        self.body(points, [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))], material, at)
 
     def plate(self, half, material, at):
         """A level square that faces up."""
-        self.mesh([(-half, 0, half), (half, 0, half), (half, 0, -half), (-half, 0, -half)], [(0, 1, 2), (0, 2, 3)], material, at)
+        self.body([(-half, 0, half), (half, 0, half), (half, 0, -half), (-half, 0, -half)], [(0, 1, 2), (0, 2, 3)], material, at)
 
     def light(self, kind, at):
         lamp = {"type": {"sun": "directional"}.get(kind, kind), "intensity": POWER[kind]}
@@ -72,8 +54,7 @@ class Model:
         used = {name for m in self.root["materials"] for name in m.get("extensions", {})} | set(self.root.get("extensions", {}))
         if used:
             self.root["extensionsUsed"] = sorted(used)
-        self.root["buffers"] = [{"byteLength": len(self.data), "uri": "data:application/octet-stream;base64," + base64.b64encode(self.data).decode()}]
-        path.write_text(json.dumps(self.root))
+        super().write(path)
 
 
 def matt(color, alpha=1.0, **more):

@@ -1,37 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Animated files at one moment against files in which that pose stands."""
-import base64
 import json
 import math
-import struct
 
-from support import SCENES, SMALL, Case, main, run
+from support import SCENES, SMALL, Case, Gltf, main, run
 
 VIEW = ["--resolution", "96,64", "--spp", "16", "--camera-position", "2,1.5,5", "--camera-focal-point", "0.6,1.3,0",
         "--background-color", "0.2,0.3,0.4", "--quiet"]
-
-
-class Gltf:
-    """A document whose accessors lie in one buffer."""
-
-    def __init__(self):
-        self.data = b""
-        self.root = {"asset": {"version": "2.0"}, "accessors": [], "bufferViews": []}
-
-    def accessor(self, kind, rows, code="f", component=5126):
-        rows = [row if isinstance(row, (list, tuple)) else [row] for row in rows]
-        data = b"".join(struct.pack(f"<{len(row)}{code}", *row) for row in rows)
-        self.root["bufferViews"].append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data)})
-        self.root["accessors"].append({"bufferView": len(self.root["bufferViews"]) - 1, "componentType": component,
-                                       "count": len(rows), "type": kind})
-        self.data += data + bytes(-len(data) % 4)
-        return len(self.root["accessors"]) - 1
-
-    def write(self, path):
-        uri = "data:application/octet-stream;base64," + base64.b64encode(self.data).decode()
-        path.write_text(json.dumps({**self.root, "buffers": [{"byteLength": len(self.data), "uri": uri}]}))
-        return path
 
 
 def cylinder(around=16, along=12):
@@ -70,19 +46,19 @@ def animated(path):
     gltf = Gltf()
     positions, normals, triangles = cylinder()
     weights = [weight(p) for p in positions]
-    attributes = {"POSITION": gltf.accessor("VEC3", positions), "NORMAL": gltf.accessor("VEC3", normals),
-                  "JOINTS_0": gltf.accessor("VEC4", [(0, 1, 0, 0)] * len(positions), "B", 5121),
-                  "WEIGHTS_0": gltf.accessor("VEC4", [(1 - w, w, 0, 0) for w in weights])}
-    target = {"POSITION": gltf.accessor("VEC3", [bulge(p, n) for p, n in zip(positions, normals)])}
-    indices = gltf.accessor("SCALAR", [i for t in triangles for i in t], "H", 5123)
+    attributes = {"POSITION": gltf.accessor(positions), "NORMAL": gltf.accessor(normals),
+                  "JOINTS_0": gltf.accessor([(0, 1, 0, 0)] * len(positions), "B"),
+                  "WEIGHTS_0": gltf.accessor([(1 - w, w, 0, 0) for w in weights])}
+    target = {"POSITION": gltf.accessor([bulge(p, n) for p, n in zip(positions, normals)])}
+    indices = gltf.accessor([i for t in triangles for i in t], "H")
     identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
-    bind = gltf.accessor("MAT4", [identity, identity[:13] + [-1] + identity[14:]])
-    times = gltf.accessor("SCALAR", [0, 2])
+    bind = gltf.accessor([identity, identity[:13] + [-1] + identity[14:]])
+    times = gltf.accessor([0, 2])
     half = math.radians(-80) / 2
-    turn = gltf.accessor("VEC4", [(0, 0, 0, 1), (0, 0, -math.sin(half), -math.cos(half))])  # the long way, as written
+    turn = gltf.accessor([(0, 0, 0, 1), (0, 0, -math.sin(half), -math.cos(half))])  # the long way, as written
     zero = [0.0]
-    grow = gltf.accessor("SCALAR", zero + zero + zero + zero + [1.0] + zero)  # a spline with level tangents
-    paint = gltf.accessor("VEC4", [(0.5, 0.5, 0.5, 1), (0.9, 0.1, 0.1, 1)])
+    grow = gltf.accessor(zero + zero + zero + zero + [1.0] + zero)  # a spline with level tangents
+    paint = gltf.accessor([(0.5, 0.5, 0.5, 1), (0.9, 0.1, 0.1, 1)])
     gltf.root.update({
         "extensionsUsed": ["KHR_animation_pointer"],
         "scenes": [{"nodes": [0, 1]}],
@@ -122,9 +98,10 @@ def baked(path, seconds):
         length = math.sqrt(sum(x * x for x in m))
         shaded.append(tuple(x / length for x in m))
     mix = [(1 - part) * x + part * y for x, y in zip((0.5, 0.5, 0.5, 1), (0.9, 0.1, 0.1, 1))]
-    attributes = {"POSITION": gltf.accessor("VEC3", placed), "NORMAL": gltf.accessor("VEC3", shaded)}
-    indices = gltf.accessor("SCALAR", [i for t in triangles for i in t], "H", 5123)
+    attributes = {"POSITION": gltf.accessor(placed), "NORMAL": gltf.accessor(shaded)}
+    indices = gltf.accessor([i for t in triangles for i in t], "H")
     gltf.root.update({
+        "scenes": [{"nodes": [0]}],
         "nodes": [{"mesh": 0}],
         "materials": [{"doubleSided": True, "pbrMetallicRoughness": {"metallicFactor": 0, "baseColorFactor": mix}}],
         "meshes": [{"primitives": [{"attributes": attributes, "indices": indices, "material": 0}]}]})
@@ -164,11 +141,9 @@ class SeveralAnimations(Case):
 
     def scene(self, names=("left", "right")):
         gltf = Gltf()
-        triangle = gltf.accessor("VEC3", [(0, 0, 0), (1, 0, 0), (0, 1, 0)])
-        times = [gltf.accessor("SCALAR", [0, last]) for last in (1, 2)]
-        for accessor, last in zip(times, (1, 2)):
-            gltf.root["accessors"][accessor].update(min=[0], max=[last])
-        ways = [gltf.accessor("VEC3", [(x, 0, 0), (x, 1, 0)]) for x in (-2, 2)]
+        triangle = gltf.accessor([(0, 0, 0), (1, 0, 0), (0, 1, 0)])
+        times = [gltf.accessor([0, last]) for last in (1, 2)]
+        ways = [gltf.accessor([(x, 0, 0), (x, 1, 0)]) for x in (-2, 2)]
         gltf.root["meshes"] = [{"primitives": [{"attributes": {"POSITION": triangle}}]}]
         gltf.root["nodes"] = [{"mesh": 0}, {"mesh": 0}]
         gltf.root["scenes"] = [{"nodes": [0, 1]}]
@@ -223,8 +198,7 @@ class Selections(Case):
         self.assertEqual(found["animation_names"], ["bend"])
         self.assertEqual(found["scene_names"], [""])
         self.assertEqual(found["material_variants"], [])
-        empty = self.folder / "empty.gltf"
-        empty.write_text(json.dumps({"asset": {"version": "2.0"}}))
+        empty = self.written("empty.gltf", {"asset": {"version": "2.0"}})
         for scene, cameras in ((SCENES / "plastics.gltf", "1: "), (empty, "none\n")):
             self.assertRegex(run("info", scene).stdout, rf"(?s)GPU memory .*\n  cameras     {cameras}", scene)
 
@@ -237,8 +211,7 @@ class Selections(Case):
         root = json.loads((SCENES / "lights.gltf").read_text())
         root["nodes"].append({"children": root["scenes"][0]["nodes"], "matrix": [1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1]})
         root["scenes"][0]["nodes"] = [len(root["nodes"]) - 1]
-        turned = self.folder / "turned.gltf"
-        turned.write_text(json.dumps(root))
+        turned = self.written("turned.gltf", root)
         for name, scene, options in (("node", turned, []), ("option", SCENES / "lights.gltf", ["--up", "Z"]), ("direction", SCENES / "lights.gltf", ["--up", "0,0,7.5"])):
             self.renders(scene, "-o", self.folder / f"{name}.pfm", *SMALL, *options)
             self.assertEqual((self.folder / "node.pfm").read_bytes(), (self.folder / f"{name}.pfm").read_bytes(), name)
@@ -248,9 +221,7 @@ class Selections(Case):
         up = (math.sin(math.radians(30)), math.cos(math.radians(30)), 0)
         gltf = Gltf()
         corner = [(x, y, z) for x, y, z in ((0, 0, 1), (2 * up[0], 2 * up[1], 0), (3 * up[1], -3 * up[0], 0))]
-        gltf.root.update(scenes=[{"nodes": [0]}], nodes=[{"mesh": 0}], meshes=[{"primitives": [{"attributes": {"POSITION": gltf.accessor("VEC3", corner)}}]}])
-        for numbers, bound in zip((min, max), ("min", "max")):
-            gltf.root["accessors"][0][bound] = [numbers(c[i] for c in corner) for i in range(3)]
+        gltf.root.update(scenes=[{"nodes": [0]}], nodes=[{"mesh": 0}], meshes=[{"primitives": [{"attributes": {"POSITION": gltf.accessor(corner)}}]}])
         scene = gltf.write(self.folder / "tilted.gltf")
         found = json.loads(run("info", scene, "--json", "--up", ",".join(map(str, up))).stdout)["scene"]["bounds"]
         for bound, expected in (("min", (0, 0, 0)), ("max", (3, 2, 1))):

@@ -28,9 +28,7 @@ def nested_glass(count, index):
 
 class Bounces(Case):
     def write(self, scene):
-        path = self.folder / "scene.gltf"
-        path.write_text(json.dumps(scene))
-        return path
+        return self.written("scene.gltf", scene)
 
     def draw(self, scene, *options):
         """Mean of the red channel, statistics and what was said."""

@@ -4,8 +4,7 @@
 import json
 import math
 
-from materials_test import quad
-from support import SCENES, Case, Exr, main
+from support import SCENES, Case, Exr, main, quad
 
 BOX = "cornell-box"
 PLACE = (0.1, 0.5, 0.2)
@@ -101,8 +100,7 @@ class CameraTypes(Case):
             room["meshes"].append({"primitives": [primitive]})
             room["nodes"].append({"mesh": i, "rotation": rotation, "translation": place})
             room["scenes"][0]["nodes"].append(i)
-        path = self.folder / "room.gltf"
-        path.write_text(json.dumps(room))
+        path = self.written("room.gltf", room)
         name = str(path.with_suffix(""))
         view = ("--resolution", "64,48", "--spp", 16, "--camera-position", "0,0,0", "--camera-view-angle", 80, "--no-default-light")
         environment = self.folder / "room.exr"

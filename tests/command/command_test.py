@@ -27,15 +27,13 @@ class ExitStatuses(Case):
     def test_an_index_out_of_range_is_3_and_named(self):
         scene = json.loads((SCENES / "furnace.gltf").read_text())
         scene["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 99
-        path = self.folder / "bad.gltf"
-        path.write_text(json.dumps(scene))
+        path = self.written("bad.gltf", scene)
         self.fails(3, *self.render(path), says=["bad.gltf", "/meshes/0/primitives/0/attributes/POSITION"])
 
     def test_an_unknown_required_extension_is_3_and_named(self):
         scene = json.loads((SCENES / "furnace.gltf").read_text())
         scene["extensionsUsed"] = scene["extensionsRequired"] = ["EXT_never_heard_of"]
-        path = self.folder / "ext.gltf"
-        path.write_text(json.dumps(scene))
+        path = self.written("ext.gltf", scene)
         self.fails(3, *self.render(path), says=["EXT_never_heard_of"])
 
     def test_a_missing_environment_is_3(self):

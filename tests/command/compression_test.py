@@ -43,9 +43,7 @@ def draco(fallback):
 
 class Codecs(Case):
     def write(self, document):
-        path = self.folder / "scene.gltf"
-        path.write_text(json.dumps({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], **document}))
-        return path
+        return self.written("scene.gltf", {"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], **document})
 
     def without(self, document):
         """Returns the result of a copy of the executable without its worker and libraries."""

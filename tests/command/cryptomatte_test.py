@@ -4,8 +4,7 @@
 import json
 import struct
 
-from materials_test import quad
-from support import Case, main
+from support import Case, main, quad
 
 LAYERS = [f"0{i}.{c}" for i in range(3) for c in "RGBA"]
 
@@ -37,9 +36,7 @@ class Cryptomatte(Case):
                          {"camera": 0, "translation": [0, 0, 2.2]}, {"name": "behind the camera", "mesh": 0, "translation": [0, 0, 9]}]
         gltf["cameras"] = [{"type": "orthographic", "orthographic": {"xmag": 2, "ymag": 1, "znear": 0.1, "zfar": 10}}]
         gltf["scenes"] = [{"nodes": list(range(6))}]
-        path = self.folder / "mattes.gltf"
-        path.write_text(json.dumps({k: v for k, v in gltf.items() if v}))
-        return str(path.with_suffix(""))
+        return str(self.written("mattes.gltf", {k: v for k, v in gltf.items() if v}).with_suffix(""))
 
     def drawn(self, *options):
         return self.picture(self.scene(), "x.exr", "--resolution", "8,4", "--spp", 64, "--no-background", "--aov", "crypto-object,crypto-material", *options)

@@ -1,12 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Compares the pictures of --debug-view and --tree-level, and the layers behind them, with known facts of a scene."""
-import base64
 import json
-import struct
-import zlib
 
-from support import SCENES, Case, Exr, main, read_pfm, run
+from support import SCENES, TWO_TRIANGLES, Case, Exr, Gltf, data_uri, main, png, read_pfm, run
 
 BOX = SCENES / "cornell-box.gltf"
 
@@ -16,49 +13,20 @@ def encoded(linear):
     return 12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1 / 2.4) - 0.055
 
 
-def png(texels):
-    """Makes a PNG of one row of 8-bit RGB texels."""
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(texels), 1, 8, 2, 0, 0, 0)) +
-            chunk(b"IDAT", zlib.compress(b"\0" + bytes(c for t in texels for c in t))) + chunk(b"IEND", b""))
-
-
-def uri(data, kind="application/octet-stream"):
-    return f"data:{kind};base64," + base64.b64encode(data).decode()
-
-
 class DebugViews(Case):
     def card(self):
         """A card of 4 x 4 m at z = 0 that a picture 4 m high shows whole. Vertex normals lean by (0.6, 0, 0.8), u and v go from 0 to 2 (to
         the right and down), the roughness is half of a texture's 102 / 255 on the left and 204 / 255 on the right of each unit of u. Half of
         it, x < 0, lies 3 m behind."""
-        positions, normals, texcoords, indices = [], [], [], []
-        for i, z in enumerate((-3, 0)):
-            for x, y in ((0, 0), (2, 0), (2, 4), (0, 4)):
-                positions += [x - 2 + 2 * i, y - 2, z]
-                normals += [0.6, 0, 0.8]
-                texcoords += [(x + 2 * i) / 2, (4 - y) / 2]
-            indices += [4 * i + k for k in (0, 1, 2, 0, 2, 3)]
-        parts = [struct.pack(f"<{len(v)}f", *v) for v in (positions, normals, texcoords)] + [struct.pack("<12H", *indices)]
-        views, offset = [], 0
-        for part in parts:
-            views.append({"buffer": 0, "byteOffset": offset, "byteLength": len(part)})
-            offset += len(part)
-        scene = {
-            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
-            "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 3, "material": 0}]}],
-            "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.2, 0.4, 0.6, 1], "roughnessFactor": 0.5, "metallicRoughnessTexture": {"index": 0}}}],
-            "textures": [{"source": 0, "sampler": 0}], "samplers": [{"magFilter": 9728}],
-            "images": [{"uri": uri(png([(0, 102, 0), (0, 204, 0)]), "image/png")}],
-            "buffers": [{"byteLength": offset, "uri": uri(b"".join(parts))}], "bufferViews": views,
-            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3", "min": [-2, -2, -3], "max": [2, 2, 0]},
-                          {"bufferView": 1, "componentType": 5126, "count": 8, "type": "VEC3"},
-                          {"bufferView": 2, "componentType": 5126, "count": 8, "type": "VEC2"},
-                          {"bufferView": 3, "componentType": 5123, "count": 12, "type": "SCALAR"}]}
-        path = self.folder / "card.gltf"
-        path.write_text(json.dumps(scene))
-        return path
+        places = [(x, y, 3 * i - 3, i) for i in range(2) for x, y in ((0, 0), (2, 0), (2, 4), (0, 4))]
+        gltf = Gltf(textures=[{"source": 0, "sampler": 0}], samplers=[{"magFilter": 9728}],
+                    images=[{"uri": data_uri("image/png", png(2, 1, [0, 102, 0, 255, 0, 204, 0, 255]))}],
+                    materials=[{"pbrMetallicRoughness": {"baseColorFactor": [0.2, 0.4, 0.6, 1], "roughnessFactor": 0.5, "metallicRoughnessTexture": {"index": 0}}}])
+        position = gltf.accessor([(x - 2 + 2 * i, y - 2, z) for x, y, z, i in places])
+        normal, uv = gltf.accessor([(0.6, 0, 0.8)] * 8), gltf.accessor([((x + 2 * i) / 2, (4 - y) / 2) for x, y, _, i in places])
+        indices = gltf.accessor([4 * i + k for i in range(2) for k in TWO_TRIANGLES], "H")
+        gltf.node(mesh=gltf.mesh(indices, position=position, normal=normal, texcoord_0=uv, material=0))
+        return gltf.write(self.folder / "card.gltf")
 
     def view(self, scale=2):
         return ["--camera-position", "0,0,5", "--camera-focal-point", "0,0,0", "--camera-parallel-scale", scale, "--resolution", "16,16",

@@ -2,15 +2,11 @@
 # SPDX-License-Identifier: MIT
 """`render --denoise variance` keeps detail and light: pictures whose detail is known, each of one kind alone."""
 import random
-import sys
 
-from support import SCENES, Case, Exr, main
-
-sys.path.insert(0, str(SCENES))
-from geometry import QUAD_INDICES, flip, ground, quad  # noqa: E402
-from gltf_writer import GltfWriter  # noqa: E402
-from picture_files import write_png  # noqa: E402
-from scene_parts import place_quad  # noqa: E402
+from support import SCENES, Case, Exr, main, write_png
+from geometry import QUAD_INDICES, flip, ground, quad
+from gltf_writer import GltfWriter
+from scene_parts import place_quad
 
 FILTER = ["--denoise", "variance", "--aov", "samples"]
 SIDE = 64

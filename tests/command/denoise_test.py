@@ -5,8 +5,7 @@ import json
 import statistics
 import unittest
 
-from materials_test import quad
-from support import BACKENDS, SCENES, Case, Exr, main, read_pfm, run
+from support import BACKENDS, SCENES, Case, Exr, main, quad, read_pfm, run
 
 BOX = SCENES / "cornell-box.gltf"
 SIZE = ["--resolution", "96,96"]
@@ -121,8 +120,7 @@ class Denoising(Denoised):
         gltf["meshes"].append({"primitives": [gltf["meshes"][0]["primitives"][0] | {"material": 1}]})
         gltf["nodes"] = [{"mesh": 0}, {"mesh": 1, "scale": [0.5, 1, 1], "translation": [0, 0, -1]}]
         gltf["scenes"] = [{"nodes": [0, 1]}]
-        path = self.folder / "sheet.gltf"
-        path.write_text(json.dumps(gltf))
+        path = self.written("sheet.gltf", gltf)
         view = ["--camera-position", "0,0,3", "--camera-focal-point", "0,0,0", "--camera-parallel-scale", 1]
         exr = Exr(self.draw("g.exr", *view, "--resolution", "16,16", "--spp", 1, "--aov", "denoising", scene=path))
         names = [*("denoising.albedo." + c for c in "RGBA"), "denoising.normal.Z", "denoising.depth.Z"]

@@ -12,7 +12,7 @@ import struct
 import subprocess
 from pathlib import Path
 
-from support import FRAGTRACE, SCENES, SMALL, Case, main, read_pfm, run
+from support import FRAGTRACE, SCENES, SMALL, Case, Gltf, main, read_pfm, run
 
 BOX = SCENES / "cornell-box.gltf"
 # A run that is not refused at once meets the time limit.
@@ -130,7 +130,7 @@ class StandardStreams(Case):
         self.assertEqual([path.name for path in self.folder.iterdir()], ["x.pfm"])
 
     def test_nothing_else_writes_a_file_of_that_name(self):
-        for command in (["bench", "frame", BOX, "--json", "-"], ["bench", "stress", "--json", "-"], ["bench", "scale", "--chart", "-"],
+        for command in (["bench", "frame", BOX, "--json", "-"], ["bench", "stress", "--json", "-"], ["bench", "error", BOX, "--json", "-"],
                         ["view", BOX, "--status-file", "-"]):
             self.fails(2, *command, says=[command[-2], "'-'"], cwd=self.folder)
         self.assertEqual(list(self.folder.iterdir()), [])
@@ -205,20 +205,9 @@ class Parts(Case):
         scene["nodes"].append({"camera": 1, "translation": [0, 0, 4]})
         scene["cameras"][0]["name"] = "Front"
         scene["cameras"].append({"name": "2x2", "type": "orthographic", "orthographic": {"xmag": 1, "ymag": 1, "znear": 0.1, "zfar": 9}})
-        times = struct.pack("<2f", 0.25, 2.5)
-        turns = struct.pack("<8f", 0, 0, 0, 1, 0, 0, 0, 1)
-        buffer = len(scene.setdefault("buffers", []))
-        (self.folder / "keys.bin").write_bytes(times + turns)
-        scene["buffers"].append({"uri": "keys.bin", "byteLength": 40})
-        views = len(scene["bufferViews"])
-        scene["bufferViews"] += [{"buffer": buffer, "byteLength": 8}, {"buffer": buffer, "byteOffset": 8, "byteLength": 32}]
-        first = len(scene["accessors"])
-        scene["accessors"] += [{"bufferView": views, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0.25], "max": [2.5]},
-                               {"bufferView": views + 1, "componentType": 5126, "count": 2, "type": "VEC4"}]
-        scene["animations"] = [{"name": "turn", "samplers": [{"input": first, "output": first + 1}],
-                                "channels": [{"sampler": 0, "target": {"node": 0, "path": "rotation"}}]}]
-        self.scene = self.folder / "scene.gltf"
-        self.scene.write_text(json.dumps(scene))
+        gltf = Gltf(scene)
+        gltf.moves(0, [0.25, 2.5], rotation=[(0, 0, 0, 1)] * 2)["name"] = "turn"
+        self.scene = gltf.write(self.folder / "scene.gltf")
 
     def test_info_names_them_all(self):
         text = run("info", self.scene).stdout

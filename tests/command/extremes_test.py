@@ -7,8 +7,7 @@ import math
 import random
 import struct
 
-from materials_test import data_uri, png
-from support import BACKENDS, SCENES, Case, main
+from support import BACKENDS, SCENES, SQUARE, TWO_TRIANGLES, Case, Gltf, data_uri, main, png
 
 COLUMNS, ROWS = 16, 12
 LENGTHS = (0, 1e-38, 1e-20, 1, 1, 1, 1e18, 3e38)  # lengths of normals
@@ -43,48 +42,35 @@ def material(draw):
 def scene(seed):
     """A wall of squares, tilted up to its edge; normals of all lengths, some that look away; a point light and a mirror of all kinds beside it."""
     draw = random.Random(seed)
-    data, views, accessors = b"", [], []
-
-    def accessor(values, kind, component, form):
-        nonlocal data
-        packed = struct.pack(f"<{len(values)}{form}", *values)
-        views.append({"buffer": 0, "byteOffset": len(data), "byteLength": len(packed)})
-        data += packed + bytes(-len(packed) % 4)
-        width = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}[kind]
-        accessors.append({"bufferView": len(views) - 1, "componentType": component, "count": len(values) // width, "type": kind})
-        return len(accessors) - 1
-
-    indices = accessor([0, 1, 2, 0, 2, 3], "SCALAR", 5123, "H")
-    uvs = accessor([0, 1, 1, 1, 1, 0, 0, 0], "VEC2", 5126, "f")
-    corners = accessor([-0.5, -0.5, 0, 0.5, -0.5, 0, 0.5, 0.5, 0, -0.5, 0.5, 0], "VEC3", 5126, "f")
-    accessors[corners] |= {"min": [-0.5, -0.5, 0], "max": [0.5, 0.5, 0]}
-    nodes, meshes, materials = [], [], []
+    gltf = Gltf()
+    indices, uvs = gltf.accessor(TWO_TRIANGLES, "H"), gltf.accessor([(0, 1), (1, 1), (1, 0), (0, 0)])
+    corners = gltf.accessor([(x / 2, y / 2, z) for x, y, z in SQUARE])
+    materials = []
     for k in range(COLUMNS * ROWS):
         normals = []
         for _ in range(4):
             n = [draw.gauss(0, 1) * draw.choice((0, 1, 1)) for _ in range(2)] + [draw.choice((0, 1e-6, 1, 1, -1))]
-            normals += [c * draw.choice(LENGTHS) / max(1, math.hypot(*n)) for c in n]
+            normals.append([c * draw.choice(LENGTHS) / max(1, math.hypot(*n)) for c in n])
         materials.append(material(draw))
-        attributes = {"POSITION": corners, "TEXCOORD_0": uvs, "NORMAL": accessor(normals, "VEC3", 5126, "f")}
-        meshes.append({"primitives": [{"attributes": attributes, "indices": indices, "material": k}]})
+        mesh = gltf.mesh(indices, position=corners, texcoord_0=uvs, normal=gltf.accessor(normals), material=k)
         tilt = draw.choice((0, 0, 1.5, 1.57)) / 2
-        nodes.append({"mesh": k, "translation": [k % COLUMNS - COLUMNS / 2 + 0.5, k // COLUMNS - ROWS / 2 + 0.5, 0], "rotation": [0, math.sin(tilt), 0, math.cos(tilt)]})
+        gltf.node(mesh=mesh, translation=[k % COLUMNS - COLUMNS / 2 + 0.5, k // COLUMNS - ROWS / 2 + 0.5, 0], rotation=[0, math.sin(tilt), 0, math.cos(tilt)])
     light = {"extensions": {"KHR_lights_punctual": {"light": 0}}}
-    nodes += [{"translation": [0, 0, 2], **light}, {"translation": [3, 2, 1e-4], **light}, {"camera": 0, "translation": [0, 0, 9]}]
+    for node in ({"translation": [0, 0, 2], **light}, {"translation": [3, 2, 1e-4], **light}, {"camera": 0, "translation": [0, 0, 9]}):
+        gltf.node(**node)
     # Directions of all kinds, blue below a half among them: they look into the surface.
     texels = [255 * draw.choice((0, 0.5, 1, draw.random())) for _ in range(4 * 64)]
     names = sorted({name for m in materials for name in m["extensions"]} | {"KHR_lights_punctual"})
-    return {"asset": {"version": "2.0"}, "extensionsUsed": names, "scene": 0, "scenes": [{"nodes": list(range(len(nodes)))}], "nodes": nodes, "meshes": meshes,
-            "materials": materials, "textures": [{"source": 0}], "images": [{"uri": data_uri("image/png", png(8, 8, list(map(int, texels))))}],
-            "cameras": [{"type": "orthographic", "orthographic": {"xmag": COLUMNS / 2, "ymag": ROWS / 2, "zfar": 20, "znear": 0.1}}],
-            "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 30}]}},
-            "bufferViews": views, "accessors": accessors, "buffers": [{"byteLength": len(data), "uri": data_uri("application/octet-stream", data)}]}
+    gltf.root |= {"extensionsUsed": names, "materials": materials, "textures": [{"source": 0}],
+                  "images": [{"uri": data_uri("image/png", png(8, 8, list(map(int, texels))))}],
+                  "cameras": [{"type": "orthographic", "orthographic": {"xmag": COLUMNS / 2, "ymag": ROWS / 2, "zfar": 20, "znear": 0.1}}],
+                  "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 30}]}}}
+    return gltf.document()
 
 
 class Extremes(Case):
     def check(self, seed, samples, *options):
-        path = self.folder / f"extremes-{seed}.gltf"
-        path.write_text(json.dumps(scene(seed)))
+        path = self.written(f"extremes-{seed}.gltf", scene(seed))
         stats = self.folder / "s.json"
         self.renders(path, "-o", self.folder / "x.pfm", "--quiet", "--resolution", "192,144", "--spp", samples, "--hdri-file", SCENES / "sky.pfm", "--stats", stats, *options)
         self.assertEqual(json.loads(stats.read_text())["nonfinite_pixels"], 0, f"seed {seed}, {options}")

@@ -4,13 +4,8 @@
 import json
 import os
 import subprocess
-import sys
 
-from materials_test import quad
-from support import FRAGTRACE, SCENES, Case, main
-
-sys.path.insert(0, str(SCENES))
-from picture_files import read_png, write_pfm  # noqa: E402
+from support import FRAGTRACE, SCENES, Case, main, quad, read_png, write_pfm
 
 SCRIPT = SCENES.parent / "bench/fidelity"
 COLOR = (0.4, 0.1, 0.05)  # colour of a quad without light

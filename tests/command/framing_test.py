@@ -4,12 +4,10 @@
 import json
 import math
 import os
-import struct
 import unittest
 from pathlib import Path
 
-from materials_test import data_uri, quad
-from support import BACKENDS, Case, Exr, main, run
+from support import BACKENDS, Case, Exr, Gltf, main, quad, run
 
 ASSETS = Path(os.environ.get("FRAGTRACE_ASSETS", "/work/shared/assets")) / "scenes"
 
@@ -28,9 +26,7 @@ class FramingCase(Case):
         gltf["scenes"] = [{"nodes": [0]}]
         for name in ("images", "textures", "cameras"):
             gltf.pop(name)
-        path = self.folder / "scene.gltf"
-        path.write_text(json.dumps(gltf))
-        return path
+        return self.written("scene.gltf", gltf)
 
     def assert_inside(self, alphas):
         edge = [*alphas[0], *alphas[-1], *(row[0] for row in alphas), *(row[-1] for row in alphas)]
@@ -61,21 +57,16 @@ class Framing(FramingCase):
     def test_what_lies_far_off_is_named(self):
         """The scene is a grid of 200 triangles, and a quad or a vertex of the grid far from it."""
         def write(vertex=0.0, quad_at=0.0, camera=False):
-            gltf = quad({})
+            gltf = Gltf(quad({}))
             places = [(x / 10, y / 10, 0.0) for y in range(11) for x in range(11)]
             places[60] = (*places[60][:2], vertex)
             corners = [c for y in range(10) for x in range(10) for a in [11 * y + x] for c in (a, a + 1, a + 12, a, a + 12, a + 11)]
-            data = b"".join(struct.pack("<3f", *place) for place in places) + struct.pack("<600H", *corners)
-            gltf["buffers"].append({"byteLength": len(data), "uri": data_uri("application/octet-stream", data)})
-            gltf["bufferViews"] += [{"buffer": 1, "byteLength": 1452}, {"buffer": 1, "byteOffset": 1452, "byteLength": 1200}]
-            gltf["accessors"] += [{"bufferView": 3, "componentType": 5126, "count": 121, "type": "VEC3", "min": [0, 0, min(vertex, 0)], "max": [1, 1, max(vertex, 0)]},
-                                  {"bufferView": 4, "componentType": 5123, "count": 600, "type": "SCALAR"}]
-            gltf["meshes"].append({"primitives": [{"attributes": {"POSITION": 3}, "indices": 4}]})
-            gltf["nodes"] = [{"mesh": 0, "name": "dust", "translation": [quad_at, 0, 0]}, {"mesh": 1, "name": "model"}, {"camera": 0}]
-            gltf["scenes"] = [{"nodes": [0, 1, 2] if camera else [0, 1]}]
-            path = self.folder / "scene.gltf"
-            path.write_text(json.dumps({key: value for key, value in gltf.items() if value}))
-            return path
+            gltf.mesh(gltf.accessor(corners, "H"), position=gltf.accessor(places))
+            gltf.root["nodes"] = [{"mesh": 0, "name": "dust", "translation": [quad_at, 0, 0]}, {"mesh": 1, "name": "model"}, {"camera": 0}]
+            gltf.root["scenes"] = [{"nodes": [0, 1, 2] if camera else [0, 1]}]
+            for name in ("images", "textures"):
+                del gltf.root[name]
+            return gltf.write(self.folder / "scene.gltf")
 
         tiny = ("--resolution", "8,8", "--spp", 1, "--stage", "flat")
         for options in ({}, {"quad_at": 50}):

@@ -13,8 +13,7 @@ import threading
 import time
 
 from limits_test import hostile_pictures
-from materials_test import data_uri, png, quad
-from support import FRAGTRACE, Case, main
+from support import FRAGTRACE, Case, data_uri, main, png, quad
 
 SECRET = b"the secret of another folder"
 ESCAPE = "\x1b]0;owned\x07\n\r\x9b31m\x7f\u202egnp.exe\u2066"

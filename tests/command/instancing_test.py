@@ -5,12 +5,9 @@ import json
 import os
 import shutil
 import subprocess
-import sys
 
 from support import FRAGTRACE, SCENES, Case, Exr, main, run
-
-sys.path.insert(0, str(SCENES))
-from instanced_scene import write_field  # noqa: E402
+from instanced_scene import write_field
 
 
 class Instancing(Case):

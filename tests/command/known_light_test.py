@@ -6,8 +6,7 @@ import json
 import math
 import struct
 
-from materials_test import quad
-from support import SCENES, Case, main, read_pfm
+from support import SCENES, Case, main, quad, read_pfm
 
 MATT = {"metallicFactor": 0}
 SPECULAR = {"KHR_materials_specular": {"specularFactor": 0}}
@@ -86,8 +85,7 @@ class KnownLight(Case):
             gltf["nodes"].append(node | {"extensions": {"KHR_lights_punctual": {"light": i}}})
         gltf["extensions"] = {"KHR_lights_punctual": {"lights": [light for _, light in lights]}} if lights else {}
         gltf["scenes"] = [{"nodes": list(range(len(gltf["nodes"])))}]
-        path = self.folder / "known.gltf"
-        path.write_text(json.dumps({key: value for key, value in gltf.items() if value}))
+        path = self.written("known.gltf", {key: value for key, value in gltf.items() if value})
         picture = self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", "64,64", "--spp", spp, *options)
         return sum(pixel[0] for row in picture for pixel in row) / 64**2
 
@@ -242,8 +240,7 @@ class KnownLight(Case):
         self.near(sum(pixel[0] for row in picture for pixel in row) / 16**2 / math.pi, 2.25, 1e-3)
 
     def in_white(self, gltf, *options):
-        path = self.folder / "glass.gltf"
-        path.write_text(json.dumps({key: value for key, value in gltf.items() if value}))
+        path = self.written("glass.gltf", {key: value for key, value in gltf.items() if value})
         return self.picture(str(path.with_suffix("")), "x.pfm", "--bounces", 200, *self.white_sky(), *options)
 
     def test_clamped_light_in_a_closed_furnace(self):

@@ -1,12 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Squares under one directional light, seen straight on: each has one colour, which is a formula of glTF 2.0's appendix B or of an extension, within 3e-4."""
-import json
 import math
 import struct
 
-from materials_test import data_uri, png, quad
-from support import Case, main
+from support import SQUARE, TWO_TRIANGLES, Case, Gltf, data_uri, main, png, quad
 
 ANGLE = 0.3  # angle between light and normal
 LIGHT = (math.sin(ANGLE), 0, math.cos(ANGLE))
@@ -165,35 +163,25 @@ def squares():
 
 class KnownSurfaces(Case):
     def scene(self, materials, turned):
-        corners = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
-        data = b"".join(struct.pack("<3f", *c) for c in corners) + b"".join(struct.pack("<2f", *t) for t in ((0, 1), (1, 1), (1, 0), (0, 0)))
-        data += b"".join(struct.pack("<3f", *c) for c in CORNERS) + 4 * struct.pack("<3f", *NORMAL) + 4 * struct.pack("<4f", *TANGENT) + struct.pack("<6H", 0, 1, 2, 0, 2, 3) + 4 * struct.pack("<3f", 0, 0, 1)
-        parts = ((48, 4, "VEC3", 5126), (32, 4, "VEC2", 5126), (48, 4, "VEC3", 5126), (48, 4, "VEC3", 5126), (64, 4, "VEC4", 5126), (12, 6, "SCALAR", 5123), (48, 4, "VEC3", 5126))
-        views = [{"buffer": 0, "byteOffset": sum(part[0] for part in parts[:i]), "byteLength": part[0]} for i, part in enumerate(parts)]
-        accessors = [{"bufferView": i, "count": count, "type": kind, "componentType": component} for i, (_, count, kind, component) in enumerate(parts)]
-        accessors[0] |= {"min": [-1, -1, 0], "max": [1, 1, 0]}
         count = len(materials)
-        shapes = [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 5, "material": i} for i in range(count)]
-        flat = {"NORMAL": 6, "TANGENT": 4}
-        for shape, more in zip(shapes[-4:], ({"NORMAL": 3}, flat, {"COLOR_0": 2}, {})):
-            shape["attributes"] |= more
-        nodes = [{"mesh": i, "translation": [2 * i - count + 1, 0, 0]} for i in range(count)]
+        gltf = Gltf(materials=materials, textures=[{"source": 0}], images=[{"uri": data_uri("image/png", png(1, 1, [*TEXEL, 255]))}],
+                    cameras=[{"type": "orthographic", "orthographic": {"xmag": count, "ymag": 1, "zfar": 10, "znear": 0.1}}],
+                    extensions={"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 2}]}})
+        position, uv, indices = gltf.accessor(SQUARE), gltf.accessor([(0, 1), (1, 1), (1, 0), (0, 0)]), gltf.accessor(TWO_TRIANGLES, "H")
+        last = ({"normal": gltf.accessor([NORMAL] * 4)}, {"normal": gltf.accessor([(0, 0, 1)] * 4), "tangent": gltf.accessor([TANGENT] * 4)},
+                {"color_0": gltf.accessor(CORNERS)}, {})
+        for i in range(count):
+            more = last[i - count] if i >= count - 4 else {}
+            gltf.node(mesh=gltf.mesh(indices, position=position, texcoord_0=uv, material=i, **more), translation=[2 * i - count + 1, 0, 0])
         # The last is a slab half a metre thick, with an unlit white square behind it.
-        nodes.append({"mesh": count - 1, "translation": [count - 1, 0, -0.5], "rotation": [0, 1, 0, 0]})
-        nodes.append({"mesh": count, "translation": [count - 1, 0, -1]})
-        shapes.append({"attributes": {"POSITION": 0}, "indices": 5, "material": count - 2})
-        nodes.append({"camera": 0, "translation": [0, 0, 5]})
-        nodes.append({"rotation": [0, math.sin(turned / 2), 0, math.cos(turned / 2)], "extensions": {"KHR_lights_punctual": {"light": 0}}})
-        return {"asset": {"version": "2.0"}, "materials": materials, "textures": [{"source": 0}],
-                "images": [{"uri": data_uri("image/png", png(1, 1, [*TEXEL, 255]))}], "meshes": [{"primitives": [shape]} for shape in shapes], "nodes": nodes,
-                "scene": 0, "scenes": [{"nodes": list(range(len(nodes)))}], "bufferViews": views, "accessors": accessors,
-                "buffers": [{"byteLength": len(data), "uri": data_uri("application/octet-stream", data)}],
-                "cameras": [{"type": "orthographic", "orthographic": {"xmag": count, "ymag": 1, "zfar": 10, "znear": 0.1}}],
-                "extensions": {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 2}]}}}
+        gltf.node(mesh=count - 1, translation=[count - 1, 0, -0.5], rotation=[0, 1, 0, 0])
+        gltf.node(mesh=gltf.mesh(indices, position=position, material=count - 2), translation=[count - 1, 0, -1])
+        gltf.node(camera=0, translation=[0, 0, 5])
+        gltf.node(rotation=[0, math.sin(turned / 2), 0, math.cos(turned / 2)], extensions={"KHR_lights_punctual": {"light": 0}})
+        return gltf.document()
 
     def shown(self, known, turned=ANGLE):
-        path = self.folder / "squares.gltf"
-        path.write_text(json.dumps(self.scene([material for material, _ in known], turned)))
+        path = self.written("squares.gltf", self.scene([material for material, _ in known], turned))
         picture = self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", f"{len(known) * SIDE},{SIDE}", "--spp", 16, "--bounces", 3,
                                "--disable", "energy-compensation")
         for i, (material, colors) in enumerate(known):
@@ -221,8 +209,7 @@ class KnownSurfaces(Case):
         gltf["scenes"] = [{"nodes": [0, 1, 2]}]
         gltf["cameras"] = [{"type": "orthographic", "orthographic": {"xmag": 0.2, "ymag": 0.2, "zfar": 10, "znear": 0.1}}]
         gltf["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 2}]}}
-        path = self.folder / "grazing.gltf"
-        path.write_text(json.dumps({key: value for key, value in gltf.items() if value}))
+        path = self.written("grazing.gltf", {key: value for key, value in gltf.items() if value})
         pixel = self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", "8,8", "--spp", 1, "--bounces", 0, "--disable", "energy-compensation")[4][4]
         cosine, f0 = math.cos(angle), 0.04 * specular
         smith = (math.sqrt(1 + alpha**2 * math.tan(angle)**2) - 1) / 2

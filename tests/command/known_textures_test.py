@@ -1,13 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Squares whose textures repeat, clamp or mirror, linear and nearest, transformed: each pixel is a mean of what the specification says."""
-import json
 import math
 import random
-import struct
 
-from materials_test import data_uri, png
-from support import Case, main
+from support import SQUARE, TWO_TRIANGLES, Case, Gltf, data_uri, main, png
 
 WRAPS = {"repeat": 10497, "clamp": 33071, "mirror": 33648}
 FILTERS = {"linear": 9729, "nearest": 9728}
@@ -51,28 +48,19 @@ class KnownTextures(Case):
     def test_each_wrap_and_filter(self):
         texels, light = texture()
         kinds = [(wrap, kind) for wrap in WRAPS for kind in FILTERS]
-        corners = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
-        data = b"".join(struct.pack("<3f", *c) for c in corners)
-        data += struct.pack("<8f", FIRST, LAST, LAST, LAST, LAST, FIRST, FIRST, FIRST) + struct.pack("<6H", 0, 1, 2, 0, 2, 3)
         transform = {"KHR_texture_transform": {"offset": OFFSET, "rotation": ROTATION, "scale": SCALE}}
         count = len(kinds)
-        scene = {
-            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(count + 1))}],
-            "nodes": [{"mesh": i, "translation": [2 * i - count + 1, 0, 0]} for i in range(count)] + [{"camera": 0, "translation": [0, 0, 5]}],
-            "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2, "material": i}]} for i in range(count)],
-            "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": i, "extensions": transform}}} for i in range(count)],
-            "textures": [{"source": 0, "sampler": i} for i in range(count)],
-            "samplers": [{"magFilter": FILTERS[kind], "wrapS": WRAPS[wrap], "wrapT": WRAPS[wrap]} for wrap, kind in kinds],
-            "images": [{"uri": data_uri("image/png", png(TEXELS, TEXELS, [b for row in texels for t in row for b in (t, t, t, 255)]))}],
-            "cameras": [{"type": "orthographic", "orthographic": {"xmag": count, "ymag": 1, "zfar": 10, "znear": 0.1}}],
-            "buffers": [{"byteLength": len(data), "uri": data_uri("application/octet-stream", data)}],
-            "bufferViews": [{"buffer": 0, "byteOffset": o, "byteLength": n} for o, n in ((0, 48), (48, 32), (80, 12))],
-            "accessors": [{"bufferView": i, "count": n, "type": kind, "componentType": component}
-                          for i, (n, kind, component) in enumerate(((4, "VEC3", 5126), (4, "VEC2", 5126), (6, "SCALAR", 5123)))],
-        }
-        scene["accessors"][0] |= {"min": [-1, -1, 0], "max": [1, 1, 0]}
-        path = self.folder / "textures.gltf"
-        path.write_text(json.dumps(scene))
+        gltf = Gltf(materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": i, "extensions": transform}}} for i in range(count)],
+                    textures=[{"source": 0, "sampler": i} for i in range(count)],
+                    samplers=[{"magFilter": FILTERS[kind], "wrapS": WRAPS[wrap], "wrapT": WRAPS[wrap]} for wrap, kind in kinds],
+                    images=[{"uri": data_uri("image/png", png(TEXELS, TEXELS, [b for row in texels for t in row for b in (t, t, t, 255)]))}],
+                    cameras=[{"type": "orthographic", "orthographic": {"xmag": count, "ymag": 1, "zfar": 10, "znear": 0.1}}])
+        position, uv = gltf.accessor(SQUARE), gltf.accessor([(FIRST, LAST), (LAST, LAST), (LAST, FIRST), (FIRST, FIRST)])
+        indices = gltf.accessor(TWO_TRIANGLES, "H")
+        for i in range(count):
+            gltf.node(mesh=gltf.mesh(indices, position=position, texcoord_0=uv, material=i), translation=[2 * i - count + 1, 0, 0])
+        gltf.node(camera=0, translation=[0, 0, 5])
+        path = gltf.write(self.folder / "textures.gltf")
         picture = self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", f"{count * SIDE},{SIDE}", "--spp", 256, "--stage", "flat")
         points = [(LAST - FIRST) * (i + 0.5) / (SIDE * PARTS) + FIRST for i in range(SIDE * PARTS)]
         for square, (wrap, kind) in enumerate(kinds):

@@ -9,8 +9,7 @@ import subprocess
 import unittest
 from pathlib import Path
 
-from materials_test import png, quad
-from support import FRAGTRACE, Case, main, read_pfm, run
+from support import FRAGTRACE, Case, main, png, quad, read_pfm, run
 
 SAMPLES = Path(__file__).resolve().parent.parent / "ktx2"
 MODULE = "libfragtrace_ktx2.so"
@@ -30,9 +29,7 @@ class Ktx2(Case):
         gltf["extensionsUsed"] = ["KHR_texture_basisu"]
         if required:
             gltf["extensionsRequired"] = ["KHR_texture_basisu"]
-        path = self.folder / "scene.gltf"
-        path.write_text(json.dumps(gltf))
-        return path
+        return self.written("scene.gltf", gltf)
 
     def run_without_codec(self, *arguments):
         """Runs a copy of the program that has only its worker and the module for pictures."""

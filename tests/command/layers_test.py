@@ -4,8 +4,7 @@
 import json
 import math
 
-from materials_test import quad
-from support import SCENES, Case, main, read_pfm, run
+from support import SCENES, Case, main, quad, read_pfm, run
 
 BOX = SCENES / "cornell-box.gltf"
 FEATURES = {"albedo": "RGB", "normal": "XYZ", "depth": "Z"}
@@ -180,8 +179,7 @@ class LightParts(Case):
         matt = self.parts("corner-diffuse")
         self.assertEqual(self.total(matt, "specular"), 0)
         self.assertGreater(self.total(matt, "diffuse"), 1)
-        metal = self.folder / "metal.gltf"
-        metal.write_text(json.dumps(quad({"pbrMetallicRoughness": {"metallicFactor": 1, "roughnessFactor": 0.3}})))
+        metal = self.written("metal.gltf", quad({"pbrMetallicRoughness": {"metallicFactor": 1, "roughnessFactor": 0.3}}))
         mirror = self.parts(str(metal.with_suffix("")))
         self.assertEqual(self.total(mirror, "diffuse"), 0)
         self.assertGreater(self.total(mirror, "specular"), 1)
@@ -220,8 +218,7 @@ class PartNumbers(Case):
         roots = gltf["scenes"][0]["nodes"]
         gltf["nodes"].append({"children": roots, "translation": [1000, -200, 30], "scale": [100, 100, 100]})
         gltf["scenes"][0]["nodes"] = [len(gltf["nodes"]) - 1]
-        path = self.folder / "moved.gltf"
-        path.write_text(json.dumps(gltf))
+        path = self.written("moved.gltf", gltf)
         for buffer in gltf["buffers"]:
             self.assertTrue(buffer["uri"].startswith("data:"))
         moved = self.layers(str(path.with_suffix("")), "--resolution", "8,8", "--spp", 1)
@@ -253,9 +250,7 @@ class PartNumbers(Case):
         gltf["scenes"] = [{"nodes": [0, 1, 2, 3]}]
         for key in ("extensions", "extensionsUsed", "extensionsRequired", "cameras"):
             gltf.pop(key, None)
-        path = self.folder / "instances.gltf"
-        path.write_text(json.dumps(gltf))
-        return str(path.with_suffix(""))
+        return str(self.written("instances.gltf", gltf).with_suffix(""))
 
 
 class LayerFiles(Case):

@@ -1,12 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """--f-stop: how wide a small lamp is blurred, and how much light stays, against the thin lens equation."""
-import json
 import math
 import statistics
 
-from materials_test import quad
-from support import SCENES, Case, main
+from support import SCENES, Case, main, quad
 
 ANGLE = 45
 SIDE = 64
@@ -20,8 +18,7 @@ class Lens(Case):
         gltf["materials"][0].update({"emissiveFactor": [1, 1, 1], "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 100}}})
         gltf["extensionsUsed"] = ["KHR_materials_emissive_strength"]
         gltf["nodes"][0]["scale"] = [HALF, HALF, 1]
-        path = self.folder / "lamp.gltf"
-        path.write_text(json.dumps(gltf))
+        path = self.written("lamp.gltf", gltf)
         return self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", f"{SIDE},{SIDE}", "--spp", spp, "--camera-position", f"0,0,{DISTANCE}",
                             "--camera-focal-point", "0,0,0", "--camera-view-angle", ANGLE, *options)
 
@@ -59,8 +56,7 @@ class Lens(Case):
         gltf = quad({})
         gltf["nodes"] = [{"mesh": 0, "scale": [4, 4, 1]}, {"mesh": 0, "scale": [4, 4, 1], "translation": [-4, 0, 1]}]
         gltf["scenes"] = [{"nodes": [0, 1]}]
-        path = self.folder / "edge.gltf"
-        path.write_text(json.dumps(gltf))
+        path = self.written("edge.gltf", gltf)
         stop = 0.02
         radius = 0.5 * 0.012 / math.tan(math.radians(ANGLE / 2)) / stop
         def part_hidden(x):

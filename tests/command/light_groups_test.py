@@ -24,9 +24,7 @@ class LightGroups(Case):
         gltf["materials"].append({"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.8, 0.8, 0.5], "metallicFactor": 0}})
         block["mesh"] = len(gltf["meshes"])
         gltf["meshes"].append(mesh)
-        path = self.folder / "lamps.gltf"
-        path.write_text(json.dumps(gltf))
-        return str(path.with_suffix(""))
+        return str(self.written("lamps.gltf", gltf).with_suffix(""))
 
     def drawn(self, scene, groups, *options, size="24,16", spp=8):
         groups = ",".join("light:" + group for group in groups)

@@ -4,7 +4,6 @@
 
 With FRAGTRACE_NODE_MODULES, a folder in which `npm install gltf-validator` was run, the Khronos validator is asked, too, whether they are valid.
 """
-import json
 import os
 import subprocess
 import unittest
@@ -43,8 +42,7 @@ class MadeFiles(Case):
             if name not in FEATURES:
                 continue
             with self.subTest(name):
-                path = self.folder / "scene.gltf"
-                path.write_text(json.dumps(root))
+                path = self.written("scene.gltf", root)
                 result = run("render", path, "--output", self.folder / "picture.pfm", "--resolution", "8,8", "--spp", "1", "--quiet")
                 self.assertEqual((result.returncode, result.stderr), (0, ""))
 

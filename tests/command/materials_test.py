@@ -1,64 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Extensions of materials through the command line: a picture made with one is the picture made without it."""
-import base64
-import json
 import math
 import random
-import struct
-import zlib
 
-from support import Case, main
-
-
-def data_uri(kind, data):
-    return f"data:{kind};base64," + base64.b64encode(data).decode()
-
-
-def png(width, height, rgba):
-    """Makes a PNG with 8 bits per channel."""
-    def chunk(name, data):
-        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
-
-    rows = b"".join(b"\0" + bytes(rgba[4 * width * y:4 * width * (y + 1)]) for y in range(height))
-    header = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+from support import Case, main, png, quad
 
 
 def noise(width, height, seed=1):
     return png(width, height, random.Random(seed).randbytes(4 * width * height))
 
 
-def quad(material, uvs=((0, 1), (1, 1), (1, 0), (0, 0)), images=()):
-    """Makes a quad from (-1, -1) to (1, 1) that faces a camera 2.2 m away."""
-    corners = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
-    data = b"".join(struct.pack("<3f", *c) for c in corners) + b"".join(struct.pack("<2f", *t) for t in uvs)
-    data += struct.pack("<6H", 0, 1, 2, 0, 2, 3)
-    views, accessors, start = [], [], 0
-    for count, kind, component, size in ((4, "VEC3", 5126, 48), (4, "VEC2", 5126, 32), (6, "SCALAR", 5123, 12)):
-        accessors.append({"bufferView": len(views), "componentType": component, "count": count, "type": kind})
-        views.append({"buffer": 0, "byteOffset": start, "byteLength": size})
-        start += size
-    accessors[0].update(min=[-1, -1, 0], max=[1, 1, 0])
-    primitive = {"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2, "material": 0}
-    return {
-        "asset": {"version": "2.0"},
-        "buffers": [{"byteLength": len(data), "uri": data_uri("application/octet-stream", data)}],
-        "bufferViews": views, "accessors": accessors, "materials": [material],
-        "images": [{"uri": data_uri("image/png", image)} for image in images],
-        "textures": [{"source": i} for i in range(len(images))],
-        "meshes": [{"primitives": [primitive]}],
-        "cameras": [{"type": "perspective", "perspective": {"yfov": 0.9, "znear": 0.1}}],
-        "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0, 2.2]}],
-        "scenes": [{"nodes": [0, 1]}], "scene": 0,
-    }
-
-
 class Materials(Case):
     def picture_of(self, gltf, *options):
         gltf = {k: v for k, v in gltf.items() if v}
-        path = self.folder / "scene.gltf"
-        path.write_text(json.dumps(gltf))
+        path = self.written("scene.gltf", gltf)
         return self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", "32,32", *options)
 
     def assert_same(self, one, other, delta):
@@ -138,8 +94,7 @@ class Materials(Case):
         ]
         count, size = len(materials), 16
         gltf = self.spheres(materials)
-        path = self.folder / "furnace.gltf"
-        path.write_text(json.dumps(gltf))
+        path = self.written("furnace.gltf", gltf)
         picture = self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", f"{count * size},{size}", "--spp", "256", "--bounces", "200",
                                "--default-light", "white")
         for i in range(count):

@@ -51,9 +51,7 @@ class Media(Case):
         for key in ("meshes", "accessors", "bufferViews", "buffers"):
             gltf.pop(key, None)
         gltf["extensionsUsed"] = sorted(set(gltf.get("extensionsUsed", [])) | set(glass["extensions"]))
-        path = self.folder / "ball.gltf"
-        path.write_text(json.dumps(gltf))
-        return str(path.with_suffix(""))
+        return str(self.written("ball.gltf", gltf).with_suffix(""))
 
     def seen(self, scene, *options, spp=64, size="16,16"):
         return self.picture(scene, "x.pfm", "--resolution", size, "--spp", spp, *options)

@@ -147,8 +147,7 @@ class RefusedMerges(Parts):
     def test_another_scene_even_of_the_same_name(self):
         scene = json.loads(BOX.read_text())
         scene["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = [0.1, 0.2, 0.3, 1]
-        changed = self.folder / "cornell-box.gltf"
-        changed.write_text(json.dumps(scene))
+        changed = self.written("cornell-box.gltf", scene)
         other = self.part("other.exr", 4, 4, scene=changed)
         self.refuses(other, self.first, other, "settings")
 

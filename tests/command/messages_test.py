@@ -10,8 +10,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from materials_test import png, quad
-from support import FRAGTRACE, SCENES, SMALL, Case, main, run
+from support import FRAGTRACE, SCENES, SMALL, Case, main, png, quad, run
 
 sys.path.insert(0, str(SCENES.parent / "scripts"))
 from help_text import command, kind_of, readable  # noqa: E402
@@ -24,7 +23,7 @@ class Values(Case):
     """Every option that takes a number, of every command, says the same of what is none."""
 
     COMMANDS = (["render", BOX, "-o", "x.png"], ["view", BOX], ["diff", BOX, BOX], ["denoise", "x.exr", "-o", "y.exr"], ["bench", "frame", BOX],
-                ["bench", "error", BOX], ["bench", "start", BOX], ["bench", "motion", BOX], ["bench", "scale"])
+                ["bench", "error", BOX], ["bench", "start", BOX], ["bench", "motion", BOX], ["bench", "frame", BOX])
 
     def test_what_is_no_number_is_said_so_by_name(self):
         tried = set()
@@ -248,8 +247,7 @@ class InVain(Case):
         root = json.loads((SCENES / "furnace.gltf").read_text())
         for material in root["materials"]:
             material["doubleSided"] = True
-        scene = self.folder / "shell.gltf"
-        scene.write_text(json.dumps(root))
+        scene = self.written("shell.gltf", root)
         inside = ["--camera-position", "0,0,0.1", "--camera-focal-point", "0,0,1", "--spp", "16"]
         self.warned("100 % of the pixels are black: nearly all camera paths end in the dark; the camera stands inside", *inside, scene=scene)
 

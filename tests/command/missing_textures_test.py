@@ -5,8 +5,7 @@ import json
 import struct
 import zlib
 
-from materials_test import png, quad
-from support import Case, main, read_pfm, run
+from support import Case, main, png, quad, read_pfm, run
 
 REFUSE = ("--missing-textures", "refuse")
 
@@ -25,9 +24,7 @@ class MissingTextures(Case):
         gltf = quad(material)
         gltf["images"] = [{"uri": uri} for uri in uris]
         gltf["textures"] = [{"source": i} for i in range(len(uris))]
-        path = self.folder / "scene.gltf"
-        path.write_text(json.dumps(gltf))
-        return path
+        return self.written("scene.gltf", gltf)
 
     def middle(self, scene, stage="flat"):
         path = self.folder / "x.pfm"

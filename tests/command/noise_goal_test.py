@@ -1,31 +1,24 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """`--noise` looks at the pixels that can be noisy, however few they are, and however rarely light is met there."""
-import base64
 import json
 import math
 import statistics
-import struct
 
-from support import Case, main
+from support import TWO_TRIANGLES, Case, Gltf, main
 
 
 def quantile(values, part):
     return sorted(values)[max(0, math.ceil(part * len(values)) - 1)]
 
 
-class Sketch:
+class Sketch(Gltf):
     """Quads and glass spheres, looked at from above by an orthographic camera that shows a square of 2 x `half` metres."""
 
     def __init__(self, half):
-        self.root = {"asset": {"version": "2.0"}, "scene": 0, "extensionsUsed": ["KHR_implicit_shapes"], "materials": [], "nodes": [], "meshes": [],
-                     "accessors": [], "bufferViews": [],
-                     "cameras": [{"type": "orthographic", "orthographic": {"xmag": half, "ymag": half, "znear": 0.01, "zfar": 100}}]}
-        self.data = b""
-        self.add({"camera": 0, "translation": [0, 0, 50]})
-
-    def add(self, node):
-        self.root["nodes"].append(node)
+        super().__init__(extensionsUsed=["KHR_implicit_shapes"], materials=[],
+                         cameras=[{"type": "orthographic", "orthographic": {"xmag": half, "ymag": half, "znear": 0.01, "zfar": 100}}])
+        self.node(camera=0, translation=[0, 0, 50])
 
     def material(self, emission=0, color=0.8, **extensions):
         names = {"KHR_materials_" + name: e for name, e in extensions.items()}
@@ -38,26 +31,13 @@ class Sketch:
 
     def quad(self, x, y, z, half, material, down=False):
         """Adds a square; `half` is the distance from its middle to each side. It looks up, or down."""
-        corners = [(-half, -half), (half, -half), (half, half), (-half, half)]
-        packed = b"".join(struct.pack("<3f", x + a, y + b, z) for a, b in corners)
-        packed += struct.pack("<6H", *((0, 2, 1, 0, 3, 2) if down else (0, 1, 2, 0, 2, 3)))
-        first, view = len(self.root["accessors"]), len(self.root["bufferViews"])
-        self.root["bufferViews"] += [{"buffer": 0, "byteOffset": len(self.data), "byteLength": 48},
-                                     {"buffer": 0, "byteOffset": len(self.data) + 48, "byteLength": 12}]
-        self.root["accessors"] += [{"bufferView": view, "componentType": 5126, "count": 4, "type": "VEC3", "min": [x - half, y - half, z],
-                                    "max": [x + half, y + half, z]}, {"bufferView": view + 1, "componentType": 5123, "count": 6, "type": "SCALAR"}]
-        self.data += packed
-        self.root["meshes"].append({"primitives": [{"attributes": {"POSITION": first}, "indices": first + 1, "material": material}]})
-        self.add({"mesh": len(self.root["meshes"]) - 1})
+        position = self.accessor([(x + a, y + b, z) for a, b in ((-half, -half), (half, -half), (half, half), (-half, half))])
+        indices = self.accessor((0, 2, 1, 0, 3, 2) if down else TWO_TRIANGLES, "H")
+        self.node(mesh=self.mesh(indices, position=position, material=material))
 
     def ball(self, z, radius, material):
         self.root["extensions"] = {"KHR_implicit_shapes": {"shapes": [{"type": "sphere", "sphere": {"radius": radius}}]}}
-        self.add({"extras": {"shape": 0, "material": material}, "translation": [0, 0, z]})
-
-    def write(self, path):
-        self.root["scenes"] = [{"nodes": list(range(len(self.root["nodes"])))}]
-        self.root["buffers"] = [{"byteLength": len(self.data), "uri": "data:application/octet-stream;base64," + base64.b64encode(self.data).decode()}]
-        path.write_text(json.dumps(self.root))
+        self.node(extras={"shape": 0, "material": material}, translation=[0, 0, z])
 
 
 def small_object(pixels):

@@ -3,8 +3,7 @@
 """Glass with a thickness whose mesh bounds no solid: a pane is a thin wall, and a line says so; what other surfaces close stays a solid."""
 import math
 
-from animation_test import Gltf
-from support import SMALL, Case, Exr, main, run
+from support import SMALL, Case, Exr, Gltf, main, run
 
 LINE = "is on a part that bounds no solid; such a part is drawn as a thin wall"
 
@@ -38,7 +37,7 @@ class OpenPanes(Case):
                                 "KHR_materials_volume": {"thicknessFactor": thickness, "attenuationColor": [0.2, 0.9, 0.2], "attenuationDistance": 0.5}}}
         meshes = [(0, glass), (1, opaque), (0, liquid)]
         gltf.root["materials"] = [solid, {"doubleSided": True}]
-        gltf.root["meshes"] = [{"primitives": [{"attributes": {"POSITION": gltf.accessor("VEC3", mesh)}, "material": material}]} for material, mesh in meshes if mesh]
+        gltf.root["meshes"] = [{"primitives": [{"attributes": {"POSITION": gltf.accessor(mesh)}, "material": material}]} for material, mesh in meshes if mesh]
         gltf.root["nodes"] = [{"mesh": i} for i in range(len(gltf.root["meshes"]))]
         gltf.root["scenes"] = [{"nodes": list(range(len(gltf.root["nodes"])))}]
         gltf.root["extensionsUsed"] = ["KHR_materials_transmission", "KHR_materials_volume"]

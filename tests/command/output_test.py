@@ -2,14 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Tests of stored pictures: 16-bit floats and integers, and the camera in the header of an .exr."""
 import json
-import sys
 
 from debug_view_test import encoded
-from materials_test import quad
-from support import SCENES, SMALL, Case, Exr, main, run
-
-sys.path.insert(0, str(SCENES))
-from picture_files import read_png  # noqa: E402
+from support import SCENES, SMALL, Case, Exr, main, quad, read_png, run
 
 BOX = SCENES / "cornell-box.gltf"
 
@@ -28,8 +23,7 @@ class Encodings(Case):
             for a, b in zip(one.values(name), other.values(name)):
                 self.assertLessEqual(abs(a - b), relative * abs(a) + (2**-25 if relative else 0), name)
         lamp = quad({"emissiveFactor": [1, 0.5, 0], "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 1e5}}})
-        scene = self.folder / "lamp.gltf"
-        scene.write_text(json.dumps({k: v for k, v in lamp.items() if v}))
+        scene = self.written("lamp.gltf", {k: v for k, v in lamp.items() if v})
         small = ("--resolution", "4,4", "--spp", 2)
         self.renders(scene, "-o", exact, *small)
         result = self.renders(scene, "-o", half, "--half", *small)

@@ -4,12 +4,8 @@
 import json
 import statistics
 import struct
-import sys
 
-from support import SCENES, Case, Exr, main, read_pfm, run
-
-sys.path.insert(0, str(SCENES))
-from picture_files import read_png  # noqa: E402
+from support import SCENES, Case, Exr, main, read_pfm, read_png, run
 
 BOX = SCENES / "cornell-box.gltf"
 SIZE = (60, 45)

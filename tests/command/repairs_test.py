@@ -6,8 +6,7 @@ import json
 import struct
 
 from made_files import base, changed
-from materials_test import data_uri, png
-from support import Case, main, run
+from support import Case, data_uri, main, png, run
 
 NAN = float("nan")
 NULL = "\0null"  # `changed` takes away what is None

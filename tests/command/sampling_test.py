@@ -1,12 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Options that may change how noisy a picture is, or how sharp, but not how bright; and --clamp-indirect, which may."""
-import base64
 import json
 import math
-import struct
 
-from support import SCENES, Case, main, read_pfm
+from support import SCENES, TWO_TRIANGLES, Case, Gltf, main, read_pfm
 
 BOX = SCENES / "cornell-box.gltf"
 # Largest |z| of a mean that is taken as unbiased: two-sided, 1 in 16,000 by chance. Seeds are fixed, so it happens now or never.
@@ -100,19 +98,11 @@ BELOW = {"box": lambda x: min(max(x + 0.5, 0), 1),
 class Filters(Case):
     def half_plane(self, edge):
         """A scene that is white where x > edge. Its camera shows 1 m per pixel in a picture of 16 x 16."""
-        corners = struct.pack("<12f", edge, -100, 0, 100, -100, 0, 100, 100, 0, edge, 100, 0)
-        data = corners + struct.pack("<6H", 0, 1, 2, 0, 2, 3)
-        scene = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
-                 "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0, 10]}],
-                 "cameras": [{"type": "orthographic", "orthographic": {"xmag": 8, "ymag": 8, "znear": 0.1, "zfar": 100}}],
-                 "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
-                 "buffers": [{"byteLength": 60, "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}],
-                 "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
-                 "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [edge, -100, 0],
-                                "max": [100, 100, 0]}, {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}]}
-        path = self.folder / "half.gltf"
-        path.write_text(json.dumps(scene))
-        return path
+        gltf = Gltf(cameras=[{"type": "orthographic", "orthographic": {"xmag": 8, "ymag": 8, "znear": 0.1, "zfar": 100}}])
+        position = gltf.accessor([(edge, -100, 0), (100, -100, 0), (100, 100, 0), (edge, 100, 0)])
+        gltf.node(mesh=gltf.mesh(gltf.accessor(TWO_TRIANGLES, "H"), position=position))
+        gltf.node(camera=0, translation=[0, 0, 10])
+        return gltf.write(self.folder / "half.gltf")
 
     def test_an_edge_is_blurred_as_the_density_says(self):
         spp = 4096

@@ -3,12 +3,9 @@
 """Both schedules draw the same picture, bit for bit (on llvmpipe), with the same rays; a message says why the wavefront
 does not draw."""
 import json
-import sys
 
 from support import EXTENDED, SCENES, Case, main
-
-sys.path.insert(0, str(SCENES))
-from instanced_scene import write_field  # noqa: E402
+from instanced_scene import write_field
 
 SKY = ["--hdri-file", SCENES / "sky.pfm"]
 # Large triangles first; spheres and lamps; glass with absorption; alpha.

@@ -6,12 +6,11 @@ import base64
 import json
 import shutil
 import signal
-import struct
 import subprocess
 import time
 from statistics import correlation
 
-from support import FRAGTRACE, SCENES, Case, Exr, main, run
+from support import FRAGTRACE, SCENES, Case, Exr, Gltf, main, run
 
 PLANE = SCENES / "mapped-plane.gltf"
 SMALL = ["--resolution", "40,30", "--spp", "2", "--traversal", "front-to-back"]
@@ -30,22 +29,12 @@ class Sequences(Case):
         for buffer in root["buffers"]:
             if not buffer["uri"].startswith("data:"):
                 shutil.copy(SCENES / buffer["uri"], self.folder)
-        times = struct.pack(f"<{len(keys)}f", *(t for t, _ in keys))
-        places = b"".join(struct.pack("<3f", *p) for _, p in keys)
-        root["buffers"].append({"byteLength": len(times + places), "uri": "data:application/octet-stream;base64," + base64.b64encode(times + places).decode()})
-        buffer = len(root["buffers"]) - 1
-        root["bufferViews"] += [{"buffer": buffer, "byteLength": len(times)}, {"buffer": buffer, "byteOffset": len(times), "byteLength": len(places)}]
-        view = len(root["bufferViews"]) - 2
-        root["accessors"] += [{"bufferView": view, "componentType": 5126, "count": len(keys), "type": "SCALAR", "min": [keys[0][0]], "max": [keys[-1][0]]},
-                              {"bufferView": view + 1, "componentType": 5126, "count": len(keys), "type": "VEC3"}]
-        accessor = len(root["accessors"]) - 2
         node = next(i for i, n in enumerate(root["nodes"]) if "mesh" in n)
         root["nodes"][node].pop("matrix", None)
-        root["animations"] = [{"samplers": [{"input": accessor, "output": accessor + 1}],
-                               "channels": [{"sampler": 0, "target": {"node": node, "path": "translation"}}]}]
-        path = self.folder / name
-        path.write_text(json.dumps(root))
-        return path
+        root.pop("animations", None)
+        gltf = Gltf(root)
+        gltf.moves(node, [t for t, _ in keys], translation=[p for _, p in keys])
+        return gltf.write(self.folder / name)
 
     def draw(self, *options, status=0):
         result = run("render", self.scene, "-o", self.folder / "x.##.exr", *SMALL, *options)

@@ -1,15 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """The shadow catcher against a closed form and against ordinary renders of a white plane; means within 5 standard errors."""
-import base64
 import json
 import math
 import statistics
 import struct
 from pathlib import Path
 
-from materials_test import quad
-from support import SCENES, SMALL, Case, Exr, main, run
+from support import SCENES, SMALL, Case, Exr, Gltf, main, quad, run
 
 BLACK = {"pbrMetallicRoughness": {"metallicFactor": 0, "baseColorFactor": [0, 0, 0, 1]},
          "extensions": {"KHR_materials_specular": {"specularFactor": 0}}}
@@ -30,12 +28,9 @@ def beside_the_ball():
     return [(x, y) for x in range(SIDE) for y in range(SIDE) if math.hypot(*place_of(x + 0.5, y + 0.5)) > far]
 
 
-def mean_and_error(values):
-    mean = sum(values) / len(values)
-    return mean, math.sqrt(sum((v - mean)**2 for v in values) / (len(values) - 1) / len(values))
-
-
 class CatcherCase(Case):
+    ERRORS, BESIDE = 5, 0
+
     def scene(self, name, nodes, materials, lights=()):
         """Nodes beside those lights; shape 0 is the ball, mesh 0 the quad of quad()."""
         gltf = quad(materials[0])
@@ -47,19 +42,14 @@ class CatcherCase(Case):
         gltf["scenes"] = [{"nodes": list(range(len(gltf["nodes"])))}]
         for unused in ("cameras", "images", "textures"):
             del gltf[unused]
-        path = self.folder / f"{name}.gltf"
-        path.write_text(json.dumps(gltf))
-        return str(path.with_suffix(""))
+        return str(self.written(f"{name}.gltf", gltf).with_suffix(""))
 
     def ball(self, lights=()):
         return self.scene("ball", [{"translation": [0, HEIGHT, 0], "extras": {"shape": 0, "material": 0}}], [BLACK], lights)
 
     def near(self, means, expected):
         """The mean of the seeds' means."""
-        mean, error = mean_and_error(means)
-        print(f"{self.id()}: {mean:.5f} +- {error:.5f}, expected {expected:.5f}")
-        self.assertLess(error, 2e-3)
-        self.assertAlmostEqual(mean, expected, delta=5 * error)
+        self.assert_mean(means, expected, self.id(), known=2e-3 / expected)
 
 
 class ShadowCatcher(CatcherCase):
@@ -85,17 +75,9 @@ class ShadowCatcher(CatcherCase):
 
     def moved(self, scene):
         """The ball goes a metre to the right in a second."""
-        root = json.loads(Path(scene + ".gltf").read_text())
-        data = struct.pack("<8f", 0, 1, 0, HEIGHT, 0, 1, HEIGHT, 0)
-        root["buffers"].append({"byteLength": len(data), "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()})
-        buffer, view, accessor = len(root["buffers"]) - 1, len(root["bufferViews"]), len(root["accessors"])
-        root["bufferViews"] += [{"buffer": buffer, "byteLength": 8}, {"buffer": buffer, "byteOffset": 8, "byteLength": 24}]
-        root["accessors"] += [{"bufferView": view, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
-                              {"bufferView": view + 1, "componentType": 5126, "count": 2, "type": "VEC3"}]
-        root["animations"] = [{"samplers": [{"input": accessor, "output": accessor + 1}],
-                               "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}]
-        Path(scene + ".gltf").write_text(json.dumps(root))
-        return scene + ".gltf"
+        gltf = Gltf(json.loads(Path(scene + ".gltf").read_text()))
+        gltf.moves(0, [0, 1], translation=[(0, HEIGHT, 0), (1, HEIGHT, 0)])
+        return str(gltf.write(Path(scene + ".gltf")))
 
     def test_fit_holds_the_shadow(self):
         """The shadow is in the picture under the studio, under a low sun, from all sides, and for all frames. No pixel
@@ -132,7 +114,7 @@ class ShadowCatcher(CatcherCase):
         scene = self.scene("sheet", [sheet], [half], [({"rotation": [-0.7071, 0, 0, 0.7071]}, {"type": "directional", "intensity": 2})])
         exr = self.picture(scene, "x.exr", "--resolution", "16,16", "--camera-position", "0,0.5,0", "--camera-focal-point", "0,0,0", "--spp", 64,
                            "--no-background", "--shadow-catcher", "0", "--hdri-file", SCENES / "sky.pfm")
-        mean, _ = mean_and_error(exr.values("A"))
+        mean = statistics.fmean(exr.values("A"))
         self.assertAlmostEqual(mean, 0.5, delta=5 * math.sqrt(0.5 / (16 * 16 * 64)))
 
     def test_nothing_else_changes(self):

@@ -1,11 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Stacks of sheets whose picture is a closed form of their alphas: means of a million samples, within 5 standard errors, which faults of 2 % exceed."""
-import json
 import math
 
-from materials_test import quad
-from support import Case, main
+from support import Case, main, quad
 
 NARROW = ["--camera-view-angle", 1, "--bounces", "unlimited"]
 SPECULAR = {"KHR_materials_specular": {"specularFactor": 0}}
@@ -26,8 +24,7 @@ class Sheets(Case):
         gltf["nodes"].append({"extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [0, 0, 9]})
         gltf["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 1}]}}
         gltf["scenes"] = [{"nodes": list(range(len(gltf["nodes"])))}]
-        path = self.folder / "stack.gltf"
-        path.write_text(json.dumps({key: value for key, value in gltf.items() if value}))
+        path = self.written("stack.gltf", {key: value for key, value in gltf.items() if value})
         picture = self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", f"{size},{size}", "--spp", spp, *options)
         return [sum(pixel[c] for row in picture for pixel in row) / size**2 for c in range(3)]
 

@@ -3,9 +3,8 @@
 """--shutter against the mean of 64 exact times, which one sequence draws."""
 import json
 import math
-import struct
 
-from support import SCENES, Case, Exr, main, run
+from support import SCENES, Case, Exr, Gltf, main, run
 
 WIDTH, HEIGHT = 64, 36
 SIZE = ["--resolution", f"{WIDTH},{HEIGHT}"]
@@ -22,32 +21,13 @@ def tiles(values):
     return result
 
 
-def animated_sphere(path, **keys):
-    """scenes/sphere-plane.gltf whose sphere moves in a second from where it is, or turns."""
+def animated_sphere(path, times=(0, 1), kind="LINEAR", **keys):
+    """scenes/sphere-plane.gltf whose sphere is moved or turned by these keys."""
     root = json.loads((SCENES / "sphere-plane.gltf").read_text())
     node = next(i for i, n in enumerate(root["nodes"]) if "shape" in n.get("extras", {}))
-    data = struct.pack("<2f", 0, 1)
-    views, accessors = root.setdefault("bufferViews", []), root.setdefault("accessors", [])
-    samplers, channels = [], []
-    parts = [(data, 2, "SCALAR")]
-    for target, (first, last) in keys.items():
-        kind = "VEC4" if target == "rotation" else "VEC3"
-        parts.append((struct.pack(f"<{2 * len(first)}f", *first, *last), 2, kind))
-        channels.append({"sampler": len(samplers), "target": {"node": node, "path": target}})
-        samplers.append({"input": len(accessors), "output": len(accessors) + len(parts) - 1})
-    buffer = len(root.setdefault("buffers", []))
-    whole = b""
-    for part, count, kind in parts:
-        views.append({"buffer": buffer, "byteOffset": len(whole), "byteLength": len(part)})
-        accessors.append({"bufferView": len(views) - 1, "componentType": 5126, "count": count, "type": kind})
-        whole += part
-    accessors[-len(parts)].update(min=[0], max=[1])
-    name = path.with_suffix(".bin")
-    name.write_bytes(whole)
-    root["buffers"].append({"byteLength": len(whole), "uri": name.name})
-    root["animations"] = [{"samplers": samplers, "channels": channels}]
-    path.write_text(json.dumps(root))
-    return path
+    gltf = Gltf(root)
+    gltf.moves(node, times, **keys)["samplers"][0]["interpolation"] = kind
+    return gltf.write(path)
 
 
 def wheel_with(path, name, times, values):
@@ -56,16 +36,9 @@ def wheel_with(path, name, times, values):
     path.with_name("wheel.bin").write_bytes((SCENES / "wheel.bin").read_bytes())
     channel = next(c for c in root["animations"][0]["channels"] if root["nodes"][c["target"]["node"]]["name"] == name)
     sampler = root["animations"][0]["samplers"][channel["sampler"]]
-    parts = [struct.pack(f"<{len(times)}f", *times), b"".join(struct.pack(f"<{len(v)}f", *v) for v in values)]
-    for part, kind, key in zip(parts, ("SCALAR", f"VEC{len(values[0])}"), ("input", "output")):
-        root["bufferViews"].append({"buffer": 1, "byteOffset": len(parts[0]) if key == "output" else 0, "byteLength": len(part)})
-        sampler[key] = len(root["accessors"])
-        root["accessors"].append({"bufferView": len(root["bufferViews"]) - 1, "componentType": 5126, "count": len(times), "type": kind})
-    root["accessors"][-2].update(min=[min(times)], max=[max(times)])
-    root["buffers"].append({"byteLength": sum(map(len, parts)), "uri": path.with_suffix(".bin").name})
-    path.with_suffix(".bin").write_bytes(b"".join(parts))
-    path.write_text(json.dumps(root))
-    return path
+    gltf = Gltf(root)
+    sampler |= {"input": gltf.accessor(times), "output": gltf.accessor(values)}
+    return gltf.write(path)
 
 
 class Shutter(Case):
@@ -208,17 +181,7 @@ class Shutter(Case):
     def test_a_cut_does_not_smear(self):
         """Steps, and keys at the same time, change between two pictures. Each shows its own side."""
         for times, values, kind in (((0, 0.5), (-0.6, 0.6), "STEP"), ((0, 0.5, 0.5, 1), (-0.6, -0.6, 0.6, 0.6), "LINEAR")):
-            scene = animated_sphere(self.folder / "cut.gltf", translation=((0, 0, 0), (0, 0, 0)))
-            root = json.loads(scene.read_text())
-            data = struct.pack(f"<{len(times)}f", *times) + b"".join(struct.pack("<3f", v, 0.2, 0) for v in values)
-            (self.folder / "cut.bin").write_bytes(data)
-            root["buffers"][-1]["byteLength"] = len(data)
-            root["bufferViews"][-2:] = [{"buffer": len(root["buffers"]) - 1, "byteLength": 4 * len(times)},
-                                        {"buffer": len(root["buffers"]) - 1, "byteOffset": 4 * len(times), "byteLength": 12 * len(times)}]
-            root["accessors"][-2].update(count=len(times), min=[times[0]], max=[times[-1]])
-            root["accessors"][-1].update(count=len(times))
-            root["animations"][0]["samplers"][-1]["interpolation"] = kind
-            scene.write_text(json.dumps(root))
+            scene = animated_sphere(self.folder / "cut.gltf", times, kind, translation=[(v, 0.2, 0) for v in values])
             for time in (0.45, 0.5):
                 self.assertEqual(self.seen(scene, time), self.seen(scene, time, shutter=0), (kind, time))
             self.assertNotEqual(self.seen(scene, 0.45)[0], self.seen(scene, 0.5)[0])
@@ -226,18 +189,16 @@ class Shutter(Case):
     def test_a_node_that_is_toggled_stops_nothing_else(self):
         """It is there, or not, as at the picture's moment."""
         scene = animated_sphere(self.folder / "toggled.gltf", translation=((-0.6, 0.2, 0), (0.6, 0.2, 0)))
-        root = json.loads(scene.read_text())
+        gltf = Gltf(json.loads(scene.read_text()))
+        root = gltf.root
         node = next(i for i, n in enumerate(root["nodes"]) if n.get("name") == "ground")
         root["nodes"][node]["extensions"] = {"KHR_node_visibility": {"visible": True}}
         root["extensionsUsed"] += ["KHR_node_visibility", "KHR_animation_pointer"]
-        root["bufferViews"].append({"buffer": len(root["buffers"]), "byteLength": 2})
-        root["buffers"].append({"byteLength": 2, "uri": "data:application/octet-stream;base64,AQA="})
         animation = root["animations"][0]
         pointer = {"pointer": f"/nodes/{node}/extensions/KHR_node_visibility/visible"}
         animation["channels"].append({"sampler": len(animation["samplers"]), "target": {"path": "pointer", "extensions": {"KHR_animation_pointer": pointer}}})
-        animation["samplers"].append({"input": animation["samplers"][0]["input"], "output": len(root["accessors"]), "interpolation": "STEP"})
-        root["accessors"].append({"bufferView": len(root["bufferViews"]) - 1, "componentType": 5121, "count": 2, "type": "SCALAR"})
-        (self.folder / "t.gltf").write_text(json.dumps(root))
+        animation["samplers"].append({"input": animation["samplers"][0]["input"], "output": gltf.accessor([1, 0], "B"), "interpolation": "STEP"})
+        gltf.write(self.folder / "t.gltf")
         stats = self.folder / "s.json"
         for time, triangles in ((0.97, 2), (1.0, 0)):
             self.renders(self.folder / "t.gltf", "-o", self.folder / "x.pfm", "--quiet", *SIZE, "--animation-time", time, "--fps", 8, "--shutter", 360, "--spp", 1, "--stats", stats)

@@ -3,14 +3,11 @@
 """A sky and its sun: shadows, light on the ground, how options place the sun, what is refused."""
 import json
 import math
-import sys
 
 from support import SCENES, Case, luminances, main
-
-sys.path.insert(0, str(SCENES))
-from gltf_writer import GltfWriter  # noqa: E402
-from geometry import flip, ground, quad  # noqa: E402
-from scene_parts import place_quad  # noqa: E402
+from gltf_writer import GltfWriter
+from geometry import flip, ground, quad
+from scene_parts import place_quad
 
 FEW = ["--resolution", "16,16", "--spp", "1"]
 RADIUS = math.radians(0.2665)

@@ -4,8 +4,7 @@
 import json
 import math
 
-from materials_test import quad
-from support import Case, Exr, main, read_pfm, run
+from support import Case, Exr, main, quad, read_pfm, run
 
 RED = {"pbrMetallicRoughness": {"metallicFactor": 0, "baseColorFactor": [0.5, 0.25, 0.125, 1]}}
 SIZE, HALF = 100, 1.25  # pixels of a side of the picture, and half of the metres that it shows
@@ -20,9 +19,7 @@ class Strokes(Case):
         primitive["mode"] = mode
         del primitive["indices"], primitive["attributes"]["TEXCOORD_0"]
         gltf["accessors"][0]["count"] = count
-        path = self.folder / f"{name}.gltf"
-        path.write_text(json.dumps(gltf))
-        return path
+        return self.written(f"{name}.gltf", gltf)
 
     def covered(self, path, width, *options):
         """Returns the covered area in pixels."""

@@ -6,8 +6,7 @@ import math
 import struct
 
 from layers_test import View
-from materials_test import quad
-from support import SCENES, Case, main, read_pfm
+from support import SCENES, Case, main, quad, read_pfm
 
 MATT = {"pbrMetallicRoughness": {"metallicFactor": 0}, "extensions": {"KHR_materials_specular": {"specularFactor": 0}}}
 EMPTY = ["--camera-position", "0,50,0", "--spp", "4"]  # far above the scene
@@ -16,8 +15,7 @@ EMPTY = ["--camera-position", "0,50,0", "--spp", "4"]  # far above the scene
 class Studio(Case):
     def ground(self, *options):
         """Mean radiance of a white matt quad that faces +Z."""
-        path = self.folder / "white.gltf"
-        path.write_text(json.dumps(quad(MATT)))
+        path = self.written("white.gltf", quad(MATT))
         rows = self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", "16,16", "--spp", "64", "--studio", *options)
         return sum(pixel[1] for row in rows[6:10] for pixel in row[6:10]) / 16
 

@@ -4,6 +4,7 @@
 A test file is run as FILE FRAGTRACE SOURCE_FOLDER [unittest arguments].
 """
 import ctypes.util
+import json
 import math
 import os
 import shutil
@@ -18,8 +19,10 @@ import unittest
 from array import array
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+sys.path[:0] = [str(Path(__file__).resolve().parent.parent), str(Path(sys.argv[2]).resolve() / "scenes")]
 from exr import WEIGHTS, Exr, write_exr, write_parts  # noqa: E402, F401
+from gltf_file import SQUARE, TWO_TRIANGLES, Gltf, data_uri, png, quad  # noqa: E402, F401
+from picture_files import read_png, write_pfm, write_png  # noqa: E402, F401
 from skips import EXTENDED, at_length, main  # noqa: E402, F401
 
 FRAGTRACE = Path(sys.argv[1]).resolve()
@@ -118,10 +121,27 @@ class Case(unittest.TestCase):
         self.assertEqual(len(error.splitlines()), 1, error)
         self.assertEqual(set(self.folder.iterdir()), files)
 
+    # Of assert_mean: standard errors, what is off beside them, and the largest of them, as parts of the mean.
+    ERRORS, BESIDE, KNOWN = 6, 1e-4, 0.005
+
+    def assert_mean(self, seen, wanted, what, beside=None, known=None):
+        """Holds the mean of what pictures of several seeds show against a number. Returns its standard error, as a part."""
+        error, ratio = statistics.stdev(seen) / math.sqrt(len(seen)) / wanted, statistics.fmean(seen) / wanted
+        print(f"{what}: {ratio - 1:+.4%}, standard error {error:.4%}")
+        self.assertLess(abs(ratio - 1), self.ERRORS * error + (self.BESIDE if beside is None else beside), what)
+        self.assertLess(error, known or self.KNOWN, what)
+        return error
+
     def renders(self, *arguments, **options):
         result = run("render", *arguments, **options)
         self.assertEqual(result.returncode, 0, result.stderr)
         return result
+
+    def written(self, name, document):
+        """Writes JSON into the folder, such as a glTF file, and returns its path."""
+        path = self.folder / name
+        path.write_text(json.dumps(document))
+        return path
 
     def picture(self, scene, name, *options):
         """Renders quietly into the folder and reads what was written: a list of rows, or an Exr."""

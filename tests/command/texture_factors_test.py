@@ -2,12 +2,10 @@
 # SPDX-License-Identifier: MIT
 """A texture of one colour is a factor: squares under one directional light, each once with the texture and once with the product."""
 import copy
-import json
 import math
 import struct
 
-from materials_test import data_uri, png, quad
-from support import Case, main
+from support import Case, main, png, quad
 
 COLOURS = {"baseColorTexture", "emissiveTexture", "specularColorTexture", "sheenColorTexture"}  # sRGB
 SIDE = 8  # pixels of a square
@@ -82,8 +80,7 @@ class TextureFactors(Case):
         gltf["scenes"] = [{"nodes": list(range(count + 2))}]
         gltf["cameras"] = [{"type": "orthographic", "orthographic": {"xmag": count, "ymag": 1, "zfar": 10, "znear": 0.1}}]
         gltf["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 2}]}}
-        path = self.folder / "factors.gltf"
-        path.write_text(json.dumps({key: value for key, value in gltf.items() if value}))
+        path = self.written("factors.gltf", {key: value for key, value in gltf.items() if value})
         picture = self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", f"{count * SIDE},{SIDE}", "--spp", 4, "--bounces", 0)
         return [sum(row[SIDE * i + x][c] for row in picture for x in range(SIDE)) for i in range(count) for c in range(3)]
 
@@ -91,8 +88,7 @@ class TextureFactors(Case):
         image = png(1, 1, [200] * 3 + [255])
         gltf = quad({"emissiveFactor": WHITE, "emissiveTexture": {"index": 0}, "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]}}, images=[image])
         gltf = {key: value for key, value in gltf.items() if value}
-        path = self.folder / "emission.gltf"
-        path.write_text(json.dumps(gltf))
+        path = self.written("emission.gltf", gltf)
         pixel = self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", "8,8", "--spp", 1)[4][4]
         for seen, factor in zip(pixel, WHITE):
             self.assertAlmostEqual(seen / factor, linear("emissiveTexture", 200), delta=3e-4)

@@ -4,10 +4,8 @@
 import base64
 import json
 import struct
-import zlib
 
-from animation_test import Gltf
-from support import Case, main, read_pfm, run
+from support import SQUARE, TWO_TRIANGLES, Case, Gltf, data_uri, main, png, read_pfm, run
 
 # 16 x 16, without loss, by libheif: the left half red, the right one blue with alpha 128.
 AVIF = base64.b64decode(
@@ -18,28 +16,20 @@ AVIF = base64.b64decode(
     "RAAAhsVpr/iPfFOIKWSGMA==")
 
 
-def png(pixels):
-    """A row of RGB."""
-    chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-    row = b"\0" + b"".join(map(bytes, pixels))
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(pixels), 1, 8, 2, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(row)) + chunk(b"IEND", b"")
-
-
 class TextureSources(Case):
     def scene(self, picture, texture=None, sets=1, materials=None, kind="image/png"):
         """A square from -1 to 1 with a texture. Coordinates of the last set lie in the picture's right half, others in the left one."""
         gltf = Gltf()
-        corners = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
-        attributes = {"POSITION": gltf.accessor("VEC3", corners)}
+        attributes = {"POSITION": gltf.accessor(SQUARE)}
         for i in range(sets):
             last = sets > 1 and i == sets - 1
-            attributes[f"TEXCOORD_{i}"] = gltf.accessor("VEC2", [(0.75 if last else 0.25, 0.5)] * 4 if sets > 1 else [(0, 1), (1, 1), (1, 0), (0, 0)])
-        indices = gltf.accessor("SCALAR", [0, 1, 2, 0, 2, 3], "H", 5123)
+            attributes[f"TEXCOORD_{i}"] = gltf.accessor([(0.75 if last else 0.25, 0.5)] * 4 if sets > 1 else [(0, 1), (1, 1), (1, 0), (0, 0)])
+        indices = gltf.accessor(TWO_TRIANGLES, "H")
         gltf.root["meshes"] = [{"primitives": [{"attributes": attributes, "indices": indices, "material": 0}]}]
         gltf.root["nodes"] = [{"mesh": 0}, {"camera": 0, "translation": [0, 0, 2]}]
         gltf.root["cameras"] = [{"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 1, "znear": 0.1, "zfar": 9}}]
         gltf.root["scenes"] = [{"nodes": [0, 1]}]
-        gltf.root["images"] = [{"uri": f"data:{kind};base64," + base64.b64encode(picture).decode()}]
+        gltf.root["images"] = [{"uri": data_uri(kind, picture)}]
         gltf.root["textures"] = [texture or {"source": 0}]
         gltf.root["materials"] = materials or [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}, "extensions": {"KHR_materials_unlit": {}}}]
         gltf.root["extensionsUsed"] = ["KHR_materials_unlit", "EXT_texture_avif"]
@@ -64,8 +54,8 @@ class TextureSources(Case):
                 self.assertAlmostEqual(a, b, delta=0.02)  # one step of luma and chroma
         # A fallback is drawn where there is one: all systems have it.
         both = {"source": 0, **texture}
-        document = json.loads(self.scene(png([(0, 255, 0)]), both).read_text())
-        document["images"].append({"uri": "data:image/avif;base64," + base64.b64encode(AVIF).decode()})
+        document = json.loads(self.scene(png(1, 1, [0, 255, 0, 255]), both).read_text())
+        document["images"].append({"uri": data_uri("image/avif", AVIF)})
         document["textures"][0]["extensions"]["EXT_texture_avif"]["source"] = 1
         scene.write_text(json.dumps(document))
         self.assertEqual(self.colors(scene)[0], (0, 1, 0))
@@ -85,7 +75,7 @@ class TextureSources(Case):
 
     def test_any_set_of_coordinates(self):
         unlit = lambda **more: [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, **more}}, "extensions": {"KHR_materials_unlit": {}}}]
-        picture = png([(255, 0, 0), (0, 0, 255)])
+        picture = png(2, 1, [255, 0, 0, 255, 0, 0, 255, 255])
         for sets in (2, 3, 5):
             scene = self.scene(picture, sets=sets, materials=unlit(texCoord=sets - 1))
             self.assertEqual(run("info", scene).stderr, "")
@@ -96,7 +86,7 @@ class TextureSources(Case):
 
     def test_a_third_set_of_a_material_is_said(self):
         material = {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 0, "texCoord": 1}}, "normalTexture": {"index": 0, "texCoord": 2}}
-        said = run("info", self.scene(png([(128, 128, 255)]), sets=3, materials=[material])).stderr
+        said = run("info", self.scene(png(1, 1, [128, 128, 255, 255]), sets=3, materials=[material])).stderr
         self.assertIn("/materials/0: has textures of more than two sets of coordinates; TEXCOORD_0 is taken instead of TEXCOORD_2", said)
 
 

@@ -2,13 +2,11 @@
 # SPDX-License-Identifier: MIT
 """Light through smooth walls of thickness 0, on matt ground under a pane wide enough to be all that is above it. With --bounces 1
 nothing comes back from the pane, so that irradiance is the integral of the light times what one or two walls let through."""
-import json
 import math
 import statistics
 
 from known_light_test import MATT, SPECULAR, over_ground
-from materials_test import quad
-from support import SCENES, Case, main
+from support import SCENES, Case, main, quad
 
 IOR = 1.5
 PANE = 2.6    # metres above the ground, and above the camera
@@ -56,9 +54,7 @@ class ThinGlass(Case):
         if lights:
             gltf["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": math.pi} for _ in lights]}}
         gltf["scenes"] = [{"nodes": list(range(len(gltf["nodes"])))}]
-        path = self.folder / "panes.gltf"
-        path.write_text(json.dumps({key: value for key, value in gltf.items() if value}))
-        return str(path.with_suffix(""))
+        return str(self.written("panes.gltf", {key: value for key, value in gltf.items() if value}).with_suffix(""))
 
     def seen(self, scene, *options, spp=1, side=16):
         return self.picture(scene, "x.pfm", "--resolution", f"{side},{side}", "--spp", spp, "--no-default-light", *options)
@@ -178,8 +174,7 @@ class ThinGlass(Case):
             for turned in ({}, {"rotation": [0.18, 0.36, -0.27, 0.875], "translation": place}):
                 gltf["nodes"].append({"children": list(range(len(heights) + 2))} | turned)
                 gltf["scenes"] = [{"nodes": [len(gltf["nodes"]) - 1]}]
-                path = self.folder / "lying.gltf"
-                path.write_text(json.dumps(gltf))
+                path = self.written("lying.gltf", gltf)
                 seen = self.channel(self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", "32,32", "--spp", 256, "--hdri-file", sky))
                 gltf["nodes"].pop()
                 print(f"thickness {thickness}, {wide} wide, {turned}: {seen / wanted - 1:+.4%}")

@@ -28,9 +28,7 @@ class Volumes(Case):
         gltf = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
                 "cameras": [{"type": "perspective", "perspective": {"yfov": 0.6, "aspectRatio": 1, "znear": 0.01}}],
                 "nodes": [{"camera": 0, "translation": [0, 0, 3]}, {"extras": extras} if extras else {"name": "empty"}]}
-        path = self.folder / f"camera{len(list(self.folder.glob('camera*')))}.gltf"
-        path.write_text(json.dumps(gltf))
-        return str(path.with_suffix(""))
+        return str(self.written(f"camera{len(list(self.folder.glob('camera*')))}.gltf", gltf).with_suffix(""))
 
     def seen(self, scene, *options, spp=64, size="16,16"):
         return self.picture(scene, "x.pfm", "--resolution", size, "--spp", spp, *options)

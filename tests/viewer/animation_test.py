@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Animations in the viewer: played, paused, dragged to a time, and drawn as `render --animation-time` draws them."""
-import base64
 import json
 import shlex
-import struct
 import subprocess
 
 from support import FRAGTRACE, Case, main, pixels_of
 from clipboard import clipboard_text
+from gltf_file import SQUARE, TWO_TRIANGLES, Gltf
 
 SIZE = ["--resolution", "900,700"]
 FEW = [*SIZE, "--spp", "2"]
@@ -16,25 +15,11 @@ FEW = [*SIZE, "--spp", "2"]
 
 def animated(folder, seconds=2.0):
     """A square that moves along x in the first clip, and along y in the second."""
-    corners = struct.pack("<12f", -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0) + struct.pack("<6H", 0, 1, 2, 0, 2, 3)
-    keys = struct.pack("<2f", 0, seconds) + struct.pack("<12f", -1, 0, 0, 1, 0, 0, 0, -1, 0, 0, 1, 0)
-    data = corners + keys
-    views, at = [], 0
-    for size in (48, 12, 8, 24, 24):
-        views.append({"buffer": 0, "byteOffset": at, "byteLength": size})
-        at += size
-    accessor = [(0, 5126, 4, "VEC3", {"min": [-1, -1, 0], "max": [1, 1, 0]}), (1, 5123, 6, "SCALAR", {}),
-                (2, 5126, 2, "SCALAR", {"min": [0], "max": [seconds]}), (3, 5126, 2, "VEC3", {}), (4, 5126, 2, "VEC3", {})]
-    clip = [{"name": name, "samplers": [{"input": 2, "output": output}], "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}
-            for name, output in (("across", 3), ("up", 4))]
-    path = folder / "moving.gltf"
-    path.write_text(json.dumps({
-        "asset": {"version": "2.0"}, "buffers": [{"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(data).decode()}],
-        "bufferViews": views, "accessors": [{"bufferView": v, "componentType": c, "count": n, "type": t, **more} for v, c, n, t, more in accessor],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
-        "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.3, 0.1, 1], "metallicFactor": 0}, "doubleSided": True}],
-        "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}], "animations": clip}))
-    return path
+    gltf = Gltf(materials=[{"pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.3, 0.1, 1], "metallicFactor": 0}, "doubleSided": True}])
+    gltf.node(mesh=gltf.mesh(gltf.accessor(TWO_TRIANGLES, "H"), position=gltf.accessor(SQUARE), material=0))
+    for name, x, y in (("across", 1, 0), ("up", 0, 1)):
+        gltf.moves(0, [0, seconds], translation=[(-x, -y, 0), (x, y, 0)])["name"] = name
+    return gltf.write(folder / "moving.gltf")
 
 
 class Animation(Case):
