@@ -82,7 +82,9 @@ def chart_of(text):
 
 
 def draw(source, target):
-    """Throws ValueError, KeyError where `source` is no such file."""
+    """Throws ValueError, KeyError where `source` is no such file. Ends the program where matplotlib is missing."""
+    if pyplot is None:
+        sys.exit("charts.py: matplotlib is not installed (Debian: python3-matplotlib; PyPI: matplotlib)")
     make, measured = chart_of(Path(source).read_text(encoding="utf-8"))
     matplotlib.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "fragtrace"})
     figure, axes = pyplot.subplots(figsize=(9, 5.4), layout="constrained")
@@ -102,8 +104,6 @@ def draw(source, target):
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
-    if pyplot is None:
-        sys.exit("charts.py: matplotlib is not installed (Debian: python3-matplotlib; PyPI: matplotlib)")
     try:
         draw(*sys.argv[1:])
     except (OSError, ValueError, KeyError) as error:
