@@ -4,7 +4,7 @@
 
 usage: frozen.py COMMIT [--folder DIR] [--only WORD] [--options WORDS]
 Builds the commit in DIR (default /tmp/fragtrace-frozen) and the working tree in build, and draws about 190 pictures by both. Where the SPIR-V of a picture's
-shaders differs, their texts are left in DIR for diff. Debug names are not compared. Needs glslangValidator (scripts/setup extended) and Mesa.
+shaders differs, their texts are left in DIR for diff. Debug names are not compared. Needs glslangValidator (scripts/setup) and Mesa.
 """
 import argparse
 import json
