@@ -100,6 +100,7 @@ BsdfValue evaluateCoat(Bsdf b, vec3 wo, vec3 wi) {
 }
 
 BsdfValue evaluateBsdf(Bsdf b, vec3 wo, vec3 wi) {
+  if (kCountWork) countWork(kWorkBsdfs, 1u);
   BsdfValue r = evaluateBase(b, wo, wi);
   if (!kClearcoat && !kSheen) return r;
   vec3 chances = layerChances(b, wo);

@@ -83,6 +83,7 @@ Path asExtension(Path p) {
 
 /// Traces the same ray once more, for what lies behind the surface that it met at distance t and passes through.
 Path tracePast(Path p, float limit, float t, int slot) {
+  if (kCountWork) countWork(kWorkPassed, 1u);
   p = traceAnew(p, limit);
   if (p.phase == kPhaseExtend) p = asExtension(p);
   p.traversal.tMin = t;

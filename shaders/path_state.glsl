@@ -144,6 +144,12 @@ int earlierRays(Path p) { return kCameraRays > 1 ? p.rays >> 24 & 15 : 0; }
 /// Camera rays of the sample that have met a surface, with this one.
 int coveredRays(Path p) { return (kCameraRays > 1 ? p.rays >> 28 : 0) + (p.covered ? 1 : 0); }
 
+/// The path's own ray has been traced.
+void countRay(Path p) { countWork(kLightPaths ? kWorkLightRays : p.cameraRay ? kWorkCameraRays : kWorkBounceRays, 1u); }
+
+/// A shadow ray has been traced.
+void countShadowRay() { countWork(kLightPaths ? kWorkSplatRays : kWorkShadowRays, 1u); }
+
 /// The path with the hit of its ray.
 Path withHit(Path p, Traversal hit) {
   p.hitSlot = hit.slot;

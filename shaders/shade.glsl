@@ -352,6 +352,7 @@ Path settleShadow(Path p) {
   int slot = p.traversal.slot;
   bool passes = false;
   if (kPassing && slot >= 0) {
+    if (kCountWork) countWork(kWorkShadowSurfaces, 1u);
     Surface s = surfaceAt(slot, p.traversal.hitInstance, p.shadowOrigin, p.shadowDirection, p.traversal.t,
                           p.traversal.weights, p.time);
     uint flags = materialFlags(s.material);

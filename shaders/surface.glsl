@@ -139,6 +139,7 @@ Surface inLocalSpace(Surface s, int instance) {
 /// The point that a ray of a path with this time hits on the primitive of a leaf slot (shown by an instance, or -1), at
 /// distance t and with barycentric weights.
 Surface surfaceAt(int slot, int instance, vec3 origin, vec3 direction, float t, vec2 weights, float time) {
+  if (kCountWork) countWork(kWorkSurfaces, 1u);
   uvec4 face = faceRow(slot, 0);
   uvec4 place = faceRow(slot, 1);
   bool shown = kInstances && instance >= 0;

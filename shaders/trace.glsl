@@ -45,6 +45,7 @@
 #include "layout.glsl"
 #include "frame.glsl"
 layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progress progress; };
+#include "work/count.glsl"
 #include "read.glsl"
 #include "random.glsl"
 #include "sampling.glsl"
@@ -108,8 +109,15 @@ uint samplesWanted(FilmPixel film) {
   return own > 0u ? min(own, uint(frame.samplesWanted)) : uint(frame.samplesWanted);
 }
 
+/// The number of a pixel in the tile.
+int numberInTile(ivec2 pixel) {
+  ivec2 place = pixel - frame.tile.xy;
+  return place.y * frame.tile.z + place.x;
+}
+
 /// The next sample of a pixel.
 Path beginSample(FilmPixel film, ivec2 pixel, uint key, int steps) {
+  if (kCountWork) beginWork(numberInTile(pixel));
   if (kLightPaths) {
     ivec2 record = recordOf(pixel, film.samples);
     storeRecord(record, false, vec3(0.0), vec2(0.0));
@@ -147,6 +155,7 @@ Path nextCameraRay(Path p, FilmPixel film, ivec2 pixel, uint key) {
 
 /// Adds the finished path to the film.
 FilmPixel endSample(FilmPixel film, Path p, ivec2 pixel) {
+  if (kCountWork) endWork(numberInTile(pixel));
   film.rays += uint(tracedRays(p));
   if (kCountVisits) p.radiance = vec3(float(p.traversal.visits));
   float alpha = coverageOf(p);
@@ -187,6 +196,7 @@ Path meet(Path p) {
 Path meetShadow(Path p) {
   if (p.traversal.node != kTraversalDone) return p;
   p.rays += 1;
+  if (kCountWork) countShadowRay();
   return settleShadow(p);
 }
 
@@ -207,6 +217,7 @@ Path advance(Path p, int budget, TreeFrame tree) {
     if (kWholeRays) p = withHit(p, p.traversal);
     if (!isShadow && p.traversal.node == kTraversalDone) {
       p.rays += 1;
+      if (kCountWork) countRay(p);
       if (!kWholeRays) p = withHit(p, p.traversal);
       p.phase = kPhaseShade;
     }
@@ -234,12 +245,12 @@ uint keyOfLane(ivec2 pixel) { return kLightPaths ? keyOfLightPaths() : keyOfPixe
 void tracePixel(ivec2 pixel) {
   FilmPixel film = loadFilm(pixel);
   fetchFrame(film.flags);  // the flags keep compilers from reading the block in the loops
-  ivec2 place = pixel - frame.tile.xy;
-  int row = (place.y * frame.tile.z + place.x) * kSuspendedRows;
+  int row = numberInTile(pixel) * kSuspendedRows;
   int budget = frame.stepBudget;
   TreeFrame tree = treeFrame();
   bool advanced = false;
   float cut = 0.0;  // throughput that was lost to kBounces
+  if (kCountWork) forgetWork();
   Path p;
   p.phase = kPhaseEnd;
   p.traversal.steps = 0;
@@ -278,6 +289,7 @@ void tracePixel(ivec2 pixel) {
     atomicAdd(progress.unfinished, 1u);
     if (kResumable && tracing) {
       film.flags |= kPixelSuspended;
+      if (kCountWork) keepWork(numberInTile(pixel));
       suspendPath(p, row);
     }
     // Else the sample begins again in the next draw, unless it is longer than a whole draw.

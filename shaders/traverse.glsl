@@ -84,6 +84,7 @@ float beforeCoincident(float t, bool front, uint word) {
 
 PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear shear, vec3 v0, vec3 v1, vec3 v2,
                            uint word, int slot) {
+  if (kCountWork) countWork(kWorkPrimitives, uint(word != kPrimitiveNone));
   PrimitiveHit r;
   r.t = -1.0f;
   r.weights = vec2(0.0f);
@@ -238,6 +239,8 @@ Traversal changeSpace(Traversal s) {
 /// only the ray's own limit discards. Boxes are padded when packed, so that rounding in the slab test cannot lose one
 /// that holds a hit (docs/design/numerics.md).
 Traversal stepNode(Traversal s, TreeRay ray, float rayLimit, TreeFrame tree, bool there) {
+  if (kCountWork) countWork(kWorkNodes, uint(there));
+  if (kCountWork) countWork(kWorkBoxes, 2u * uint(there));
   NodePair n;
   if (kMoving) n = loadMovingNode(there ? s.node : 0, s.part);
   if (!kMoving) n = loadNode(there ? s.node : 0);

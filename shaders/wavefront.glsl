@@ -32,6 +32,8 @@ struct Wave {
 
 int rowOf(Wave v, int k) { return v.first + k * kWaveRows; }
 
+int numberOf(Wave v, int k) { return numberInTile(v.corner + ivec2(0, k)); }
+
 uint keyOf(Wave v, int k) { return keyOfPixel(v.corner + ivec2(0, k)); }
 
 /// Loads the distance up to which the shadow ray has passed surfaces.
@@ -55,6 +57,7 @@ Path takeUp(inout Wave v, int k) {
   }
   p.radiance += arrives ? light : vec3(0.0);
   p.rays += waited ? 1 : 0;
+  if (kCountWork && waited) countShadowRay();
   v.waiting &= ~bit;
   v.blocked &= ~bit;
   return p;
@@ -128,9 +131,11 @@ Wave passShadows(Wave v, uint left, TreeFrame tree) {
     if (p.phase == kPhaseShadow) {
       uint bit = 1u << k;
       pathStates[row + kRowCounts].y += 1u;
+      if (kCountWork) countShadowRay();
       v.blocked &= ~bit;
       v = sendShadow(v, bit, row, beginShadow(p, tree));
     }
+    if (kCountWork) keepWork(numberOf(v, k));
   }
   return v;
 }
@@ -146,6 +151,7 @@ Wave shadeHits(Wave v, uint left, TreeFrame tree) {
     v.steps += 1 + kCandidateIterations;
     Path p = takeUp(v, k);
     p.rays += 1;
+    if (kCountWork) countRay(p);
     p.pixel = v.corner + ivec2(0, k);
     p = kMedia ? meet(p) : shade(p);
     v.cut += cutThroughput(p);
@@ -165,6 +171,7 @@ Wave shadeHits(Wave v, uint left, TreeFrame tree) {
       v.waiting |= bit;
       v = sendShadow(v, bit, row, beginShadow(p, tree));
     }
+    if (kCountWork) keepWork(numberOf(v, k));
   }
   return v;
 }
@@ -188,6 +195,7 @@ Wave beginSamples(Wave v, uint left, TreeFrame tree) {
       p = takeUp(v, k);
     }
     if (p.phase == kPhaseExtend) {
+      if (kCountWork) countRay(p);
       p = meetSurroundings(p);
       p.rays += 1;
     }
@@ -212,6 +220,7 @@ Wave beginSamples(Wave v, uint left, TreeFrame tree) {
       }
     }
     if (!more) storeFilm(pixel, film);
+    if (kCountWork && !more) keepWork(numberOf(v, k));
   }
   return v;
 }
@@ -288,6 +297,7 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
     if (atLeaf) t = meetLeaf(t, ray, isShadow && !kPassing);
     v.steps += 1;
     if (t.node == kTraversalDone) v = settleRay(v, t, current, isShadow);
+    if (kCountWork && t.node == kTraversalDone) keepWork(numberOf(v, current));
   }
   if (t.node != kTraversalDone) v.rays |= 1u << current;
   return v;
@@ -304,6 +314,7 @@ Wave beginAnew(Wave v, uint left) {
   for (; left != 0u; left &= left - 1u) {
     int row = rowOf(v, findLSB(left));
     v.steps += 1;
+    if (kCountWork) beginWork(numberOf(v, findLSB(left)));
     pathStates[row + kRowRadiance] = uvec4(0u, 0u, 0u, uint(kPhaseNone));
     pathStates[row + kRowCounts] = uvec4(0u);
   }
@@ -330,6 +341,7 @@ void traceWave(ivec2 lane) {
   v.shadows = 0u;
   v.steps = 0;
   v.cut = 0.0;
+  if (kCountWork) forgetWork();
   if (frame.tileGoesOn == 0) v = beginAnew(v, count < 32 ? (1u << count) - 1u : 0xffffffffu);
   bool advanced = false;
 

@@ -137,7 +137,7 @@ ErrorSample finish(Contender& c, const View& view, const Judge& judge, const Dra
   for (const ShaderVariant& variant : c.tracer.aovs) {
     const int samples = samplesOfLayer(options, variant.aov, draw.layerSamples);
     const LayerDraw layer = addLayer(picture, *c.tracer.renderer, variant, view, samples);
-    seconds += 0.001 * layer.drawMs;
+    seconds += 0.001 * layer.times.renderMs;
     compileMs += layer.compileMs;
   }
   const double start = steadyMilliseconds();

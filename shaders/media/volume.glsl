@@ -134,5 +134,7 @@ Walk walkVolume(Volume v, vec3 origin, vec3 direction, float from, float to, boo
       depth = -log(1.0f - unitFloat(mixBits(state)));
     }
   }
+  if (kCountWork) countWork(kWorkWalks, 1u);
+  if (kCountWork) countWork(kWorkWalkSteps, uint(walk.steps));
   return walk;
 }

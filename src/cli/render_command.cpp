@@ -86,6 +86,8 @@ int renderVariants(const RenderOptions& options) {
 
 int runAny(const RenderOptions& options) {
   if (options.output.file.empty()) throw UsageError("--output is required; --help says more");
+  if (options.output.countWork && options.output.statsFile.empty())
+    throw UsageError("--count-work: goes with --stats FILE, which has the counts");
   checkEncoding(options.output.encoding, options.output.file);
   checkSequence(options);
   if (options.output.progress == ProgressForm::Json) reportAsJson(options.output.quiet);

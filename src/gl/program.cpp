@@ -71,14 +71,20 @@ GlProgram buildComputeProgram(const std::string& text) {
   return finished(link(std::move(shaders)));
 }
 
+std::string ProgramCache::textOf(const std::string& entry, const ShaderVariant& variant) {
+  std::string text = assembleShader(source_, entry, variant);
+  characters_ += text.size();
+  return text;
+}
+
 const GlProgram& ProgramCache::tracerProgram(const ShaderVariant& variant) {
   const auto found = tracers_.find(variant);
   if (found != tracers_.end()) return found->second;
   const char* compute = variant.wavefront ? "entry/wavefront.comp" : "entry/trace.comp";
-  GlProgram program = variant.dispatch == Dispatch::Compute
-                          ? buildComputeProgram(assembleShader(source_, compute, variant))
-                          : buildProgram(assembleShader(source_, "entry/fullscreen.vert", variant),
-                                         assembleShader(source_, "entry/trace.frag", variant));
+  GlProgram program =
+      variant.dispatch == Dispatch::Compute
+          ? buildComputeProgram(textOf(compute, variant))
+          : buildProgram(textOf("entry/fullscreen.vert", variant), textOf("entry/trace.frag", variant));
   checkGl("building a shader program");
   return tracers_.emplace(variant, std::move(program)).first->second;
 }
@@ -86,8 +92,7 @@ const GlProgram& ProgramCache::tracerProgram(const ShaderVariant& variant) {
 const GlProgram& ProgramCache::splatter(const ShaderVariant& variant) {
   const auto found = splatters_.find(variant.pixelFilter);
   if (found != splatters_.end()) return found->second;
-  GlProgram program = buildProgram(assembleShader(source_, "entry/splat.vert", variant),
-                                   assembleShader(source_, "entry/splat.frag", variant));
+  GlProgram program = buildProgram(textOf("entry/splat.vert", variant), textOf("entry/splat.frag", variant));
   checkGl("building the program of splats");
   return splatters_.emplace(variant.pixelFilter, std::move(program)).first->second;
 }
@@ -95,6 +100,7 @@ const GlProgram& ProgramCache::splatter(const ShaderVariant& variant) {
 void ProgramCache::clear() {
   tracers_.clear();
   splatters_.clear();
+  characters_ = 0;
 }
 
 ShaderSource shaderSource(const std::filesystem::path& folder) {

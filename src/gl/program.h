@@ -31,11 +31,16 @@ class ProgramCache {
   /// Adds light paths to a film through the pixel filter of the variant.
   const GlProgram& splatter(const ShaderVariant& variant);
   void clear();
+  size_t count() const { return tracers_.size() + splatters_.size(); }
+  size_t characters() const { return characters_; }  ///< of their texts
 
  private:
+  std::string textOf(const std::string& entry, const ShaderVariant& variant);
+
   ShaderSource source_;
   std::map<ShaderVariant, GlProgram> tracers_;
   std::map<PixelFilter, GlProgram> splatters_;
+  size_t characters_ = 0;
 };
 
 /// The source for this driver's compiler; needs a current context.

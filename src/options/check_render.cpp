@@ -84,6 +84,8 @@ void checkOutput(const RenderOptions& o, bool anyOutput) {
   const bool hasLayers = !out.aovs.empty() || !out.lightGroups.empty() || out.aovSamples || out.aovVariance;
   if (hasLayers && !anyOutput && formatOfName(out.file) != ImageFormat::OpenExr)
     throw UsageError("--aov: only .exr files hold more layers");
+  if (out.countWork && isAdaptive(o))
+    throw UsageError("--count-work: draws the samples of --spp, not those of --noise and --time");
   if (out.treeLevel && !out.file.empty() && !holdsDisplay(out.file))
     throw UsageError("--tree-level: boxes are drawn over a .png, .jpg or video only");
 }

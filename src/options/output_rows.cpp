@@ -219,6 +219,15 @@ std::vector<OptionRow> outputRows() {  // NOLINT(readability-function-size): a t
            "write statistics to this JSON file; '-' writes them to standard output, and nothing else goes "
            "there",
            FRAGTRACE_MEMBER(output.statsFile), kSaid, "FILE"),
+      flag("--count-work",
+           "count the work of the samples, into the file of --stats: rays by kind, steps through the tree, "
+           "what they test, evaluate and read; the same each time; times are left out, since counting takes "
+           "long",
+           FRAGTRACE_MEMBER(output.countWork),
+           {.effect = Effect::Method,
+            .renewal = Renewal::Program,
+            .copied = false,
+            .group = OptionGroup::Output}),
       flag("--quiet", "print errors only; benchmarks still print their tables",
            FRAGTRACE_MEMBER(output.quiet), quiet),
       flag("--verbose", "print the choices that the program makes, and times and sizes",

@@ -83,10 +83,18 @@ class TraversalText {
     for (const LiteralFace& face : mesh_.faces) test(face);
     const int exponent = size_ > 0.0 ? std::ilogb(size_) : 0;
     const std::string scale = "const float kLiteralScale = " + number(std::ldexp(1.0, -exponent)) + ";\n";
-    return scale + kHead + body_ + (weights_ ? kWeightsTail : "") + (whole ? kWholeTail : "") + kTail;
+    return scale + kHead + countText() + body_ + (weights_ ? kWeightsTail : "") + (whole ? kWholeTail : "") +
+           kTail;
   }
 
  private:
+  /// Counts the triangles that are tested.
+  std::string countText() const {
+    size_t triangles = 0;
+    for (const LiteralFace& face : mesh_.faces) triangles += face.quad ? 2 : 1;
+    return "  if (kCountWork) countWork(kWorkPrimitives, " + std::to_string(triangles) + "u);\n";
+  }
+
   static constexpr const char* kAxes[3] = {".x", ".y", ".z"};
 
   /// The axis along which most points share both other coordinates; their part of the projection is computed

@@ -8,6 +8,9 @@ namespace fragtrace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Counts of work take a plan that no time changes: so many samples of a pixel in a draw, at most.
+constexpr int kMostCountedSamples = 4;
+
 void Renderer::adaptPace(int samples) {
   int& most = pace_->mostSamplesPerDraw;
   most = overBudget_ ? std::max(1, samples / 2) : std::max(most, samples * 2);
@@ -16,10 +19,12 @@ void Renderer::adaptPace(int samples) {
 bool Renderer::addSamples(Film& film, const View& view, std::span<const Work> parts, RenderTimes& times,
                           const Progress& progress) {
   const double drawnBefore = drawnMs_;
+  const WorkCounts workBefore = work_;
   const auto start = Clock::now();
   const bool complete = addParts(film, view, parts, times, progress);
   times.renderMs += millisecondsBetween(start, Clock::now());
   times.drawMs += drawnMs_ - drawnBefore;
+  times.work = times.work + (work_ - workBefore);
   if (complete) progress(1.0);
   return complete;
 }
@@ -42,10 +47,11 @@ bool Renderer::addParts(Film& film, const View& view, std::span<const Work> part
       if (!trainGuiding(film, view, pass.from, times, stays)) return false;
       if (usesGuiding(variant) && !guides_ && film.pixelsPerPath() != kNoLightPaths) left = 1;
       const int mostPixels = software_ || variant.resumable ? kMaxTilePixels : kMaxGpuTilePixels;
-      const DrawPlan plan = variant.wavefront
-                                ? planWaves(part.size, software_ ? kWaveTile : kGpuWaveTile, pass.from, left)
-                                : planDraws(part.size, left, pace_->mostSamplesPerDraw, mostPixels,
-                                            pace_->msPerSample * part.busy, targetMs_);
+      const DrawPlan plan =
+          variant.wavefront    ? planWaves(part.size, software_ ? kWaveTile : kGpuWaveTile, pass.from, left)
+          : variant.countsWork ? planDraws(part.size, left, kMostCountedSamples, mostPixels, 0.0, targetMs_)
+                               : planDraws(part.size, left, pace_->mostSamplesPerDraw, mostPixels,
+                                           pace_->msPerSample * part.busy, targetMs_);
       pass.to = pass.from + plan.samples;
       const auto start = Clock::now();
 

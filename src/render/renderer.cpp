@@ -202,7 +202,31 @@ DrawTarget Renderer::begin(const RenderPass& pass) {
     glBindBufferBase(GL_UNIFORM_BUFFER, layout::kVolumeBinding, volumeBuffer_.name());
   }
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kProgressBinding, progressBuffer_.name());
+  if (pass.variant.countsWork) bindWork(pass.work);
   return target;
+}
+
+void Renderer::bindWork(std::span<const Work> tiles) {
+  int64_t room = std::max<int64_t>(workRoom_, 1);
+  for (const Work& tile : tiles) room = std::max(room, int64_t(tile.size.x) * tile.size.y);
+  if (room > workRoom_) {
+    workBuffer_ = makeBuffer();
+    workRoom_ = room;
+    const GLsizeiptr counts = (2 + room) * layout::kWorkCount;
+    glNamedBufferStorage(workBuffer_.name(), counts * GLsizeiptr(sizeof(uint32_t)), nullptr,
+                         GL_DYNAMIC_STORAGE_BIT);
+    checkGl("making room for counts of work");
+  }
+  glClearNamedBufferData(workBuffer_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kWorkBinding, workBuffer_.name());
+}
+
+void Renderer::collectWork() {
+  std::array<uint32_t, 2 * kWorkNames.size()> sums{};
+  glGetNamedBufferSubData(workBuffer_.name(), 0, sizeof sums, sums.data());
+  checkGl("reading counts of work");
+  for (size_t i = 0; i < work_.numbers.size(); ++i)
+    work_.numbers[i] += sums[2 * i] + (uint64_t(sums[2 * i + 1]) << 32u);
 }
 
 void Renderer::forgetPrograms() {
@@ -274,6 +298,7 @@ void Renderer::adaptBudget(double ms) {
 Renderer::Flight Renderer::submit(const ShaderVariant& variant, const Work& tile, bool goesOn) {
   Flight flight{tile, flights_++ % kMostInFlight, software_ ? GlQuery() : makeQuery(GL_TIME_ELAPSED), nullptr,
                 Clock::now()};
+  ++work_.draws;
   // Light paths and samples of lights have draws of their own.
   const bool camera = pace_ && &variant == &pace_->drawn;
   flight.timeKnown = !software_ && camera && !variant.wavefront && !variant.resumable;
@@ -336,7 +361,8 @@ bool Renderer::finishTile(const RenderPass& pass, Flight flight, const std::func
     pass.film.addCut((progress.cutHigh * 0x1p32 + progress.cutLow) / layout::kCutUnits);
     if (!goOn()) return false;
     if (progress.unfinished == 0) return true;
-    if (variant.wavefront) adaptBudget(millisecondsBetween(flight.start, Clock::now()));
+    if (variant.wavefront && !variant.countsWork)
+      adaptBudget(millisecondsBetween(flight.start, Clock::now()));
     if (progress.stuck > 0 && !variant.resumable) {
       variant.resumable = true;
       variant.wavefront = false;
@@ -371,6 +397,7 @@ bool Renderer::drawPass(const RenderPass& pass, const GoOn& goOn) {
     flights.push_back(submit(pass.variant, tile, false));
   }
   while (!flights.empty()) finish();
+  if (pass.variant.countsWork) collectWork();
   return goesOn;
 }
 

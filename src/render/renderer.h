@@ -23,6 +23,7 @@
 #include "scene/motion/camera_motion.h"
 #include "scene/volume/grid.h"
 #include "shader/render_options.h"
+#include "shader/work.h"
 
 namespace fragtrace {
 
@@ -82,6 +83,7 @@ struct RenderTimes {
   double guidingMs = 0.0;  ///< the part of renderMs that trains guiding
   double firstFrameMs = 0.0;
   std::vector<double> frameMs;
+  WorkCounts work;
 };
 
 /// Samples that one program adds to a film: camera paths, light paths, records of light, layers of first
@@ -156,6 +158,9 @@ class Renderer {
            usesGuiding(pace_->drawn);
   }
 
+  /// The programs that are built.
+  const ProgramCache& programs() const { return programs_; }
+
   /// The milliseconds that one sample of one pixel takes, as the latest work measured them; 0 if not yet
   /// known.
   double msPerSample() const { return pace_ ? pace_->msPerSample : 0.0; }
@@ -182,6 +187,10 @@ class Renderer {
   void uploadFrame(size_t from, size_t to);
   void useProgram(const RenderPass& pass);
   void bindPathStates(const ShaderVariant& variant);
+  /// Binds a buffer for the counts of work, with room for the samples of these tiles.
+  void bindWork(std::span<const Work> tiles);
+  /// Adds the counts of the draws so far.
+  void collectWork();
   /// Loop iterations that a lane may take in one draw.
   int stepBudget(const ShaderVariant& variant) const;
   /// Adapts the wavefront's budget to the time of a draw that used it up.
@@ -284,6 +293,9 @@ class Renderer {
   GlBuffer progressRead_;                             ///< copies of it, a slot a flight
   const layout::Progress* progressMapped_ = nullptr;  ///< the same; null where the driver maps none
   size_t flights_ = 0;
+  GlBuffer workBuffer_;   ///< counts of work (shaders/work/count.glsl)
+  int64_t workRoom_ = 0;  ///< pixels of a tile that fit into it
+  WorkCounts work_;       ///< of all draws
   GlBuffer pathStates_;
   GlTexture pathStateView_;  ///< the path states as an image
   int64_t pathStateRows_ = 0;

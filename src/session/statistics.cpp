@@ -80,6 +80,25 @@ void addLighting(nlohmann::ordered_json& json, const Statistics& s) {
   }
 }
 
+nlohmann::ordered_json workJson(const WorkCounts& work) {
+  nlohmann::ordered_json json;
+  for (size_t i = 0; i < kWorkNames.size(); ++i) json[std::string(kWorkNames[i])] = work.numbers[i];
+  return json;
+}
+
+/// Erases times and rates from an object, and from the objects in it.
+void dropTimes(nlohmann::ordered_json& json) {
+  for (auto row = json.begin(); row != json.end();) {
+    const std::string& name = row.key();
+    if (name == "phases" || name == "ms" || name.ends_with("_ms") || name.ends_with("_per_s")) {
+      row = json.erase(row);
+      continue;
+    }
+    if (row->is_object()) dropTimes(*row);
+    ++row;
+  }
+}
+
 }  // namespace
 
 double megaPathsPerSecond(const Statistics& s) {
@@ -129,6 +148,8 @@ std::string statisticsText(const Statistics& s) {
   json["mpaths_per_s"] = megaPathsPerSecond(s);
   json["mrays_per_s"] = s.times.renderMs > 0.0 ? double(s.film.rays) / s.times.renderMs / 1000.0 : 0.0;
   json["nonfinite_pixels"] = s.film.nonfinitePixels;
+  json["draws"] = s.times.work.draws;
+  if (s.countsWork) json["work"] = workJson(s.times.work);
   json["budget_hits"] = s.film.budgetHits;
   json["cut_share"] = cutShare(s);
   json["scene_bytes"] = s.sceneBytes;
@@ -136,6 +157,8 @@ std::string statisticsText(const Statistics& s) {
     json["gpu_bytes_per_triangle"] = double(s.geometryBytes) / double(s.scene.triangles);
   json["default_light"] = s.defaultLight;
   if (s.defaultLight) json["default_light_reason"] = s.defaultLightReason;
+  json["programs"] = s.programs;
+  json["shader_characters"] = s.shaderCharacters;
   json["variant"] = s.variant;
   json["quick_compilation"] = s.quickCompilation;
   json["schedule"] = s.scheduleReason.empty() ? "wavefront" : "megakernel";
@@ -150,6 +173,7 @@ std::string statisticsText(const Statistics& s) {
   json["clock_ms"] = s.clockMs;
   json["clock_cpu_ms"] = s.clockCpuMs;
   json["phases"] = phasesJson(s);
+  if (s.countsWork) dropTimes(json);
   return jsonText(json);
 }
 

@@ -78,6 +78,9 @@ struct Statistics {
   size_t casters = 0;           ///< groups of surfaces that they are aimed at; 0: none are traced
   bool complete = true;
   bool quickCompilation = false;  ///< the driver was told not to optimise
+  bool countsWork = false;        ///< the times, which counting makes longer, are left out
+  size_t programs = 0;            ///< programs of the tracer
+  size_t shaderCharacters = 0;    ///< characters of their text
   std::string variant;
   std::string scheduleReason = "not chosen yet";  ///< why the megakernel draws; empty: the wavefront does
   std::string readFallback;  ///< why buffers are not read the fastest way; empty when they are

@@ -227,6 +227,7 @@ void settleVariants(Tracer& tracer, const LoadedScene& loaded, const GpuScene& p
     aov.gpu = isForGpu(options.device.tune, context);
   }
   stats.variant = variantName(tracer.variant);
+  stats.countsWork = tracer.variant.countsWork;
 }
 
 /// Warns of pictures that could not be decoded, or refuses them.

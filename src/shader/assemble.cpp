@@ -28,7 +28,7 @@ std::string variableOf(std::string_view name) {
 }
 
 /// The function that reads a buffer, readNodes() and so on, for the kind of buffer that the variant names.
-std::string readOf(std::string_view name, BufferReads reads) {
+std::string readOf(std::string_view name, BufferReads reads, bool counts) {
   const bool two = name == "Texels";  // words
   const std::string type = two ? "uvec2" : "uvec4";
   const std::string variable = variableOf(name);
@@ -51,13 +51,15 @@ std::string readOf(std::string_view name, BufferReads reads) {
       value = variable + "[index]";
   }
   if (two && reads != BufferReads::Ssbo) value += ".xy";
-  return declared + ";\n" + type + " read" + std::string(name) + "(int index) { return " + value + "; }\n";
+  const std::string count = counts ? "countWork(kWorkRows + int(" + binding + "), 1u); " : "";
+  return declared + ";\n" + type + " read" + std::string(name) + "(int index) { " + count + "return " +
+         value + "; }\n";
 }
 
 /// The scene buffers and their functions.
-std::string readsText(BufferReads reads) {
+std::string readsText(const ShaderVariant& variant) {
   std::string text;
-  for (const std::string_view name : kSceneBuffers) text += readOf(name, reads);
+  for (const std::string_view name : kSceneBuffers) text += readOf(name, variant.reads, variant.countsWork);
   return text;
 }
 
@@ -106,9 +108,10 @@ struct Assembly {
     const int vectors = variant.stackSize / 4;
     const bool shared = variant.gpu && variant.dispatch == Dispatch::Compute;
     const auto fileText = [&](const char* file) { return shaderText(source, file, includedFrom); };
-    if (name == "read.glsl") return readsText(variant.reads);
+    if (name == "read.glsl") return readsText(variant);
     if (name == "frame.glsl")
       return fileText(variant.gpu ? "tune/frame_uniform.glsl" : "tune/frame_variable.glsl");
+    if (name == "work/count.glsl" && !variant.countsWork) return "";
     if (name == "shutter/camera.glsl" && !has(variant.traits, Trait::MovingCamera)) return "";
     if (name == "media/fog_block.glsl" && !has(variant.traits, Trait::Fog)) return "";
     if (name == "media/volume_block.glsl" && !has(variant.traits, Trait::DensityGrid)) return "";
@@ -147,6 +150,7 @@ void appendConstants(std::string& text, const ShaderVariant& variant) {
   }
   for (const TraitRow& row : traitRows()) constant(row.constant, has(variant.traits, row.trait));
   constant("kCountVisits", variant.countsVisits);
+  constant("kCountWork", variant.countsWork);
   constant("kWeights", keepsWeights(variant));
   constant("kGlassTables", usesGlassTables(variant));
   constant("kPassing", passesSurfaces(variant));

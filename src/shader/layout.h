@@ -16,6 +16,7 @@ using glm::vec3;
 using glm::vec4;
 
 #include "layout.glsl"
+#include "work/kinds.glsl"
 
 static_assert(sizeof(Frame) == 19 * 16);
 static_assert(offsetof(Frame, gridOrigin) == 4 * 16);

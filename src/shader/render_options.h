@@ -212,8 +212,9 @@ struct OutputOptions {
   bool toStandardOutput = false;  ///< the picture; `file` then tells its format and what messages call it
   bool aovSamples = false;
   bool aovVariance = false;
-  bool dither = true;   ///< display values before they are rounded to 8 bits
-  bool resume = false;  ///< go on from the checkpoint beside the output
+  bool dither = true;      ///< display values before they are rounded to 8 bits
+  bool resume = false;     ///< go on from the checkpoint beside the output
+  bool countWork = false;  ///< the work of samples (shader/work.h)
   bool quiet = false;
   bool verbose = false;
 

@@ -235,6 +235,7 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   if (options.light.shadowCatcher) v.traits.reset(size_t(Trait::DensityGrid));
   if (options.light.caustics == Caustics::Off || !whyNoLightPaths(options, present).empty())
     v.traits.reset(size_t(Trait::Caustics));
+  v.countsWork = options.output.countWork;
   v.countsVisits = options.output.debugView == DebugView::Visits;
   dropStages(v.stages, v.countsVisits);
   dropTraits(v.stages, v.countsVisits, surroundings, v.traits);
@@ -398,6 +399,7 @@ std::string variantName(const ShaderVariant& variant) {
   if (variant.aov != Aov::None) append(std::string(rowOf(variant.aov).name));
   if (variant.cameraRays > 1) append(std::to_string(variant.cameraRays) + "-camera-rays");
   if (variant.countsVisits) append(std::string(rowOf(DebugView::Visits).name));
+  if (variant.countsWork) append("count-work");
   if (variant.uniformLights) append("uniform-lights");
   if (variant.lightCandidates) append("light-candidates");
   if (variant.storesReservoirs) append("reservoirs");

@@ -24,6 +24,7 @@ struct ShaderVariant {
   Aov aov = Aov::None;            ///< drawn in place of radiance
   int cameraRays = 1;             ///< per sample; the last alone goes on where it scatters (path.glsl)
   bool countsVisits = false;      ///< the nodes that camera rays visit are, too
+  bool countsWork = false;        ///< the work of samples is, too (shaders/work/count.glsl)
   bool uniformLights = false;     ///< the light tree chooses all lights alike
   bool lightCandidates = false;   ///< a light sample is one of several (shaders/reuse/candidates.glsl)
   bool storesReservoirs = false;  ///< light samples of first hits are kept (shaders/reuse/neighbours.glsl)

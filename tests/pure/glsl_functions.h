@@ -41,6 +41,8 @@ inline void umulExtended(uint a, uint b, uint& high, uint& low) {
   low = uint(product);
 }
 
+inline void countWork(int, uint) {}
+
 inline uvec4 readNodes(int index) { return glsl_variant::rowOf(glsl_variant::nodes, index); }
 inline uvec4 readLeaves(int index) { return glsl_variant::rowOf(glsl_variant::leaves, index); }
 inline uvec4 readFaces(int index) { return glsl_variant::rowOf(glsl_variant::faces, index); }

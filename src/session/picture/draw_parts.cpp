@@ -304,7 +304,8 @@ DrawnLayer drawnLayer(const LayerTask& task, const PictureJob& job, const Drawin
     });
     stats.complete = stats.complete && own.complete;
     stats.compileMs += own.compileMs;
-    stats.featureMs += own.drawMs;
+    stats.featureMs += own.times.renderMs;
+    stats.times.work = stats.times.work + own.times.work;
     add(layer.totals, own.totals, p == 0);
     addPart(layer.image, std::move(own.image), part, job.loaded.region);
   }

@@ -69,11 +69,9 @@ double useOrCompile(Renderer& renderer, const ShaderVariant& variant, Film& film
 LayerDraw drawLayer(glm::ivec2 size, Renderer& renderer, const ShaderVariant& variant, const View& view,
                     int samples, const Renderer::Progress& progress) {
   LayerDraw layer;
-  RenderTimes times;
   Film film(size);
   layer.compileMs = useOrCompile(renderer, variant, film, view);
-  layer.complete = renderer.addSamples(film, view, 0, samples, times, progress);
-  layer.drawMs = times.renderMs;
+  layer.complete = renderer.addSamples(film, view, 0, samples, layer.times, progress);
   if (variant.aov == Aov::Guides) {
     Film::Guides guides = film.readGuides();
     layer.totals = totalsOf(guides.counts);

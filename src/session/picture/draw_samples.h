@@ -49,7 +49,7 @@ struct LayerDraw {
   Image image;  ///< its channels have the names that they have in a file
   bool complete = true;
   double compileMs = 0.0;
-  double drawMs = 0.0;
+  RenderTimes times;
   FilmTotals totals;
 };
 

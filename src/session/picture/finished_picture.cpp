@@ -166,6 +166,8 @@ bool finishPicture(Image& picture, const PictureJob& job, const DrawingPlan& pla
   RenderOptions options = job.options;
   if (!isUniform(stats)) options.output.aovSamples = true;  // merge needs them
   addAovs(picture, {options, job.loaded, job.tracer, job.showsProgress, job.told}, plan, stats);
+  stats.programs = job.tracer.renderer->programs().count();
+  stats.shaderCharacters = job.tracer.renderer->programs().characters();
   denoise(picture, options, device.oidn, stats);
   sayDriverLog(options, device);
   if (interrupts() > most) return false;

@@ -56,14 +56,13 @@ LayerDraw drawMattes(glm::ivec2 size, Renderer& renderer, const ShaderVariant& v
                      int samples, const Scene& scene, const Renderer::Progress& progress) {
   const std::map<uint32_t, uint32_t> ids = idsOf(variant.aov, scene);
   LayerDraw layer;
-  RenderTimes times;
   Film film(size);
   layer.compileMs = useOrCompile(renderer, variant, film, view);
   std::vector<std::vector<MatteShare>> shares(size_t(size.x) * size_t(size.y));
   std::vector<double> before(shares.size(), 0.0);
   FilmPixels pixels;
   for (int i = 0; i < samples && layer.complete; ++i) {
-    layer.complete = renderer.addSamples(film, view, i, i + 1, times,
+    layer.complete = renderer.addSamples(film, view, i, i + 1, layer.times,
                                          [&](double fraction) { return progress((i + fraction) / samples); });
     pixels = {};
     pixels = film.read();
@@ -74,7 +73,6 @@ LayerDraw drawMattes(glm::ivec2 size, Renderer& renderer, const ShaderVariant& v
       if (const auto id = ids.find(number); id != ids.end()) count(shares[p], id->second);
     }
   }
-  layer.drawMs = times.renderMs;
   layer.totals = totalsOf(pixels);
   layer.image = {size.x, size.y, matteChannels(matteLayer(variant.aov)), {}, {}};
   layer.image.values.reserve(shares.size() * 2 * kMatteRanks);

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Counts the work of samples (--count-work); other programs are without this text. A lane counts into variables of its
+// own. The counts of a sample reach the sums when it is complete, so that one that begins again counts once. Where it
+// waits, they are kept by its pixel in the tile.
+#include "work/kinds.glsl"
+
+layout(std430, binding = kWorkBinding) restrict buffer WorkBlock {
+  uint workSums[2 * kWorkCount];  // 64 bits each, the lower half first
+  uint workKept[];                // kWorkCount for each pixel of the tile
+};
+
+uint work[kWorkCount];  // indexed by constants alone, so that compilers keep it in registers
+
+void countWork(int kind, uint number) { work[kind] += number; }
+
+void forgetWork() {
+  for (int i = 0; i < kWorkCount; ++i) work[i] = 0u;
+}
+
+uint workOf(int kind) {
+  uint number = 0u;
+  for (int i = 0; i < kWorkCount; ++i) number = i == kind ? work[i] : number;
+  return number;
+}
+
+/// The number of kinds, unknown to compilers: they are to keep the loops. llvmpipe takes seconds for them otherwise.
+int kindsOfWork() { return min(kWorkCount, workKept.length()); }
+
+/// The sample of a pixel begins.
+void beginWork(int pixel) {
+  forgetWork();
+  for (int i = 0; i < kindsOfWork(); ++i) workKept[pixel * kWorkCount + i] = 0u;
+}
+
+/// The sample of a pixel waits.
+void keepWork(int pixel) {
+  for (int i = 0; i < kindsOfWork(); ++i) workKept[pixel * kWorkCount + i] += workOf(i);
+  forgetWork();
+}
+
+/// The sample of a pixel is complete.
+void endWork(int pixel) {
+  for (int i = 0; i < kindsOfWork(); ++i) {
+    uint number = workKept[pixel * kWorkCount + i] + workOf(i);
+    uint before = atomicAdd(workSums[2 * i], number);
+    if (before + number < before) atomicAdd(workSums[2 * i + 1], 1u);
+  }
+  forgetWork();
+}
