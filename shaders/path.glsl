@@ -97,13 +97,17 @@ Path goPast(Path p) {
   return kMedia ? limitFlight(p, p.hitT) : p;
 }
 
-/// Goes on with the path's ray.
-Path extend(Path p) {
+/// Starts a traversal of the path's ray up to a limit.
+Path extendTo(Path p, float limit) {
   p.phase = kPhaseExtend;
   p.lightSampleIndex = 0;
-  p = traceAnew(p, kFarAway);
-  if (kMedia) p = limitFlight(p, 0.0);
-  return asExtension(p);
+  return asExtension(traceAnew(p, limit));
+}
+
+/// Goes on with the path's ray.
+Path extend(Path p) {
+  p = extendTo(p, kFarAway);
+  return kMedia ? limitFlight(p, 0.0) : p;
 }
 
 /// The place of a pixel of the film in the picture; y from the bottom.

@@ -209,7 +209,8 @@ Path advance(Path p, int budget, TreeFrame tree) {
   bool isShadow = kGpu && kShadows && p.phase == kPhaseShadow;
   // Only light paths may have ended before their first ray.
   if ((kWholeRays && !kLightPaths) || p.phase == kPhaseExtend || isShadow) {
-    if (kWholeRays && !isShadow) p = extend(p);
+    // The flight, which limits the ray, is drawn already: a walk through a grid takes long.
+    if (kWholeRays && !isShadow) p = extendTo(p, kMedia ? p.traversal.t : kFarAway);
     if (kGpu && kWholeRays && isShadow) p = traceAnew(p, p.shadowLimit);
     p.traversal = traverse(isShadow ? p.shadowOrigin : p.origin, isShadow ? p.shadowDirection : p.direction,
                            isShadow ? p.shadowLimit : kFarAway, p.traversal, tree, budget, isShadow && !kPassing);
