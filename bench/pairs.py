@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: MIT
 """Tells whether a program draws scenes slower than an older one: CPU seconds of whole renders, in turn, with intervals.
 
-usage: pairs.py BEFORE NOW SCENE... [--hdri-file FILE] [--pairs N] [--resolution W,H] [--spp N] [--jobs N] [--json FILE] [--options "..."]
+usage: pairs.py BEFORE NOW [SCENE...] [--hdri-file FILE] [--pairs N] [--resolution W,H] [--spp N] [--jobs N] [--json FILE] [--options "..."]
 Each pair is one render by either program, start and compilation included. The table says now / before as the mean of the paired ratios (of their
 logarithms) and its 95 % interval by Student's t. Slower means that the interval lies above 1.02; then the status is 1. A job is a scene, kept on a processor
-of its own.
+of its own. Without scenes, it draws the ten settings of settings.py.
 """
 import argparse
 import concurrent.futures
@@ -20,6 +20,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+from settings import SCENES, SETTINGS
+
 LEVEL = 1.02
 STUDENT = {2: 12.71, 3: 4.303, 4: 3.182, 5: 2.776, 6: 2.571, 7: 2.447, 8: 2.365, 9: 2.306, 10: 2.262, 11: 2.228, 12: 2.201}
 
@@ -28,7 +30,7 @@ def arguments():
     parser = argparse.ArgumentParser(description="now / before, CPU seconds of renders in turn")
     parser.add_argument("before", type=Path, help="an older fragtrace")
     parser.add_argument("now", type=Path, help="build/fragtrace")
-    parser.add_argument("scenes", type=Path, nargs="+")
+    parser.add_argument("scenes", type=Path, nargs="*", help="by default the ten settings of settings.py")
     parser.add_argument("--hdri-file", type=Path, help="an environment round all of them")
     parser.add_argument("--pairs", type=int, default=12, help="2 to 12 (default: 12)")
     parser.add_argument("--resolution", default="256,256")
@@ -42,12 +44,15 @@ def arguments():
             parser.error(f"no file {path}")
     if options.pairs not in STUDENT:
         parser.error("--pairs: 2 to 12")
+    given = {str(path): (path, ()) for path in options.scenes}
+    options.settings = given or {name: (SCENES / f"{scene}.gltf", own) for name, (scene, own) in SETTINGS.items()}
     return options
 
 
-def cpu_seconds(program, scene, options, processor, folder):
+def cpu_seconds(program, setting, options, processor, folder):
     """Returns the CPU seconds of the process and of those that it waits for."""
-    command = [program.resolve(), "render", scene, "--resolution", options.resolution, "--spp", options.spp, "--quiet",
+    scene, own = setting
+    command = [program.resolve(), "render", scene, *own, "--resolution", options.resolution, "--spp", options.spp, "--quiet",
                "-o", folder / f"{processor}.pfm", *shlex.split(options.options)]
     command += ["--hdri-file", options.hdri_file] if options.hdri_file else []
     process = subprocess.Popen(command, env={**os.environ, "MESA_SHADER_CACHE_DISABLE": "true"},
@@ -72,22 +77,22 @@ def main():
     for processor in sorted(os.sched_getaffinity(0))[:options.jobs]:
         processors.put(processor)
     found, slower = {}, []
-    with tempfile.TemporaryDirectory() as name:
-        def pairs(scene):
+    with tempfile.TemporaryDirectory() as folder:
+        def pairs(setting):
             processor = processors.get()
             try:
-                return [[cpu_seconds(program, scene, options, processor, Path(name)) for program in (options.before, options.now)]
+                return [[cpu_seconds(program, setting, options, processor, Path(folder)) for program in (options.before, options.now)]
                         for _ in range(options.pairs)]
             finally:
                 processors.put(processor)
 
         print("| scene | now / before | 95 % | before, CPU s | |\n| --- | --- | --- | --- | --- |", flush=True)
         with concurrent.futures.ThreadPoolExecutor(processors.qsize()) as pool:
-            for scene, seconds in zip(options.scenes, pool.map(pairs, options.scenes)):
+            for name, seconds in zip(options.settings, pool.map(pairs, options.settings.values())):
                 middle, low, high = interval([now / before for before, now in seconds])
-                found[str(scene)] = seconds
-                slower += [scene.stem] if low > LEVEL else []
-                print(f"| {scene.stem} | {middle:.3f} | {low:.3f} to {high:.3f} | {statistics.median(before for before, _ in seconds):.2f} | "
+                found[name] = seconds
+                slower += [Path(name).stem] if low > LEVEL else []
+                print(f"| {Path(name).stem} | {middle:.3f} | {low:.3f} to {high:.3f} | {statistics.median(before for before, _ in seconds):.2f} | "
                       f"{'SLOWER' if low > LEVEL else 'not slower' if high <= LEVEL else 'not told'} |", flush=True)
     if options.json:
         options.json.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
