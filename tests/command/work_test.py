@@ -29,7 +29,7 @@ PICTURES = {
     "wavefront": ("room-ball", ["--schedule", "wavefront"]),
     "literals": ("cornell-box", ["--traversal", "literals"]),
     "many-lights": ("many-lights", [*TREE, *MEGAKERNEL]),
-    "light-reuse": ("many-lights", [*TREE, "--light-reuse", "spatial"]),
+    "ball": ("room-ball", MEGAKERNEL),
     "alpha": ("coverage", [*TREE, *MEGAKERNEL]),
     "one-alpha": ("one-alpha", MEGAKERNEL),
     "volume": ("smoke", MEGAKERNEL),
@@ -127,12 +127,12 @@ class WorkOfSchedules(Case):
 
 class Counting(Case):
     def test_two_runs_write_the_same_file(self):
-        twice = [(counted(self.folder, "light-reuse"), (self.folder / "work.json").read_bytes())[1] for _ in range(2)]
+        twice = [(counted(self.folder, "ball"), (self.folder / "work.json").read_bytes())[1] for _ in range(2)]
         self.assertEqual(*twice)
 
     def test_the_picture_is_the_same(self):
-        scene, options = PICTURES["light-reuse"]
-        counted(self.folder, "light-reuse")
+        scene, options = PICTURES["ball"]
+        counted(self.folder, "ball")
         self.renders(SCENES / f"{scene}.gltf", "-o", self.folder / "y.pfm", "--quiet", *SIZE, *options)
         self.assertEqual((self.folder / "x.pfm").read_bytes(), (self.folder / "y.pfm").read_bytes())
 
