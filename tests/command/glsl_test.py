@@ -17,12 +17,12 @@ from shader_texts import FILE_ENDINGS, captured  # noqa: E402
 
 @unittest.skipUnless(shutil.which("glslangValidator"), "glslangValidator is not installed")
 class GlslangValidator(Case):
-    def texts_of(self, reference, schedule):
+    def texts_of(self, reference, *options):
         """Returns kind and text of each shader of a reference's picture."""
         folder = self.folder / "captured"
         folder.mkdir()
         subprocess.run([FRAGTRACE, "render", SCENES / (reference["scene"] + ".gltf"), "--stage", reference["stage"], *reference["options"], "--quiet",
-                        "--resolution", "8,8", "--spp", "1", "--schedule", schedule, "-o", self.folder / "x.pfm"], check=True, cwd=SCENES.parent,
+                        "--resolution", "8,8", "--spp", "1", *options, "-o", self.folder / "x.pfm"], check=True, cwd=SCENES.parent,
                        env={**os.environ, "MESA_SHADER_CAPTURE_PATH": str(folder)})
         texts = captured(folder)
         shutil.rmtree(folder)
@@ -32,10 +32,11 @@ class GlslangValidator(Case):
         texts = set()
         for reference in json.loads(REFERENCES.read_text())["references"]:
             for schedule in ("megakernel", "wavefront"):
-                found = self.texts_of(reference, schedule)
+                found = self.texts_of(reference, "--schedule", schedule)
                 self.assertTrue(found, reference["name"])
                 texts |= found
         self.assertGreater(len(texts), 50)
+        texts |= self.texts_of({"scene": "room-ball", "stage": "gi", "options": ["--count-work", "--stats", self.folder / "s"]}, "--schedule", "wavefront")
         for kind, text in texts:
             file = self.folder / ("text." + FILE_ENDINGS[kind])
             file.write_text(text)
