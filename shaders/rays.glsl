@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Traversal alone: one ray per pixel comes from a buffer, and its hit goes into another.
+// Traversal alone: one ray per pixel, or lane, comes from a buffer, and its hit goes into another.
 #include "layout.glsl"
 layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frame; };
 #include "read.glsl"

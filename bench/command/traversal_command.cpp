@@ -11,6 +11,7 @@
 #include "bench/command/configurations.h"
 #include "bench/command/results.h"
 #include "bench/report/traversal_report.h"
+#include "gl/driver_choice.h"
 #include "image/files/whole_file.h"
 #include "options/numbers.h"
 #include "pack/literals.h"
@@ -48,6 +49,8 @@ void declareTraversal(CLI::App& app, TraversalOptions& o) {
   addJsonOption(app, o.files, "write all measurements to this file, one JSON line per kind of ray");
   app.add_option("--rays", o.rays, "write triangles and rays to this file, for another tracer (bench/peers)")
       ->type_name("FILE");
+  addOption(app, "--dispatch", o.raw);
+  addOption(app, "--tune", o.raw);
   addDeviceOptions(app, o.raw);
 }
 
@@ -157,6 +160,12 @@ std::vector<Json> measure(const TraversalOptions& options, const Context& contex
                                         Surroundings::None, loaded.bvh.depth, BufferReads::Auto);
   if (loaded.bvh.besideTree > 0) variant.literals = largeFirst(scene, loaded.bvh, variant);
   GpuScene packed = packScene(scene, loaded.bvh, {}, variant);
+  // Only a part of a data-centre GPU rasterises.
+  const Dispatch wanted = options.render.device.dispatch;
+  variant.dispatch = wanted != Dispatch::Auto ? wanted
+                     : context.software       ? Dispatch::Fragment
+                                              : Dispatch::Compute;
+  variant.gpu = isForGpu(options.render.device.tune, context);
   variant.reads =
       chooseReads(options.render.device.bufferReads, context.software, packed, readLimits()).reads;
 

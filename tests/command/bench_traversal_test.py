@@ -54,6 +54,12 @@ class BenchTraversal(Bench):
         self.assertEqual(diffuse["rays"], primary["hits"])
         self.assertIn("bvh", primary["variant"])
 
+    def test_compute_traces_them_as_on_a_gpu(self):
+        for kind in self.lines("traversal", ROOM, *RAYS, "--dispatch", "compute", "--tune", "gpu")[1]:
+            self.assertIn("+compute+gpu", kind["variant"])
+            self.assertLessEqual(kind["wrong"], 2)
+            self.assertGreater(kind["hits"], 0)
+
     def test_rays_are_written_for_others(self):
         path = self.folder / "rays"
         _, rows = self.lines("traversal", ROOM, *RAYS, "--rays", path)

@@ -26,12 +26,17 @@ TEST_P(RayCasting, FindsWhatDoublePrecisionFinds) {
   const std::vector<Ray> shadow = shadowRays(tracer, scene, primary, hits, 1);
   primary[0] = Ray{};  // none
   for (const BufferReads reads : {BufferReads::Image, BufferReads::Ssbo, BufferReads::Texel}) {
-    for (const TraversalMethod method : {TraversalMethod::Bvh, TraversalMethod::FrontToBack}) {
+    for (const auto& [method, dispatch, gpu] :
+         {std::tuple(TraversalMethod::Bvh, Dispatch::Fragment, false),
+          std::tuple(TraversalMethod::FrontToBack, Dispatch::Fragment, false),
+          std::tuple(TraversalMethod::FrontToBack, Dispatch::Compute, true)}) {
       RenderOptions options;
       options.stages = stagesUpTo(Stage::Flat);
       options.device.traversal = method;
-      const ShaderVariant variant =
+      ShaderVariant variant =
           chooseVariant(options, traitsOf(scene, Surroundings::None), Surroundings::None, bvh.depth, reads);
+      variant.dispatch = dispatch;
+      variant.gpu = gpu;
       RayCaster caster(context(), packScene(scene, bvh, {}, variant), variant, size);
       EXPECT_STREQ(caster.clockName(), "wall clock");
       const auto found = [&](const std::vector<Ray>& rays, bool anyHit) {

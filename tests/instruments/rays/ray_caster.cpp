@@ -39,10 +39,14 @@ GlBuffer makeFrameBuffer(const layout::Frame& frame) {
   return buffer;
 }
 
-GlProgram buildEntry(const std::filesystem::path& folder, const char* entry, const ShaderVariant& variant) {
+/// The program that finds the nearest hits, or any.
+GlProgram buildEntry(const std::filesystem::path& folder, bool anyHit, const ShaderVariant& variant) {
   const ShaderSource source = shaderSource(folder);
+  const std::string entry = anyHit ? "entry/rays_any" : "entry/rays_nearest";
+  if (variant.dispatch == Dispatch::Compute)
+    return buildComputeProgram(assembleShader(source, entry + ".comp", variant));
   return buildProgram(assembleShader(source, "entry/fullscreen.vert", variant),
-                      assembleShader(source, entry, variant));
+                      assembleShader(source, entry + ".frag", variant));
 }
 
 }  // namespace
@@ -77,8 +81,7 @@ RayCaster::RayCaster(const Context& context, GpuScene scene, const ShaderVariant
 
 const GlProgram& RayCaster::program(bool anyHit) {
   std::optional<GlProgram>& program = programs_[anyHit ? 1 : 0];
-  if (!program)
-    program = buildEntry(shaderFolder_, anyHit ? "entry/rays_any.frag" : "entry/rays_nearest.frag", variant_);
+  if (!program) program = buildEntry(shaderFolder_, anyHit, variant_);
   return *program;
 }
 
@@ -95,7 +98,10 @@ double RayCaster::trace(const RaySet& rays, bool anyHit) {
 
   const auto start = std::chrono::steady_clock::now();
   if (!software_) glBeginQuery(GL_TIME_ELAPSED, timer_.name());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  if (variant_.dispatch == Dispatch::Compute)
+    glDispatchCompute(GLuint(size_.x + 7) / 8u, GLuint(size_.y + 7) / 8u, 1);
+  else
+    glDrawArrays(GL_TRIANGLES, 0, 3);
   if (!software_) glEndQuery(GL_TIME_ELAPSED);
   glFinish();
   const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;

@@ -37,8 +37,9 @@ class RayCaster {
     GlBuffer buffer_;
   };
 
-  /// Traces a set, one ray per pixel. anyHit: any hit ends a ray; otherwise the nearest one is found. Returns
-  /// milliseconds, by the wall clock around glFinish on software, by the device's own timer elsewhere.
+  /// Traces a set, one ray per pixel, or per lane where the variant dispatches compute. anyHit: any hit ends
+  /// a ray; otherwise the nearest one is found. Returns milliseconds, by the wall clock around glFinish on
+  /// software, by the device's own timer elsewhere.
   double trace(const RaySet& rays, bool anyHit);
 
   /// The hits of the latest trace. Throws RenderError when a ray took more steps than one draw allows.
