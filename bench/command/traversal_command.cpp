@@ -149,6 +149,12 @@ void writeRays(const std::filesystem::path& path, const Scene& scene, const std:
   replaceFile(path, bytes);
 }
 
+/// Chooses compute on GPUs: only a part of a data-centre GPU rasterises.
+Dispatch dispatchOf(const DeviceOptions& device, const Context& context) {
+  if (device.dispatch != Dispatch::Auto) return device.dispatch;
+  return context.software ? Dispatch::Fragment : Dispatch::Compute;
+}
+
 std::vector<Json> measure(const TraversalOptions& options, const Context& context) {
   Statistics stats;
   LoadedScene loaded = loadScene(options.render, stats);
@@ -160,11 +166,7 @@ std::vector<Json> measure(const TraversalOptions& options, const Context& contex
                                         Surroundings::None, loaded.bvh.depth, BufferReads::Auto);
   if (loaded.bvh.besideTree > 0) variant.literals = largeFirst(scene, loaded.bvh, variant);
   GpuScene packed = packScene(scene, loaded.bvh, {}, variant);
-  // Only a part of a data-centre GPU rasterises.
-  const Dispatch wanted = options.render.device.dispatch;
-  variant.dispatch = wanted != Dispatch::Auto ? wanted
-                     : context.software       ? Dispatch::Fragment
-                                              : Dispatch::Compute;
+  variant.dispatch = dispatchOf(options.render.device, context);
   variant.gpu = isForGpu(options.render.device.tune, context);
   variant.reads =
       chooseReads(options.render.device.bufferReads, context.software, packed, readLimits()).reads;

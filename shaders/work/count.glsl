@@ -23,7 +23,8 @@ uint workOf(int kind) {
   return number;
 }
 
-/// The number of kinds, unknown to compilers: they are to keep the loops. llvmpipe takes seconds for them otherwise.
+/// Returns the number of kinds in a form that compilers do not know, so that they keep the loops. llvmpipe takes
+/// seconds to compile them otherwise.
 int kindsOfWork() { return min(kWorkCount, workKept.length()); }
 
 /// The sample of a pixel begins.

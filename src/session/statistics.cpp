@@ -80,10 +80,17 @@ void addLighting(nlohmann::ordered_json& json, const Statistics& s) {
   }
 }
 
-nlohmann::ordered_json workJson(const WorkCounts& work) {
-  nlohmann::ordered_json json;
-  for (size_t i = 0; i < kWorkNames.size(); ++i) json[std::string(kWorkNames[i])] = work.numbers[i];
-  return json;
+/// Appends numbers of rays and draws, and what was counted of the work.
+void addWork(nlohmann::ordered_json& json, const Statistics& s) {
+  json["rays"] = s.film.rays;
+  json["mpaths_per_s"] = megaPathsPerSecond(s);
+  json["mrays_per_s"] = s.times.renderMs > 0.0 ? double(s.film.rays) / s.times.renderMs / 1000.0 : 0.0;
+  json["draws"] = s.times.work.draws;
+  json["programs"] = s.programs;
+  json["shader_characters"] = s.shaderCharacters;
+  if (!s.countsWork) return;
+  for (size_t i = 0; i < kWorkNames.size(); ++i)
+    json["work"][std::string(kWorkNames[i])] = s.times.work.numbers[i];
 }
 
 /// Erases times and rates from an object, and from the objects in it.
@@ -144,12 +151,8 @@ std::string statisticsText(const Statistics& s) {
   if (s.region) json["region"] = {s.region->corner.x, s.region->corner.y, s.region->size.x, s.region->size.y};
   if (s.parts > 1) json["parts"] = s.parts;
   json["complete"] = s.complete;
-  json["rays"] = s.film.rays;
-  json["mpaths_per_s"] = megaPathsPerSecond(s);
-  json["mrays_per_s"] = s.times.renderMs > 0.0 ? double(s.film.rays) / s.times.renderMs / 1000.0 : 0.0;
+  addWork(json, s);
   json["nonfinite_pixels"] = s.film.nonfinitePixels;
-  json["draws"] = s.times.work.draws;
-  if (s.countsWork) json["work"] = workJson(s.times.work);
   json["budget_hits"] = s.film.budgetHits;
   json["cut_share"] = cutShare(s);
   json["scene_bytes"] = s.sceneBytes;
@@ -157,8 +160,6 @@ std::string statisticsText(const Statistics& s) {
     json["gpu_bytes_per_triangle"] = double(s.geometryBytes) / double(s.scene.triangles);
   json["default_light"] = s.defaultLight;
   if (s.defaultLight) json["default_light_reason"] = s.defaultLightReason;
-  json["programs"] = s.programs;
-  json["shader_characters"] = s.shaderCharacters;
   json["variant"] = s.variant;
   json["quick_compilation"] = s.quickCompilation;
   json["schedule"] = s.scheduleReason.empty() ? "wavefront" : "megakernel";
