@@ -18,8 +18,9 @@ float fresnelDielectric(float cosine, float eta) {
   float squared = refractedSquared(cosine, eta);
   if (squared < 0.0f) return 1.0f;
   float refracted = sqrt(squared);
-  // Both are zero in the plane of a boundary between equal indices, which reflects nothing.
-  const float tiny = float(1e-30);
+  // Both are zero in the plane of a boundary between equal indices, which reflects nothing. Below 1e-19, drivers flush
+  // the square of the cosine to zero.
+  const float tiny = float(1e-15);
   float parallel = (eta * eta * cosine - refracted) / max(eta * eta * cosine + refracted, tiny);
   float perpendicular = (cosine - refracted) / max(cosine + refracted, tiny);
   return 0.5f * (parallel * parallel + perpendicular * perpendicular);
