@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The shader's pure files compiled as C++, twice: glsl_float is what the GPU runs, glsl_double the same
-// algorithm in double precision, the oracle.
+// algorithm in double precision, the oracle. tests/gpu_arithmetic compiles them once more, with a GPU's
+// liberties.
 #pragma once
 
 #include <bit>
@@ -86,7 +87,9 @@ class With {
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 
+#ifndef FRAGTRACE_GPU_ARITHMETIC  // whose copies of shaders have none
 #define precise
+#endif
 
 namespace fragtrace::glsl_float {
 namespace {
