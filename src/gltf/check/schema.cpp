@@ -195,9 +195,12 @@ constexpr Rule kTextureInfoRules[] = {
 /// The members of both extensions in buffer views, after their names.
 constexpr Rule kMeshoptRules[] = {
     {"/buffer!", Kind::Index, "/buffers"},
-    {"/byteOffset", Kind::Size},  {"/byteLength!", Kind::Size},
-    {"/byteStride!", Kind::Size}, {"/count!", Kind::Size},
-    {"/mode!", Kind::Text},       {"/filter", Kind::Text},
+    {"/byteOffset", Kind::Size},
+    {"/byteLength!", Kind::Size},
+    {"/byteStride!", Kind::Size},
+    {"/count!", Kind::Size},
+    {"/mode!", Kind::Text},
+    {"/filter", Kind::Text},
 };
 
 /// kRules, and the rules of extensions and of all uses of textures.
