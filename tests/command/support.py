@@ -132,6 +132,15 @@ class Case(unittest.TestCase):
         self.assertLess(error, known or self.KNOWN, what)
         return error
 
+    def assert_same_light(self, picture, wanted, what, known=0.005):
+        """Holds the mean of a picture's pixels against that of others, of another seed or exact. Each pixel draws its own random numbers, so that their
+        differences tell the standard error; the means lie within 4.5 of them (chance: 1e-5). known: its largest, as a part."""
+        whole, apart = math.fsum(wanted), [a - b for a, b in zip(picture, wanted, strict=True)]
+        ratio, error = math.fsum(apart) / whole, math.sqrt(math.fsum(d * d for d in apart)) / whole
+        print(f"{what}: {ratio:+.4%}, standard error {error:.4%}")
+        self.assertLess(abs(ratio), 4.5 * error, what)
+        self.assertLess(error, known, what)
+
     def renders(self, *arguments, **options):
         result = run("render", *arguments, **options)
         self.assertEqual(result.returncode, 0, result.stderr)
