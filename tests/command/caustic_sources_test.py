@@ -3,8 +3,6 @@
 """--caustics: lamps with alpha, and surfaces between a lamp and what makes its caustic; scenes without light paths. Light paths
 bring what camera paths do, as caustics_test.py says."""
 import json
-import math
-import statistics
 
 import caustics_test
 import glossy_caustics_test
@@ -16,7 +14,7 @@ ALPHA = 0.25
 
 class CausticSources(caustics_test.Case):
     scene = caustics_test.Caustics.scene
-    seen = caustics_test.Caustics.seen
+    luminances, seen = caustics_test.Caustics.luminances, caustics_test.Caustics.seen
     assert_alike = caustics_test.Caustics.assert_alike
 
     def lamp(self, like, rotation, **more):
@@ -30,23 +28,19 @@ class CausticSources(caustics_test.Case):
         mirror = caustics_test.Caustics.above(0.9, 1.0)
         for what, like, turn, things in (("caustic", UP, [0, 0, 0, 1], [mirror]), ("light sample", caustics_test.LAMP, OVER, [])):
             seen = {}
-            for mode, more in (("OPAQUE", {}), ("BLEND", {}), ("MASK", {"alphaCutoff": 0.5})):
+            for seed, (mode, more) in enumerate((("OPAQUE", {}), ("BLEND", {}), ("MASK", {"alphaCutoff": 0.5}))):
                 scene = self.scene("alpha", *things, self.lamp(like, turn, alphaMode=mode, **more))
-                seen[mode] = self.seen(scene, spp=128)
-            means = {mode: statistics.fmean(values) for mode, values in seen.items()}
-            errors = [statistics.stdev(seen[mode]) / means[mode] / math.sqrt(len(seen[mode])) for mode in ("OPAQUE", "BLEND")]
-            print(what, means, errors)
-            self.assertLess(math.hypot(*errors), 0.02, what)
-            self.assertLess(abs(means["BLEND"] / means["OPAQUE"] / ALPHA - 1), 6 * math.hypot(*errors), what)
-            self.assertEqual(means["MASK"], 0, what)
+                seen[mode] = self.luminances(scene, "--seed", seed, spp=384)
+            self.assert_same_light(seen["BLEND"], [ALPHA * value for value in seen["OPAQUE"]], what, 0.025)
+            self.assertEqual(max(seen["MASK"]), 0, what)
 
     def test_light_passes_the_backs_of_unlit_cards(self):
         """The card is seen from below, by the lamp. Camera paths come from above, where it is not there."""
         mirror = caustics_test.Caustics.above(0.9, 1.0)
         card = ({"extensions": {"KHR_materials_unlit": {}}, "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]}},
                 {"translation": [1.5, 0, 0.6], "rotation": OVER, "scale": [0.5, 0.5, 1]})
-        bare = self.assert_alike(self.scene("bare", mirror, self.lamp(UP, [0, 0, 0, 1])), "bare", 512, 512, known=0.01)
-        held = self.assert_alike(self.scene("card", mirror, self.lamp(UP, [0, 0, 0, 1]), card), "card", 512, 512, known=0.01)
+        bare = self.assert_alike(self.scene("bare", mirror, self.lamp(UP, [0, 0, 0, 1])), "bare", 768, 1536, known=0.01)
+        held = self.assert_alike(self.scene("card", mirror, self.lamp(UP, [0, 0, 0, 1]), card), "card", 768, 1536, known=0.011)
         self.assertGreater(held, 0.5 * bare)
 
     def test_a_range_ends_behind_a_thin_pane(self):
@@ -56,7 +50,7 @@ class CausticSources(caustics_test.Case):
                 {"translation": [-0.75, 0, 0.9], "rotation": TURN, "scale": [0.9, 0.9, 1]})
         wall = glossy_caustics_test.GlossyCaustics.metal(0.3), {"translation": [-MIRROR, 0, 0.9], "rotation": TURN, "scale": [0.9, 0.9, 1]}
         scene = self.scene("range", wall, pane, lights=[(light, {"translation": [-0.7, 0.1, 0.9]})])
-        self.assert_alike(scene, "range", 768, 256, bounces=4, known=0.02)
+        self.assert_alike(scene, "range", 2304, 768, bounces=4, known=0.02)
 
     def test_where_they_hardly_land_camera_paths_alone_draw_all_parts(self):
         """A wide mirror throws the light of a wide lamp over a ground of which the camera sees a hundredth."""

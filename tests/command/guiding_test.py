@@ -2,10 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Caustics that the camera sees through glass and in mirrors: camera paths find them by guiding (shaders/caustics/guiding.glsl)."""
 import json
-import statistics
 
 import caustics_test
-from caustics_test import SEEDS
 from support import SCENES, Case, main
 
 LAMP = ((-0.7, -0.1, 1.1), 0.02, 2000.0)  # as that of caustics_test, and small
@@ -18,23 +16,14 @@ PANE = ({"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0}, "e
 
 
 class Guiding(Case):
-    scene, seen = caustics_test.Caustics.scene, caustics_test.Caustics.seen
+    scene, luminances = caustics_test.Caustics.scene, caustics_test.Caustics.luminances
     lamp, mirror = staticmethod(caustics_test.Caustics.lamp), staticmethod(caustics_test.Caustics.mirror)
 
-    def means(self, *things, spp):
-        return self.seen(self.scene("guided", *things), *PARALLEL, spp=spp)
-
     def test_a_mirrors_light_seen_through_a_pane(self):
-        open_air = self.means(self.mirror(), self.lamp(LAMP), spp=256)
-        behind = self.means(self.mirror(), self.lamp(LAMP), PANE, spp=256)
-        wanted = THROUGH_PANE * statistics.fmean(open_air)
-        ratio = statistics.fmean(behind) / wanted
-        spread = [statistics.stdev(values) / statistics.fmean(values) for values in (open_air, behind)]
-        error = sum(s * s / len(SEEDS) for s in spread)**0.5
-        print(f"behind the pane: {ratio - 1:+.4%}, standard error {error:.4%}, a seed {spread[1]:.3%}")
-        self.assertLess(abs(ratio - 1), 6 * error)
-        # Without guiding a seed is 8 times as far off.
-        self.assertLess(spread[1], 0.01)
+        open_air, behind = (self.luminances(self.scene("guided", self.mirror(), self.lamp(LAMP), *things), *PARALLEL, "--seed", len(things), spp=512)
+                            for things in ((), (PANE,)))
+        # Without guiding the error is many times as large.
+        self.assert_same_light(behind, [THROUGH_PANE * value for value in open_air], "behind the pane", 0.005)
 
     def test_parts_and_regions_and_schedules_are_what_the_whole_is(self):
         scene, size = str(SCENES / "caustics"), ("--resolution", "64,48")

@@ -132,6 +132,10 @@ class Case(unittest.TestCase):
         self.assertLess(error, known or self.KNOWN, what)
         return error
 
+    def assert_near(self, seen, wanted, what, within=0.01):
+        print(f"{what}: {seen / wanted - 1:+.4%}")
+        self.assertLess(abs(seen / wanted - 1), within, what)
+
     def assert_same_light(self, picture, wanted, what, known=0.005):
         """Holds the mean of a picture's pixels against that of others, of another seed or exact. Each pixel draws its own random numbers, so that their
         differences tell the standard error; the means lie within 4.5 of them (chance: 1e-5). known: its largest, as a part."""
