@@ -88,7 +88,7 @@ def hostile_pictures():
     yield "old-runs-of-nothing.hdr", hdr % (4000, 65000) + b"\1\1\1\0" * 4000
     yield "huge.hdr", hdr % (2000000000, 2000000000) + bytes(100)
     yield "negative.hdr", hdr % (-5, -5) + bytes(100)
-    yield "long-line.hdr", b"#?RADIANCE\n" + b"x" * 1000000 + b"\n\n-Y 1 +X 1\n1234"
+    yield "long-line.hdr", b"#?RADIANCE\n" + b"x" * 1000000 + b"\n\n-Y 1 +X 2\n1234"
     magic = b"\x76\x2f\x31\x01" + struct.pack("<I", 2)
     yield "54-bytes.exr", (magic + b"channels\0chlist\0" + struct.pack("<I", 0xfffffff0)).ljust(54, b"x")
     attribute = lambda name, kind, value: name + b"\0" + kind + b"\0" + struct.pack("<I", len(value)) + value

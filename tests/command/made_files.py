@@ -124,7 +124,7 @@ ERRORS = {
     "accessor past its view": ((), {"/accessors/0/count": 400}, 3, "/accessors/0"),
     "count that wraps": ((), {"/accessors/0/count": 2 ** 62}, 3, "/accessors/0/count"),
     "negative count": ((), {"/accessors/0/count": -1}, 3, "/accessors/0/count"),
-    "short buffer": ((), {"/buffers/0/byteLength": 100000}, 3, "/buffers/0"),
+    "short buffer": ((), {"/buffers/0/byteLength": 100000}, 0, "/buffers/0"),
     "index past the vertices": ((), {"/accessors/0/count": 3}, 3, "/meshes/0/primitives/0/indices"),
     "unknown component type": ((), {"/accessors/0/componentType": 5130}, 3, "/accessors/0"),
     "positions of two numbers": ((), {"/accessors/0/type": "VEC2", "/accessors/0/min": None, "/accessors/0/max": None}, 3,

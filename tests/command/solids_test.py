@@ -146,7 +146,7 @@ class Solids(Case):
                 points = [(r, 0, 0), (-r, 0, 0), (0, r, 0), (0, -r, 0), (0, 0, r), (0, 0, -r)]
                 faces = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
                 lamp = {**LAMP, "extensions": {**LAMP["extensions"], "KHR_materials_emissive_strength": {"emissiveStrength": strength}}}
-                model.mesh(points, faces, lamp, (0.6, -1, 0))
+                model.body(points, faces, lamp, (0.6, -1, 0))
             else:
                 model.light("point", (0.6, -1, 0))
             lit.append(mean(self.seen(model, "--no-default-light", spp=256)))
@@ -179,11 +179,11 @@ class OnePlace(Case):
     def room(self, scale=1.0, turn=(0, 0, 0, 1), lamp_first=True, drop=0.0, copies=False):
         """A lamp in a ceiling over a floor, turned as a whole; both are so wide that rounding at their corners exceeds what a shadow ray leaves out."""
         model = Model()
-        parts = [lambda: model.mesh(square(0.25 * scale, -1), [(0, 1, 2), (0, 2, 3)], {**LAMP, "doubleSided": True}, (0.1 * scale, (1 - drop) * scale, 0)),
-                 lambda: model.mesh(square(6 * scale, -1), [(0, 1, 2), (0, 2, 3)], matt((0.8, 0.8, 0.8), doubleSided=True), (0, scale, 0))]
+        parts = [lambda: model.body(square(0.25 * scale, -1), [(0, 1, 2), (0, 2, 3)], {**LAMP, "doubleSided": True}, (0.1 * scale, (1 - drop) * scale, 0)),
+                 lambda: model.body(square(6 * scale, -1), [(0, 1, 2), (0, 2, 3)], matt((0.8, 0.8, 0.8), doubleSided=True), (0, scale, 0))]
         for part in parts if lamp_first else reversed(parts):
             part()
-        model.mesh(square(6 * scale, 1), [(0, 1, 2), (0, 2, 3)], matt((0.8, 0.8, 0.8), doubleSided=True), (0, -scale, 0))
+        model.body(square(6 * scale, 1), [(0, 1, 2), (0, 2, 3)], matt((0.8, 0.8, 0.8), doubleSided=True), (0, -scale, 0))
         if copies:
             model.node(mesh=0 if not lamp_first else 1, translation=[0, 3 * scale, 0])
         children = list(range(len(model.root["nodes"])))
@@ -213,8 +213,8 @@ class OnePlace(Case):
         """A box that is scaled flat, with both sides double-sided."""
         for turn in ((0, 0, 0, 1), (0.2, 0.3, -0.1, math.sqrt(1 - 0.14))):
             model = Model()
-            model.mesh(square(1, 1), [(0, 1, 2), (0, 2, 3)], matt((1, 0, 0), doubleSided=True))
-            model.mesh(square(1, -1), [(0, 1, 3), (1, 2, 3)], matt((0, 1, 0), doubleSided=True))
+            model.body(square(1, 1), [(0, 1, 2), (0, 2, 3)], matt((1, 0, 0), doubleSided=True))
+            model.body(square(1, -1), [(0, 1, 3), (1, 2, 3)], matt((0, 1, 0), doubleSided=True))
             for node in model.root["nodes"]:
                 node["rotation"] = list(turn)
             for side, channel in ((1, 0), (-1, 1)):
