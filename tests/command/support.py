@@ -19,7 +19,8 @@ import unittest
 from array import array
 from pathlib import Path
 
-sys.path[:0] = [str(Path(__file__).resolve().parent.parent), str(Path(sys.argv[2]).resolve() / "scenes")]
+PARENTS = Path(__file__).resolve().parents
+sys.path[:0] = [str(PARENTS[1]), str(PARENTS[2] / "scenes")]
 from exr import WEIGHTS, Exr, write_exr, write_parts  # noqa: E402, F401
 from gltf_file import SQUARE, TWO_TRIANGLES, Gltf, data_uri, png, quad  # noqa: E402, F401
 from picture_files import read_png, write_pfm, write_png  # noqa: E402, F401
