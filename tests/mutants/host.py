@@ -26,6 +26,7 @@ FILES = ("src/pack/*.cpp", "src/render/film/noise.cpp", "src/render/film/film_pi
 HEADER = """#pragma once
 #include <cstdlib>
 #include <type_traits>
+#include <utility>
 namespace fragtrace::mutants {
 inline int chosen() {
   static const int number = [] { const char* text = std::getenv("FRAGTRACE_MUTANT"); return text ? std::atoi(text) : -1; }();
@@ -78,13 +79,26 @@ def faults_in(file, text):
     return found
 
 
+def apart(faults):
+    """Leaves out faults that lie in others."""
+    end, kept = 0, []
+    for fault in sorted(faults, key=lambda fault: fault.begin):
+        if fault.begin >= end:
+            kept.append(fault)
+            end = fault.end
+    return kept
+
+
 def all_faults():
     paths = sorted(path for pattern in FILES for path in SOURCE.glob(pattern))
-    return [fault for path in paths for fault in faults_in(str(path.relative_to(SOURCE)), path.read_text())]
+    return [fault for path in paths for fault in apart(faults_in(str(path.relative_to(SOURCE)), path.read_text()))]
 
 
 def build(folder, faults):
     """A copy of the sources with all faults, and its programs."""
+    for old in folder.glob("*"):
+        if old.is_dir() and old.name != "build":
+            shutil.rmtree(old)
     shutil.copytree(SOURCE, folder, dirs_exist_ok=True, ignore=lambda at, names: [n for n in names if n in (".git", "__pycache__") or n.startswith("build") and Path(at) == SOURCE])
     (folder / "src/base/mutants.h").write_text(HEADER)
     for file in {fault.file for fault in faults}:
