@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is counted of the work of samples (work/count.glsl). src/shader/work.h has the names, in the same order.
+// These numbers stand for what is counted of the work of samples (work/count.glsl). src/shader/work.h names them in the
+// same order.
 
 const uint kWorkBinding = 15u;
 

@@ -213,7 +213,7 @@ struct OutputOptions {
   bool aovSamples = false;
   bool aovVariance = false;
   bool dither = true;      ///< display values before they are rounded to 8 bits
-  bool resume = false;     ///< go on from the checkpoint beside the output
+  bool resume = false;     ///< continue from the checkpoint next to the output
   bool countWork = false;  ///< the work of samples (shader/work.h)
   bool quiet = false;
   bool verbose = false;
