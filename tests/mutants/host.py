@@ -1,26 +1,26 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""tests/mutants/host.py BUILD [--only WORD ...] [--some COUNT [--seed SEED]] [--seconds S] [--list]: puts faults into the functions of the host that decide
-pictures, and looks for a test that fails, S seconds at most for each (60). Goes on where it was interrupted. Status 1 when a fault survives that has no reason.
+"""tests/mutants/host.py BUILD, with the options of mutants.py: puts faults into the functions of the host that decide
+pictures, and looks for a test that fails.
 
 What a function returns becomes 2 % larger, an integer one larger, a condition its opposite. All faults are in one program, built in BUILD/mutants/host from a
 copy of the sources; FRAGTRACE_MUTANT chooses one. A function is tested by the tests in C++ whose files include its header, then by picture tests."""
-import argparse
 import json
 import os
-import random
 import re
 import shutil
 import subprocess
 import sys
 import time
 from pathlib import Path
+from threading import Lock
+from types import SimpleNamespace
 from typing import NamedTuple
 
 from made import code_of, end_of
+from memory import Memory, function_of
+from mutants import SOURCE, arguments, chosen_of, try_all
 
-HERE = Path(__file__).resolve().parent
-SOURCE = HERE.parent.parent
 FILES = ("src/pack/*.cpp", "src/render/film/noise.cpp", "src/render/film/film_pixels.cpp", "src/render/film/path_share.cpp", "src/render/adaptive.cpp",
          "src/render/guiding.cpp", "src/image/display/*.cpp", "src/scene/camera*.cpp")
 HEADER = """#pragma once
@@ -53,6 +53,7 @@ class Fault(NamedTuple):
     file: str
     begin: int
     end: int
+    after: str  # the expression that it changes
 
 
 def faults_in(file, text):
@@ -75,7 +76,7 @@ def faults_in(file, text):
                 continue
             what = f"{Path(file).stem}.{head[2]} {'if' if decides else 'return'}"
             counts[what] = counts.get(what, 0) + 1
-            found.append(Fault(what + (f" {counts[what]}" if counts[what] > 1 else ""), file, place.end(), place.end() + len(expression)))
+            found.append(Fault(what + (f" {counts[what]}" if counts[what] > 1 else ""), file, place.end(), place.end() + len(expression), expression))
     return found
 
 
@@ -113,77 +114,61 @@ def build(folder, faults):
     subprocess.run([folder / "scripts/build", "release", "fragtrace", "fragtrace_pictures", "fragtrace_geometry", "fragtrace_volumes", "pure_tests", "picture_test"], check=True)
 
 
-class Tests:
-    def __init__(self, folder):
-        self.folder, self.build = folder, folder / "build"
-        self.references = [row["name"] for row in json.loads((folder / "tests/reference/references.json").read_text())["references"]]
-        self.suites = {}
-        for path in (folder / "tests/pure").glob("*_test.cpp"):
-            text = path.read_text()
-            for header in re.findall(r'#include "([\w/]+)\.h"', text):
-                self.suites.setdefault(header, set()).update(re.findall(r"^TEST(?:_F|_P)?\((\w+),", text, re.M))
+class HostTrial:
+    """A run of the one program with a fault, or without."""
+    refused = False
 
-    def of(self, fault):
-        """Commands by name, in the order of trying."""
-        suites = self.suites.get(fault.file.removeprefix("src/").removesuffix(".cpp"), ())
-        if suites:
-            yield "pure", [self.build / "pure_tests", f"--gtest_filter={':'.join(f'{suite}.*' for suite in sorted(suites))}", "--gtest_brief=1"]
-        yield "pure.Pack", [self.build / "pure_tests", "--gtest_filter=Pack*:*Light*:*Film*:*Noise*:*Environment*:*Camera*:*Energy*:*Guid*:*Tone*:*Display*", "--gtest_brief=1"]
-        for name in sorted(self.references, key=lambda name: (".gi" not in name, name)):
-            yield f"picture.{name}", [self.build / "picture_test", name, "egl", self.build / "fragtrace", self.folder, self.build / "mutant_pictures"]
+    def __init__(self, setting, fault):
+        self.setting, self.number, self.fault = setting, setting.numbers[fault.name] if fault else -1, fault
 
-    def passes(self, command, number):
-        environment = os.environ | {"FRAGTRACE_MUTANT": str(number), "FRAGTRACE_LIBRARY_PATH": str(self.build), "GTEST_FAIL_FAST": "1"}
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        pass
+
+    def tests(self):
+        return [*self.setting.suites.get(self.fault.file.removeprefix("src/").removesuffix(".cpp"), ()), *self.setting.pictures]
+
+    def passes(self, test):
+        """Runs the test. Returns whether it passes, and how long it took."""
+        began, kept = time.monotonic(), self.setting.kept
+        kind, name = test.split(".", 1)
+        command = ([kept / "build/pure_tests", f"--gtest_filter={name}.*", "--gtest_brief=1"] if kind == "pure" else
+                   [kept / "build/picture_test", name, "egl", kept / "build/fragtrace", kept, kept / f"build/mutant_pictures/{self.number}"])
+        environment = os.environ | {"FRAGTRACE_MUTANT": str(self.number), "FRAGTRACE_LIBRARY_PATH": str(kept / "build"), "GTEST_FAIL_FAST": "1"}
         try:
-            return subprocess.run(list(map(str, command)), cwd=self.folder, env=environment, timeout=300, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
+            passed = subprocess.run(command, cwd=kept, env=environment, timeout=300, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
         except subprocess.TimeoutExpired:
-            return False
+            passed = False
+        return passed, time.monotonic() - began
+
+
+def suites_of(folder):
+    """The test suites whose files include a header of src, by that header."""
+    suites = {}
+    for path in (folder / "tests/pure").glob("*_test.cpp"):
+        text = path.read_text()
+        for header in re.findall(r'#include "([\w/]+)\.h"', text):
+            suites.setdefault(header, set()).update(f"pure.{suite}" for suite in re.findall(r"^TEST(?:_F|_P)?\((\w+),", text, re.M))
+    return suites
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("build", type=Path)
-    parser.add_argument("--only", nargs="+", default=[])
-    parser.add_argument("--some", type=int)
-    parser.add_argument("--seed", default="1")
-    parser.add_argument("--seconds", type=float, default=60)
-    parser.add_argument("--list", action="store_true")
-    options = parser.parse_args()
-    faults = all_faults()
-    chosen = [i for i, fault in enumerate(faults) if not options.only or any(word in fault.name for word in options.only)]
-    if options.some:
-        chosen = random.Random(options.seed).sample(chosen, options.some)
+    options, reasons = arguments(__doc__)
+    every = all_faults()
+    faults = chosen_of(options, every, reasons)
     if options.list:
-        print("\n".join(faults[i].name for i in chosen))
+        print("\n".join(fault.name for fault in faults))
         return 0
-    folder = options.build.resolve() / "mutants/host"
-    build(folder, faults)
-    tests, state = Tests(folder), folder / "state.json"
-    verdicts = json.loads(state.read_text()) if state.exists() else {}
-    sound = {}
-    reasons = json.loads((HERE / "reasons.json").read_text())
-    for number in chosen:
-        fault, began = faults[number], time.monotonic()
-        text = (SOURCE / fault.file).read_text()
-        key = f"{fault.name}: {text[fault.begin:fault.end]}"
-        if key in verdicts:
-            continue
-        verdicts[key] = ""
-        for name, command in tests.of(fault):
-            if time.monotonic() - began > options.seconds:
-                break
-            if not tests.passes(command, number):
-                sound.setdefault(name, None)
-                if sound[name] is None:
-                    sound[name] = tests.passes(command, -1)
-                if sound[name]:
-                    verdicts[key] = name
-                    break
-        print(f"{fault.name}: {'seen by ' + verdicts[key] if verdicts[key] else 'SURVIVES'}, {time.monotonic() - began:.0f} s", flush=True)
-        state.write_text(json.dumps(verdicts, indent=0))
-    survivors = [key for key, test in verdicts.items() if not test and key.split(":")[0] not in reasons]
-    print(f"{len(verdicts)} of {len(faults)} faults tried, {sum(map(bool, verdicts.values()))} seen")
-    return int(bool(survivors))
+    folder = options.build / "mutants"
+    kept = folder / "host"
+    build(kept, every)
+    references = json.loads((kept / "tests/reference/references.json").read_text())["references"]
+    setting = SimpleNamespace(kept=kept, suites=suites_of(kept), pictures=[f"picture.{row['name']}" for row in references], lock_of_sound=Lock(),
+                              seconds=options.seconds, numbers={fault.name: number for number, fault in enumerate(every)}, trial=HostTrial)
+    memory = Memory(folder / "host.json", folder / "host_seen_by.json", {function_of(fault.name): (SOURCE / fault.file).read_text() for fault in every})
+    return try_all(setting, memory, faults, reasons, options.jobs)
 
 
 if __name__ == "__main__":

@@ -31,7 +31,7 @@ def sound(setting, memory, test):
     """Returns true if a test that failed passes without the fault."""
     with setting.lock_of_sound:
         if memory.is_sound(test) is None:
-            with Trial(setting, None) as trial:
+            with setting.trial(setting, None) as trial:
                 passes, seconds = trial.passes(test)
                 memory.note(test, seconds, passes)
         return memory.is_sound(test)
@@ -40,7 +40,7 @@ def sound(setting, memory, test):
 def settle(setting, memory, fault):
     began = time.monotonic()
     spent = lambda: time.monotonic() - began
-    with Trial(setting, fault) as trial:
+    with setting.trial(setting, fault) as trial:
         if trial.refused:
             memory.settle(fault, "the driver, which refuses the text", spent())
             return
@@ -74,8 +74,9 @@ def chosen_of(options, faults, reasons):
     return chosen
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def arguments(about):
+    """The options, and why faults may survive, by their names or those of functions."""
+    parser = argparse.ArgumentParser(description=about, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=Path)
     parser.add_argument("--only", nargs="+", default=[])
     parser.add_argument("--some", type=int)
@@ -85,27 +86,15 @@ def main():
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--remember", action="store_true")
     options = parser.parse_args()
-    every, reasons = all_faults(SOURCE / "shaders"), json.loads(REASONS.read_text())
-    faults = chosen_of(options, every, reasons)
-    if options.list:
-        known = {name for fault in every for name in (fault.name, function_of(fault.name))}
-        print("\n".join(fault.name for fault in faults))
-        return "".join(f"reasons.json: there is no {name}\n" for name in sorted(set(reasons) - known)) or 0
+    options.build = options.build.resolve()
+    return options, json.loads(REASONS.read_text())
 
-    build = options.build.resolve()
-    folder = build / "mutants"
-    folder.mkdir(exist_ok=True)
-    setting = SimpleNamespace(source=SOURCE, build=build, folder=folder, program=build / "fragtrace", drawing=drawing_tests(build),
-                              compiler=Compiler(SOURCE, build), lock_of_sound=Lock(), seconds=options.seconds)
-    memory = Memory(folder / "state.json", HINTS, function_texts(SOURCE / "shaders"))
+
+def try_all(setting, memory, faults, reasons, jobs):
+    """Tries those that are not settled and tells what survives. Returns the exit status."""
     began = time.monotonic()
-    try:
-        with ThreadPoolExecutor(options.jobs) as pool:
-            list(pool.map(lambda fault: settle(setting, memory, fault), [fault for fault in faults if not memory.verdict(fault)]))
-    finally:
-        if options.remember:
-            HINTS.write_text(json.dumps({name: memory.hints[name] for name in sorted(memory.hints) if name in memory.texts}, indent=0) + "\n")
-
+    with ThreadPoolExecutor(jobs) as pool:
+        list(pool.map(lambda fault: settle(setting, memory, fault), [fault for fault in faults if not memory.verdict(fault)]))
     survivors = [fault for fault in faults if not memory.verdict(fault)["seen_by"]]
     for fault in survivors:
         reason = reason_for(fault, reasons)
@@ -113,6 +102,27 @@ def main():
     spent = sum(memory.verdict(fault)["seconds"] for fault in faults)
     print(f"{len(faults)} faults, {len(faults) - len(survivors)} seen; {time.monotonic() - began:.0f} s now, {spent:.0f} s in all by one job")
     return int(any(not reason_for(fault, reasons) for fault in survivors))
+
+
+def main():
+    options, reasons = arguments(__doc__)
+    every = all_faults(SOURCE / "shaders")
+    faults = chosen_of(options, every, reasons)
+    if options.list:
+        known = {name for fault in every for name in (fault.name, function_of(fault.name))}
+        print("\n".join(fault.name for fault in faults))
+        return "".join(f"reasons.json: there is no {name}\n" for name in sorted(set(reasons) - known)) or 0
+
+    folder = options.build / "mutants"
+    folder.mkdir(exist_ok=True)
+    setting = SimpleNamespace(source=SOURCE, build=options.build, folder=folder, program=options.build / "fragtrace", drawing=drawing_tests(options.build),
+                              compiler=Compiler(SOURCE, options.build), lock_of_sound=Lock(), seconds=options.seconds, trial=Trial)
+    memory = Memory(folder / "state.json", HINTS, function_texts(SOURCE / "shaders"))
+    try:
+        return try_all(setting, memory, faults, reasons, options.jobs)
+    finally:
+        if options.remember:
+            HINTS.write_text(json.dumps({name: memory.hints[name] for name in sorted(memory.hints) if name in memory.texts}, indent=0) + "\n")
 
 
 if __name__ == "__main__":

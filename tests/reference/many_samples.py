@@ -22,13 +22,18 @@ from pictures import read_pfm  # noqa: E402
 FIRST_SEED = 1000
 
 
+def draw(program, row, spp, seed, output):
+    """Draws the picture of a row of references.json."""
+    subprocess.run([program, "render", f"scenes/{row['scene']}.gltf", "-o", output, "--quiet", "--stage", row["stage"], "--spp", str(spp), "--seed", str(seed),
+                    "--resolution", ",".join(map(str, row["resolution"])), *row["options"]], cwd=REPOSITORY, check=True)
+
+
 def pictures(program, row, folder):
     """The values of the batches, rows from the top."""
     width, height = row["resolution"]
     output = folder / "batch.pfm"
     for batch in range(row["batches"]):
-        subprocess.run([program, "render", f"scenes/{row['scene']}.gltf", "-o", output, "--quiet", "--stage", row["stage"], "--spp", str(row["spp"]),
-                        "--seed", str(FIRST_SEED + batch), "--resolution", f"{width},{height}", *row["options"]], cwd=REPOSITORY, check=True)
+        draw(program, row, row["spp"], FIRST_SEED + batch, output)
         _, values = read_pfm(output)
         yield [v for y in reversed(range(height)) for v in values[3 * width * y:3 * width * (y + 1)]]
 

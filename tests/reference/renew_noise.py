@@ -15,19 +15,17 @@ import sys
 import tempfile
 from pathlib import Path
 
-FOLDER = Path(__file__).resolve().parent
-REPOSITORY = FOLDER.parent.parent
+from many_samples import FOLDER, REPOSITORY, draw
+
 ROWS = FOLDER / "references.json"
 SEEDS = 16
 RESAMPLES = 2000
 MORE_NOISE = 1.03  # as in picture_test.cpp
 
 
-def draw(program, row, seed, output):
+def relmse_of(program, row, seed, output):
     """Draws a row as picture_test does and returns the relmse."""
-    spp = row.get("test_spp", 256 if row["stage"] == "gi" else 64)
-    subprocess.run([program, "render", f"scenes/{row['scene']}.gltf", "-o", output, "--quiet", "--stage", row["stage"], "--spp", str(spp), "--seed", str(seed),
-                    "--resolution", ",".join(map(str, row["resolution"])), *row["options"]], cwd=REPOSITORY, check=True)
+    draw(program, row, row.get("test_spp", 256 if row["stage"] == "gi" else 64), seed, output)
     reference = FOLDER / (row.get("same_as", row["name"]) + ".exr")
     told = subprocess.run([program, "diff", "--metric", "relmse", output, reference], stdout=subprocess.PIPE, text=True).stdout
     return float(re.search(r"[-+.e\d]+", told)[0])
@@ -44,13 +42,13 @@ def ratio_of(before, now):
 def renew(row, before, now, folder):
     """Returns False if the number is not to be renewed although the picture differs."""
     pictures = [folder / f"{name}.pfm" for name in ("before", "now")]
-    fixed = [draw(program, row, 0, picture) for program, picture in zip((before, now), pictures)]
+    fixed = [relmse_of(program, row, 0, picture) for program, picture in zip((before, now), pictures)]
     same = pictures[0].read_bytes() == pictures[1].read_bytes()
     if "noise" in row and same:
         return True
     noise = {"value": float(f"{math.sqrt(fixed[1]):.6g}")}
     if not same:
-        both = [[draw(program, row, seed, pictures[0]) for seed in range(1, SEEDS + 1)] for program in (before, now)]
+        both = [[relmse_of(program, row, seed, pictures[0]) for seed in range(1, SEEDS + 1)] for program in (before, now)]
         ratio, upper = ratio_of(*both)
         print(f"{row['name']}: {ratio:.4f} times the noise, at most {upper:.4f}; {noise['value']} at the fixed seed", flush=True)
         if upper >= MORE_NOISE:
