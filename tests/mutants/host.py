@@ -17,7 +17,7 @@ from threading import Lock
 from types import SimpleNamespace
 from typing import NamedTuple
 
-from made import code_of, end_of
+from made import end_of
 from memory import Memory, function_of
 from mutants import SOURCE, arguments, chosen_of, try_all
 
@@ -56,8 +56,13 @@ class Fault(NamedTuple):
     after: str  # the expression that it changes
 
 
+def without_texts(text):
+    """Returns the text with its comments and strings blanked, every character at its place: strings hold shaders."""
+    return re.sub(r'//[^\n]*|R"\(.*?\)"|"(?:\\.|[^"\\\n])*"', lambda found: " " * len(found[0]), text, flags=re.S)
+
+
 def faults_in(file, text):
-    code, found, counts = code_of(text), [], {}
+    code, found, counts = without_texts(text), [], {}
     for head in HEAD.finditer(code):
         depth, last = 1, head.end()
         while depth and last < len(code):
@@ -72,11 +77,11 @@ def faults_in(file, text):
             inner = "[" in code[head.end():place.start()] and re.search(r"\]\s*(?:\([^)]*\))?[^;{}]*\{[^}]*$", code[head.end():place.start()])
             if decides and (";" in expression or re.search(r"(?<![=!<>])=(?!=)", expression)) or not decides and (inner or not re.fullmatch(KINDS, head[1])):
                 continue
-            if expression.startswith("{") or "constexpr" in code[max(0, place.start() - 12):place.end()]:
+            if expression.startswith("{") or re.fullmatch(r"0\.0f?", expression) or "constexpr" in code[max(0, place.start() - 12):place.end()]:
                 continue
             what = f"{Path(file).stem}.{head[2]} {'if' if decides else 'return'}"
             counts[what] = counts.get(what, 0) + 1
-            found.append(Fault(what + (f" {counts[what]}" if counts[what] > 1 else ""), file, place.end(), place.end() + len(expression), expression))
+            found.append(Fault(what + (f" {counts[what]}" if counts[what] > 1 else ""), file, place.end(), place.end() + len(expression), text[place.end():place.end() + len(expression)]))
     return found
 
 
@@ -111,7 +116,7 @@ def build(folder, faults):
                 text = f"{text[:fault.begin]}fragtrace::mutants::put({number}, {whole}){text[fault.end:]}"
         at = text.index("#include")
         (folder / file).write_text(f'{text[:at]}#include "base/mutants.h"\n{text[at:]}')
-    subprocess.run([folder / "scripts/build", "release", "fragtrace", "fragtrace_pictures", "fragtrace_geometry", "fragtrace_volumes", "pure_tests", "picture_test"], check=True)
+    subprocess.run([folder / "scripts/build", "release", "fragtrace", "fragtrace_worker", "fragtrace_pictures", "fragtrace_geometry", "fragtrace_volumes", "pure_tests", "picture_test"], check=True)
 
 
 class HostTrial:
@@ -134,7 +139,7 @@ class HostTrial:
         """Runs the test. Returns whether it passes, and how long it took."""
         began, kept = time.monotonic(), self.setting.kept
         kind, name = test.split(".", 1)
-        command = ([kept / "build/pure_tests", f"--gtest_filter={name}.*", "--gtest_brief=1"] if kind == "pure" else
+        command = ([kept / "build/pure_tests", f"--gtest_filter={name}.*", "--gtest_brief=1"] if kind == "suite" else
                    [kept / "build/picture_test", name, "egl", kept / "build/fragtrace", kept, kept / f"build/mutant_pictures/{self.number}"])
         environment = os.environ | {"FRAGTRACE_MUTANT": str(self.number), "FRAGTRACE_LIBRARY_PATH": str(kept / "build"), "GTEST_FAIL_FAST": "1"}
         try:
@@ -150,7 +155,7 @@ def suites_of(folder):
     for path in (folder / "tests/pure").glob("*_test.cpp"):
         text = path.read_text()
         for header in re.findall(r'#include "([\w/]+)\.h"', text):
-            suites.setdefault(header, set()).update(f"pure.{suite}" for suite in re.findall(r"^TEST(?:_F|_P)?\((\w+),", text, re.M))
+            suites.setdefault(header, set()).update(f"suite.{suite}" for suite in re.findall(r"^TEST(?:_F|_P)?\((\w+),", text, re.M))
     return suites
 
 
