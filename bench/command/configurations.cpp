@@ -8,6 +8,7 @@
 #include <map>
 
 #include "options/choose.h"
+#include "options/option_facts.h"
 #include "options/option_text.h"
 #include "options/parse_words.h"
 #include "session/outputs.h"
@@ -128,7 +129,8 @@ void parseRender(const GivenOptions& shared, BenchConfiguration& c, const std::s
 void addConfigurationOptions(CLI::App& app, RawConfigurations& raw, const char* defaults) {
   app.add_option("--configs", raw.names,
                  "settings to measure: " + joined(configurationNames()) + "; by default " + defaults)
-      ->delimiter(',');
+      ->delimiter(',')
+      ->check(withChoices(configurationNames()));
   app.add_option("--config", raw.own, "NAME=OPTIONS: a setting of your own, such as \"rough=--bounces 4\"")
       ->allow_extra_args(false);
   addOptions(app, OptionGroup::Tracing, raw.shared);

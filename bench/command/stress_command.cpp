@@ -9,6 +9,7 @@
 #include "bench/command/configurations.h"
 #include "bench/command/results.h"
 #include "options/choose.h"
+#include "options/numbers.h"
 #include "session/progress_bar.h"
 #include "session/setup.h"
 #include "tests/instruments/stress/stress.h"
@@ -33,7 +34,7 @@ void declareStress(CLI::App& app, StressOptions& o) {
                  "run only the rows whose name contains one of these strings, separated by commas")
       ->delimiter(',');
   app.add_option("--seed", o.seed, "seed of rays, random scenes and samples; each tries other cases")
-      ->check(CLI::Range(0u, 1000u));
+      ->check(wholeNumber(0, 1000));
   addJsonOption(app, o.files, "write all results to this file, one JSON line per row");
   addDeviceOptions(app, o.raw);
   addOption(app, "--schedule", o.raw,

@@ -2,6 +2,7 @@
 // `fragtrace bench traversal`: rays per second of each kind, nothing shaded.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <memory>
 
@@ -14,6 +15,7 @@
 #include "gl/driver_choice.h"
 #include "image/files/whole_file.h"
 #include "options/numbers.h"
+#include "options/option_facts.h"
 #include "pack/literals.h"
 #include "session/progress_bar.h"
 #include "session/setup.h"
@@ -42,7 +44,8 @@ void declareTraversal(CLI::App& app, TraversalOptions& o) {
   app.add_option("--rounds", o.rounds, "rounds of timing")
       ->check(wholeNumber(1, 10000))
       ->capture_default_str();
-  addOption(app, "--traversal", o.raw, "traversal to measure: auto, bvh, front-to-back");
+  addOption(app, "--traversal", o.raw, "traversal to measure: auto, bvh, front-to-back")
+      ->check(withChoices(std::array{"auto", "bvh", "front-to-back"}));
   addOption(app, "--camera-index", o.raw, "index of the camera of the primary rays, from 0");
   addOption(app, "--camera", o.raw, "name or index of the camera of the primary rays");
   addOption(app, "--seed", o.raw, "seed of the diffuse and shadow rays");

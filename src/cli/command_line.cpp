@@ -3,8 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +14,8 @@
 
 #include "base/errors.h"
 #include "base/near_name.h"
+#include "cli/help_json.h"
+#include "cli/help_text.h"
 #include "options/choose.h"
 #include "options/parse_words.h"
 #include "version_text.h"
@@ -40,6 +44,37 @@ void checkCommand(const CLI::App& app, std::optional<std::string> word) {
                    (atFirst ? ", and no file: " : ": ") + joined(names) + didYouMean(*word, names));
 }
 
+/// What --help prints.
+enum class HelpForm : uint8_t { Everyday, All, Json };
+
+/// The form that the word after --help asks for.
+HelpForm helpFormOf(std::string_view word) {
+  if (word == "--json") return HelpForm::Json;
+  return word == "all" ? HelpForm::All : HelpForm::Everyday;
+}
+
+/// Takes the word after --help that says its form out of the words.
+HelpForm takeHelpForm(std::vector<const char*>& words) {
+  for (size_t i = 1; i + 1 < words.size(); ++i) {
+    const std::string_view word = words[i];
+    const HelpForm form = helpFormOf(words[i + 1]);
+    if ((word != "--help" && word != "-h") || form == HelpForm::Everyday) continue;
+    words.erase(words.begin() + std::ptrdiff_t(i) + 1);
+    return form;
+  }
+  return HelpForm::Everyday;
+}
+
+/// The command that the words name.
+const CLI::App& commandIn(const CLI::App& app, const std::vector<const char*>& words) {
+  const CLI::App* command = &app;
+  for (size_t i = 1; i < words.size() && words[i][0] != '-'; ++i) {
+    checkCommand(*command, words[i]);
+    command = command->get_subcommand(words[i]);
+  }
+  return *command;
+}
+
 }  // namespace
 
 void addVersion(CLI::App& app) {
@@ -64,7 +99,8 @@ std::vector<const char*> withCommand(std::span<const CommandRow> rows, int argc,
   if (argc < 2 || (argv[1][0] == '-' && !isFiles)) return words;
   if (argv[1] == std::string_view("help")) {
     words.erase(words.begin() + 1);
-    words.push_back("--help");
+    const bool hasForm = words.size() > 1 && helpFormOf(words.back()) != HelpForm::Everyday;
+    words.insert(words.end() - (hasForm ? 1 : 0), "--help");
   }
   const auto named = [&](const CommandRow& row) { return row.name == std::string_view(argv[1]); };
   std::error_code error;
@@ -82,14 +118,23 @@ bool asksForJson(std::span<const char* const> words) {
   return false;
 }
 
-int runCommandLine(std::span<const CommandRow> rows, std::span<const char* const> words) {
+int runCommandLine(std::span<const CommandRow> rows, std::span<const char* const> given) {
   CLI::App app(
       "A path tracer for glTF whose tracing runs in an OpenGL shader.\n`fragtrace FILE` is short for "
-      "`fragtrace view "
-      "FILE`.",
+      "`fragtrace view FILE`.",
       "fragtrace");
   addVersion(app);
+  const auto help = std::make_shared<HelpText>();
+  app.formatter(help);
+  app.set_help_flag("-h,--help", "print the options of every day and exit; --help all prints all");
   const RunCommand run = addCommands(app, rows);
+  std::vector<const char*> words(given.begin(), given.end());
+  const HelpForm form = takeHelpForm(words);
+  help->all = form == HelpForm::All;
+  if (form == HelpForm::Json) {
+    std::cout << helpJson(commandIn(app, words), kVersionText);
+    return 0;
+  }
   const auto word = [&](size_t i) {
     return i < words.size() ? std::optional<std::string>(words[i]) : std::nullopt;
   };

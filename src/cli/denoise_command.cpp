@@ -12,6 +12,7 @@
 #include "image/channels.h"
 #include "image/format.h"
 #include "options/choose.h"
+#include "options/option_facts.h"
 #include "options/option_row.h"
 #include "options/parse_render.h"
 #include "session/outputs.h"
@@ -85,7 +86,8 @@ RunCommand addDenoise(CLI::App& app) {
   addOption(app, "--denoise", raw->render,
             "filter: " + joined(kFileFilterNames) +
                 "; auto uses oidn if it is installed, otherwise variance, which needs the layers of --aov "
-                "denoising");
+                "denoising")
+      ->check(withChoices(kFileFilterNames));
   addFileFilterOptions(app, raw->render);
   addOption(app, "--exposure", raw->render);
   addOption(app, "--tone-map", raw->render);

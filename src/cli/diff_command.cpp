@@ -14,6 +14,7 @@
 #include "image/image.h"
 #include "options/choose.h"
 #include "options/numbers.h"
+#include "options/option_facts.h"
 #include "session/outputs.h"
 
 namespace fragtrace {
@@ -111,7 +112,8 @@ RunCommand addDiff(CLI::App& app) {
          "--metric", raw->metric,
          "error metric: rmse, mse, relmse, psnr, max, flip, or bias, the chance that two .exr with --aov "
          "variance have the same limit")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(withChoices(metricNames()));
   app.add_option("--threshold", raw->options.threshold, "exit with status 1 if the error is worse than this")
       ->check(realNumber());
   app.add_option("--outfile", raw->options.outfile,

@@ -293,7 +293,7 @@ RunCommand addInfo(CLI::App& app) {
   app.add_flag("--json", raw->json, "print one JSON object");
   app.add_flag("--nodes", raw->nodes, "also list the nodes of the scene");
   app.add_flag("--decode", raw->decode, "also decode the textures, so that a broken one is an error");
-  for (const OptionRow& row : inputRows()) row.add(app, row, raw->render);
+  for (const OptionRow& row : inputRows()) addOption(app, row.name, raw->render);
   addOption(app, "--instancing", raw->render);
   return [raw] { return runInfo({raw->render.options, raw->json, raw->nodes, raw->decode}); };
 }

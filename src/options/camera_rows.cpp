@@ -51,7 +51,6 @@ OptionRow orbitRow() {
         ->expected(2, 3)
         ->check(realNumber())
         ->allow_extra_args(false)
-        ->option_text("AZIMUTH,ELEVATION[,ZOOM] Excludes: --camera-position")
         ->excludes(r.traits.excludes);
   };
   row.words = [](const RenderOptions& o) {

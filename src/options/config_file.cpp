@@ -93,6 +93,7 @@ std::set<std::string> applyFile(const std::filesystem::path& path, CLI::App& com
   }
   std::set<std::string> taken;
   for (const auto& [name, value] : json.items()) {
+    if (name == "$schema") continue;  // where editors find what the file may hold
     const std::string place = placeOf(path, name);
     CLI::Option* option = name.empty() || name[0] == '-' ? nullptr : command.get_option_no_throw("--" + name);
     if (option == nullptr || name == "config" || name == "help" || name == "version")

@@ -44,8 +44,7 @@ OptionRow timeRow() {
       FRAGTRACE_MEMBER(selection.animationTime), {.effect = Effect::Picture, .renewal = Renewal::Scene});
   row.examples = {"0", "1.2500000000000002"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
-    app.add_option(r.name, raw.options.selection.animationTime, r.help)
-        ->check(realNumberFrom(0.0, "SECONDS"));
+    app.add_option(r.name, raw.options.selection.animationTime, r.help)->check(realNumberFrom(0.0));
   };
   row.words = [](const RenderOptions& o) { return std::vector{exactText(*o.selection.animationTime)}; };
   return row;
@@ -142,6 +141,8 @@ OptionRow upRow() {
                     "with z, -Y "
                     "becomes the front, as in Blender",
                 FRAGTRACE_MEMBER(selection.up), {.effect = Effect::Picture, .renewal = Renewal::Scene});
+  row.choices.assign(kUpAxisNames.begin(), kUpAxisNames.end());
+  row.open = true;
   row.examples = {"x", "-z", "0.1,-0.9,0.30000001192092896"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
     addWord(app, r, raw, [name = r.name](RenderOptions& o, const std::string& word) {

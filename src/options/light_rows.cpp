@@ -28,6 +28,8 @@ OptionRow catcherRow() {
       "metres, or 'bottom' for the bottom of the scene; not with --fog-density",
       FRAGTRACE_MEMBER(light.shadowCatcher),
       {.effect = Effect::Picture, .renewal = Renewal::Scene, .attribute = "shadow_catcher"});
+  row.choices = {"bottom"};
+  row.open = true;
   row.examples = {"bottom", "-0.10000000149011612"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
     addWord(app, r, raw, chooseCatcher, "HEIGHT");

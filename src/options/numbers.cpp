@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "options/choose.h"
+#include "options/option_facts.h"
 
 namespace fragtrace {
 
@@ -39,13 +40,11 @@ std::optional<double> numberIn(const std::string& text) {
 CLI::Validator wholeNumber(int64_t least, int64_t most, const std::string& form) {
   const std::string wanted = "whole number from " + std::to_string(least) + " to " + std::to_string(most) +
                              (form.empty() ? "" : ", as in " + form);
-  return CLI::Validator(
-      [=](const std::string& text) -> std::string {
-        const auto value = numberOfAll<int64_t>(CLI::detail::trim_copy(text));
-        const bool good = value && *value >= least && *value <= most;
-        return good ? "" : "'" + text + "' is no " + wanted;
-      },
-      "");
+  return withFacts({.least = double(least), .most = double(most)}, [=](const std::string& text) {
+    const auto value = numberOfAll<int64_t>(CLI::detail::trim_copy(text));
+    const bool good = value && *value >= least && *value <= most;
+    return good ? std::string() : "'" + text + "' is no " + wanted;
+  });
 }
 
 CLI::Validator realNumber(const std::string& form) {
@@ -57,35 +56,29 @@ CLI::Validator realNumber(const std::string& form) {
       "");
 }
 
-CLI::Validator realNumberFrom(double least, const char* type) {
-  return CLI::Validator(
-      [=](const std::string& text) -> std::string {
-        const std::optional<double> value = numberIn(text);
-        if (!value) return whyNoNumber(text);
-        const bool good = std::isfinite(*value) && *value >= least;
-        return good ? "" : "'" + text + "' is no finite number from " + shortText(least) + " on";
-      },
-      type);
+CLI::Validator realNumberFrom(double least) {
+  return withFacts({.least = least}, [=](const std::string& text) {
+    const std::optional<double> value = numberIn(text);
+    if (!value) return whyNoNumber(text);
+    const bool good = std::isfinite(*value) && *value >= least;
+    return good ? std::string() : "'" + text + "' is no finite number from " + shortText(least) + " on";
+  });
 }
 
 CLI::Validator realNumber(double least, double most) {
   const std::string bounds = shortText(least) + " to " + shortText(most);
-  return CLI::Validator(
-      [=](const std::string& text) -> std::string {
-        std::string wrong = whyNoNumber(text);
-        if (!wrong.empty()) return wrong;
-        const double value = *numberIn(text);
-        return value >= least && value <= most ? "" : "'" + text + "' is not in the range " + bounds;
-      },
-      "FLOAT in [" + shortText(least) + " - " + shortText(most) + "]");
+  return withFacts({.least = least, .most = most}, [=](const std::string& text) {
+    std::string wrong = whyNoNumber(text);
+    if (!wrong.empty()) return wrong;
+    const double value = *numberIn(text);
+    return value >= least && value <= most ? "" : "'" + text + "' is not in the range " + bounds;
+  });
 }
 
-CLI::Validator oneOf(std::vector<std::string> names) {
-  return CLI::Validator(
-      [names = std::move(names)](const std::string& text) -> std::string {
-        return std::ranges::find(names, text) != names.end() ? "" : whyNoneOf(text, names);
-      },
-      "");
+CLI::Validator oneOf(const std::vector<std::string>& names) {
+  return withFacts({.choices = names}, [names](const std::string& text) {
+    return std::ranges::find(names, text) != names.end() ? std::string() : whyNoneOf(text, names);
+  });
 }
 
 CLI::Validator memorySize(uint64_t least) {

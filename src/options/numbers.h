@@ -19,14 +19,14 @@ CLI::Validator wholeNumber(int64_t least, int64_t most, const std::string& form 
 /// A number that is neither infinite nor NaN. `form` as above.
 CLI::Validator realNumber(const std::string& form = "");
 
-/// Does the same from `least` on; `type` is what --help calls it.
-CLI::Validator realNumberFrom(double least, const char* type);
+/// Does the same from `least` on.
+CLI::Validator realNumberFrom(double least);
 
-/// Does the same within these bounds, which --help says.
+/// Does the same within these bounds.
 CLI::Validator realNumber(double least, double most);
 
 /// Accepts one of these names.
-CLI::Validator oneOf(std::vector<std::string> names);
+CLI::Validator oneOf(const std::vector<std::string>& names);
 
 /// Bytes, as a number with or without a unit (MB or MiB); the text becomes the plain number.
 CLI::Validator memorySize(uint64_t least);

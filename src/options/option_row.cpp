@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "options/help_rows.h"
 #include "options/option_text.h"
 
 namespace fragtrace {
@@ -25,9 +26,20 @@ void reset(RenderOptions& options, const Chosen& chosen) {
 std::span<const OptionRow> optionRows() {
   static const std::vector<OptionRow> rows = [] {
     std::vector<OptionRow> all;
-    for (std::vector<OptionRow> (*part)() : {&fileRows, &cameraRows, &samplingRows, &lightRows, &skyRows,
-                                             &fogRows, &volumeRows, &deviceRows, &inputRows, &outputRows})
-      std::ranges::move(part(), std::back_inserter(all));
+    const auto add = [&](std::vector<OptionRow> part, const char* topic) {
+      for (OptionRow& row : part) row.shown = helpOf(row.name, topic);
+      std::ranges::move(part, std::back_inserter(all));
+    };
+    add(fileRows(), "Scene");
+    add(cameraRows(), "Camera");
+    add(samplingRows(), "Quality");
+    add(lightRows(), "Light");
+    add(skyRows(), "Light");
+    add(fogRows(), "Look");
+    add(volumeRows(), "Look");
+    add(deviceRows(), "Device");
+    add(inputRows(), "Scene");
+    add(outputRows(), "Output");
     return all;
   }();
   return rows;

@@ -52,10 +52,21 @@ struct OptionTraits {
   OptionGroup group = OptionGroup::Tracing;
 };
 
+/// Where help shows an option.
+struct OptionHelp {
+  const char* topic = nullptr;
+  bool everyday = false;               ///< --help shows it, too, not --help all alone
+  const char* metavariable = nullptr;  ///< what stands for its value; none: a word for the value's type
+  const char* unit = nullptr;
+};
+
 struct OptionRow {
   const char* name = "";  ///< the name with its dashes
   std::string help{};
   OptionTraits traits{};
+  OptionHelp shown{};
+  std::vector<std::string> choices{};  ///< names that a value may be
+  bool open = false;                   ///< a value may be something else, too
   std::vector<std::string>
       examples{};  ///< values, as one word each; none: a flag. The first and last of a range
   /// Declares the option, so that parsing sets its members. RawRender outlives the command.

@@ -67,6 +67,8 @@ OptionRow layersRow() {
                         "; light:NAME is the light of the lights and emissive materials of that name, of the "
                         "environment, or of the rest",
                 .traits = {.effect = Effect::Layers, .renewal = Renewal::Program},
+                .choices = layerNames(),
+                .open = true,
                 .examples = layerNames()};
   row.examples.insert(row.examples.begin(), "light:rest");
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
@@ -109,7 +111,7 @@ OptionRow pngDepthRow() {
   OptionRow row =
       memberRow("--png-depth", "bits per channel of a .png: 8, 16", FRAGTRACE_MEMBER(output.encoding.pngBits),
                 {.effect = Effect::Display, .group = OptionGroup::Encoding});
-  row.examples = {"8", "16"};
+  row.examples = row.choices = {"8", "16"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
     addWord(app, r, raw, [known = r.examples](RenderOptions& o, const std::string& text) {
       o.output.encoding.pngBits = choose<int>("--png-depth", text, known) == 0 ? 8 : 16;
@@ -172,7 +174,8 @@ OptionRow formatRow() {
           ".png shows them (sRGB); --frames and --turntable write all pictures so, one after the other",
       FRAGTRACE_MEMBER(output.format),
       {.effect = Effect::Report, .copied = false, .group = OptionGroup::Output});
-  row.examples.assign(kFormatNames.begin(), kFormatNames.end());
+  row.choices.assign(kFormatNames.begin(), kFormatNames.end());
+  row.examples = row.choices;
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
     addWord(app, r, raw, [](RenderOptions& o, const std::string& text) {
       choose<int>("--format", text, kFormatNames);

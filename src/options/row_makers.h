@@ -156,7 +156,8 @@ OptionRow choice(const char* name, std::string help, Member member, const Names&
   else
     help.replace(place, 2, joined(names));
   OptionRow row = memberRow(name, std::move(help), member, traits);
-  row.examples.assign(names.begin(), names.end());
+  row.choices.assign(names.begin(), names.end());
+  row.examples = row.choices;
   row.words = [member, known = row.examples](const RenderOptions& o) {
     return std::vector{known[size_t(*std::optional(member(o)))]};
   };

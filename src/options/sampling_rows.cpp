@@ -32,6 +32,7 @@ std::string switchedStages(const StageSet& stages, bool on) {
 OptionRow stageRow() {
   OptionRow row{.name = "--stage",
                 .help = "last stage: " + joined(stageNames(true)) + "; each stage includes those before it",
+                .choices = stageNames(true),
                 .examples = stageNames(true)};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
     app.add_option(r.name, raw.stage, r.help)->capture_default_str();
@@ -46,7 +47,7 @@ OptionRow stageRow() {
 }
 
 OptionRow switchRow(const char* name, std::string help, bool on, std::vector<std::string> RawRender::*list) {
-  OptionRow row{.name = name, .help = std::move(help)};
+  OptionRow row{.name = name, .help = std::move(help), .choices = stageNames(false)};
   for (const StageRow& stage : stageRows()) {
     if (has(stagesUpTo(Stage::Gi), stage.stage) != on) row.examples.emplace_back(stage.name);
   }
@@ -90,6 +91,8 @@ OptionRow bouncesRow() {
                 "maximum number of indirect bounces of a path, not counting smooth glass, or 'unlimited'; 0 "
                 "is direct light alone",
                 FRAGTRACE_MEMBER(sampling.bounces), {.effect = Effect::Picture, .attribute = "bounces"});
+  row.choices = {"unlimited"};
+  row.open = true;
   row.examples = {"0", "unlimited"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
     addWord(app, r, raw,

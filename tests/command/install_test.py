@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""`cmake --install` gives a program that runs from anywhere; docs/options.md and options-bench.md, man pages and completion are what --help says."""
+"""`cmake --install` gives a program that runs from anywhere; docs/options.md and options-bench.md, man pages, completion and the schema of --config are what `help --json` says."""
 import gzip
+import json
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 
@@ -13,7 +15,7 @@ from support import FRAGTRACE, SCENES, Case, main, run
 BUILD = FRAGTRACE.parent
 SCRIPTS = SCENES.parent / "scripts"
 sys.path.insert(0, str(SCRIPTS))
-from help_text import choices, command, commands, kind_of, readable  # noqa: E402
+from option_table import Table  # noqa: E402
 
 
 class Installed(Case):
@@ -50,7 +52,7 @@ class HelpFiles(Case):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.found = commands(FRAGTRACE)
+        cls.table = Table(FRAGTRACE)
 
     def written(self):
         subprocess.run([SCRIPTS / "help_files", FRAGTRACE, self.folder], check=True)
@@ -92,25 +94,23 @@ class HelpFiles(Case):
 
     def test_each_option_is_offered(self):
         script = self.written() / "completions/fragtrace"
-        for one in self.found:
-            offered = self.completed(script, "fragtrace", *one.words, "--")
-            self.assertEqual(offered, [name for entry, _ in one.options for name in readable(entry)[0].split(",") if name.startswith("--")])
+        for command in self.table.commands:
+            offered = self.completed(script, "fragtrace", *command["name"].split(), "--")
+            self.assertEqual(offered, [form for option in self.table.of(command["name"]) for form in option["forms"] if form.startswith("--")])
 
     def test_the_names_of_values_are_those_that_the_program_knows(self):
-        entries = command(FRAGTRACE, ["render"]).options
-        named = {readable(name)[0]: choices(name, text, entries) for name, text in entries if choices(name, text, entries)}
+        named = {f"--{option['name']}": option for option in self.table.of("render") if option["choices"] and not option["other_values"]}
         self.assertGreater(len(named), 12)
-        for option, names in named.items():
+        for option, entry in named.items():
             refusal = run("render", "x.gltf", "-o", "x.exr", option, "nonsense").stderr
             known = re.search(r"'nonsense' is none of (.*)\n", refusal)
             self.assertTrue(known, option + refusal)
-            self.assertEqual(names, known[1].split(", "), option)
+            self.assertEqual(entry["choices"], known[1].split(", "), option)
 
     def test_what_names_a_file_says_so(self):
-        for one in self.found:
-            for name, text in [*one.options, *one.positionals]:
-                if re.search(r"\bfile\b|folder of|\.(exr|gltf)\b", text) and kind_of(name) == "TEXT":
-                    self.assertTrue(choices(name, text, one.options) or "--output" in text or text.startswith("name or index"), f"{one.words} {name}")
+        for option in self.table.options:
+            if re.search(r"\bfile\b|folder of|\.(exr|gltf)\b", option["text"]) and option["type"] == "text" and option["metavariable"] in ("TEXT", "NAME"):
+                self.assertTrue("--output" in option["text"] or option["text"].startswith("name or index"), option["name"])
 
     def test_defaults_stand_in_the_page(self):
         page = gzip.decompress((self.written() / "man/fragtrace-render.1.gz").read_bytes()).decode()
@@ -118,19 +118,43 @@ class HelpFiles(Case):
             self.assertTrue(default in page, default)
         self.assertGreater(page.count("default "), 30)
 
-    def test_both_spellings_of_a_default_are_read(self):
-        for entry, default in (("--spp INT=64", "64"), ("--spp INT [64]", "64"), ("--x INT:INT in [1 - 9]=4", "4"), ("--x INT:INT in [1 - 9] [4]", "4"),
-                               ("--x INT:INT in [1 - 9]", ""), ("--orbit AZIMUTH,ELEVATION[,ZOOM]", ""), ("--o TEXT REQUIRED", "")):
-            self.assertEqual(readable(entry)[2], default, entry)
-
     def test_each_command_has_a_page_with_all_options(self):
         folder = self.written() / "man"
-        self.assertEqual(len(list(folder.iterdir())), len(self.found))
-        for one in self.found:
-            page = gzip.decompress((folder / ("-".join(["fragtrace", *one.words]) + ".1.gz")).read_bytes()).decode()
-            self.assertIn(".SH NAME\n" + "\\-".join(["fragtrace", *one.words]), page)
-            for name, _ in one.options:
-                self.assertIn(readable(name)[0].split(",")[-1].replace("-", "\\-"), page)
+        self.assertEqual(len(list(folder.iterdir())), len(self.table.commands))
+        for command in self.table.commands:
+            words = ["fragtrace", *command["name"].split()]
+            page = gzip.decompress((folder / ("-".join(words) + ".1.gz")).read_bytes()).decode()
+            self.assertIn(".SH NAME\n" + "\\-".join(words), page)
+            for option in self.table.of(command["name"]):
+                self.assertIn(option["forms"][-1].replace("-", "\\-"), page)
+
+    def test_zsh_and_fish_take_their_files_and_offer_options(self):
+        folder = self.written() / "completions"
+        if shutil.which("zsh"):
+            subprocess.run(["zsh", "-n", folder / "_fragtrace"], check=True)
+        if shutil.which("fish"):
+            line = f"source {shlex.quote(str(folder / 'fragtrace.fish'))}; complete -C "
+            for words, word in (("fragtrace ren", "render"), ("fragtrace render --trav", "--traversal"), ("fragtrace render --traversal fro", "front-to-back"),
+                                ("fragtrace bench sta", "start"), ("fragtrace bench start --star", "--starts")):
+                offered = subprocess.run(["fish", "--no-config", "-c", line + shlex.quote(words)], check=True, capture_output=True, text=True).stdout
+                self.assertEqual([one.split("\t")[0] for one in offered.splitlines()], [word], words)
+        for name in ("_fragtrace", "fragtrace.fish"):
+            text = (folder / name).read_text()
+            for option in self.table.options:
+                if option["forms"]:
+                    self.assertTrue(f"{option['forms'][-1]}[" in text or f"-l {option['name']} " in text, (name, option["name"]))
+
+    def test_the_schema_takes_what_the_program_takes(self):
+        schema = json.loads((self.written() / "config.schema.json").read_text())
+        members = schema["properties"]
+        self.assertEqual({f"--{name}" for name in members if name != "$schema"},
+                         {f"--{option['name']}" for option in [*self.table.of("render"), *self.table.of("view")]} - {"--help", "--config"})
+        self.assertEqual(members["fit"]["type"], "boolean")
+        self.assertEqual((members["exposure"]["minimum"], members["exposure"]["maximum"]), (-100, 100))
+        self.assertEqual(members["traversal"]["enum"][0], "auto")
+        config = self.folder / "c.json"
+        config.write_text(json.dumps({"$schema": "config.schema.json", "exposure": 1, "resolution": [8, 8], "spp": 1, "traversal": "auto", "fit": True}))
+        self.renders(SCENES / "coverage.gltf", "-o", self.folder / "x.png", "--config", config)
 
 
 if __name__ == "__main__":

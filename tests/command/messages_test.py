@@ -13,7 +13,7 @@ from pathlib import Path
 from support import FRAGTRACE, SCENES, SMALL, Case, main, png, quad, run
 
 sys.path.insert(0, str(SCENES.parent / "scripts"))
-from help_text import command, kind_of, readable  # noqa: E402
+from option_table import Table  # noqa: E402
 
 BOX = SCENES / "cornell-box.gltf"
 TINY = ["--resolution", "8,8", "--spp", "1"]
@@ -26,12 +26,12 @@ class Values(Case):
                 ["bench", "error", BOX], ["bench", "start", BOX], ["bench", "motion", BOX], ["bench", "frame", BOX])
 
     def test_what_is_no_number_is_said_so_by_name(self):
-        tried = set()
+        tried, table = set(), Table(FRAGTRACE)
         for words in self.COMMANDS:
             names = [word for word in words if isinstance(word, str) and not word.startswith("-") and "." not in word]
-            for name, _ in command(FRAGTRACE, names).options:
-                option = next(one for one in readable(name)[0].split(",") if one.startswith("--"))
-                if kind_of(name) not in ("FLOAT", "INT", "UINT", "SECONDS") or (option, names[0]) in tried:
+            for one in table.of(" ".join(names)):
+                option = f"--{one['name']}"
+                if one["type"] not in ("number", "integer") or (option, names[0]) in tried:
                     continue
                 tried.add((option, names[0]))
                 for value in ("10s", "5%") if names[0] == "render" else ("10s",):

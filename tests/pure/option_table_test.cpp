@@ -12,6 +12,7 @@
 
 #include "options/command_text.h"
 #include "options/config_file.h"
+#include "options/help_rows.h"
 #include "options/option_text.h"
 #include "options/parse_render.h"
 #include "options/parse_words.h"
@@ -88,6 +89,10 @@ void forEachUse(const Law& law) {
       law(row, parsed(words), use);
     }
   }
+}
+
+TEST(OptionTable, EachRowOfHelpIsOfAnOption) {
+  for (const std::string_view name : namesOfHelpRows()) EXPECT_EQ(rowOf(name).name, name);
 }
 
 TEST(OptionTable, HasEachNameOnce) {

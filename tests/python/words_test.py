@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Keywords as words, without the compiled module and NumPy: stand-ins name the options and the types. usage: words_test.py FRAGTRACE SOURCE_FOLDER"""
+import ast
+import json
 import subprocess
 import sys
 import types
@@ -8,16 +10,14 @@ import unittest
 from pathlib import Path
 
 PROGRAM, SOURCE = sys.argv.pop(1), Path(sys.argv.pop(1)).resolve()
-sys.path.insert(0, str(SOURCE / "scripts"))
-from help_text import command, readable  # noqa: E402
-
 
 class UsageError(ValueError):
     pass
 
 
-names = [readable(name)[0].split(",")[-1].removeprefix("--") for name, _ in command(PROGRAM, ["render"]).options]
-core = types.SimpleNamespace(UsageError=UsageError, option_names=lambda: [name for name in names if name not in ("help", "output", "config")])
+table = json.loads(subprocess.run([PROGRAM, "help", "render", "--json"], check=True, capture_output=True, text=True).stdout)
+names = [option["name"] for option in table["options"] if option["forms"]]
+core = types.SimpleNamespace(UsageError=UsageError, option_names=lambda: [name for name in names if name not in ("help", "output")])
 numpy = types.SimpleNamespace(ndarray=type("ndarray", (), {}), generic=type("generic", (), {}), bool_=type("bool_", (int,), {}))
 package = types.ModuleType("fragtrace")
 package.__path__ = [str(SOURCE / "src/python/fragtrace")]
@@ -40,6 +40,19 @@ class Keywords(unittest.TestCase):
         for value in ({}, {"a": 1}):
             with self.assertRaisesRegex(UsageError, "^seed: takes no dict"):
                 words_of("a.gltf", {"seed": value})
+
+    def test_the_types_name_what_is_accepted(self):
+        """Of each keyword in _types.pyi, words_of() makes an option; of no other."""
+        stub = ast.parse((SOURCE / "src/python/fragtrace/_types.pyi").read_text())
+        typed = {line.target.id for line in next(node for node in stub.body if isinstance(node, ast.ClassDef)).body}
+        accepted = {"hdri", "progress"}
+        for name in (name.replace("-", "_") for name in core.option_names()):
+            try:
+                words_of("a.gltf", {name: "1"})
+                accepted.add(name)
+            except UsageError:
+                pass
+        self.assertEqual(typed, accepted - {"progress"})
 
     def test_switches(self):
         self.assertEqual(words_of("a.gltf", {"fit": numpy.bool_(True)})[1:], ["--fit"])

@@ -1,13 +1,21 @@
 # SPDX-License-Identifier: MIT
 """Rendering: a scene once, or as often as one likes."""
+from __future__ import annotations
+
 import atexit
 import json
 import os
 import sys
+from typing import TYPE_CHECKING
 
 from fragtrace import _core
 from fragtrace._picture import picture_of
 from fragtrace._words import words_of
+
+if TYPE_CHECKING:
+    from typing import Unpack
+
+    from fragtrace._types import Keywords
 
 # Whom the process that reads and writes pictures runs by.
 os.environ.setdefault("FRAGTRACE_PYTHON", sys.executable or "python3")
@@ -45,7 +53,7 @@ class Scene:
     Positions are rounded about the focal point of the first picture, unless scene_origin says about what; so pictures of further views may
     differ in their last bits from those of render(). May be used from several threads, whose pictures are drawn one after the other."""
 
-    def __init__(self, path, **keywords):
+    def __init__(self, path, **keywords: Unpack[Keywords]):
         self.path = os.fspath(path)
         words_of(path, keywords)
         if not os.path.exists(self.path):
@@ -53,7 +61,7 @@ class Scene:
         self.keywords = keywords
         self._core = _core.Scene(True)
 
-    def render(self, *, progress=None, **keywords):
+    def render(self, *, progress=None, **keywords: Unpack[Keywords]):
         """Does the same as fragtrace.render()."""
         return _render(self._core, self.path, {**self.keywords, **keywords}, progress)
 
@@ -66,7 +74,7 @@ class Scene:
         return f"fragtrace.Scene({self.path!r})"
 
 
-def render(path, *, progress=None, **keywords):
+def render(path, *, progress=None, **keywords: Unpack[Keywords]):
     """Draws a picture of a glTF scene: a Picture, a NumPy array (height, width, 4) of float32; with `aov`, a dict of layers (Layers).
 
     path: a .gltf or .glb file. progress: called with the fraction done, 0..1, or True for a bar by tqdm if that is installed.
