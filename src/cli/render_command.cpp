@@ -47,7 +47,7 @@ int renderOne(const RenderOptions& asked) {
   if (options.output.verbose && loaded.overrides.fit) {
     RenderOptions placed = options;
     placed.camera.overrides = asPlaced(loaded.camera, loaded.scene.bounds);
-    say(options, "--fit: the camera stands at " + cameraText(placed));
+    say(options, "--fit: the camera stands at " + viewText(placed));
   }
 
   // Step: the shader variant, and the arrays that it reads.

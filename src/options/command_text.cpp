@@ -75,9 +75,14 @@ RenderOptions withCommandText(const RenderOptions& current, const std::string& t
   return options;
 }
 
-std::string cameraText(const RenderOptions& options) {
+std::string viewText(const RenderOptions& options) {
   std::string text;
   for (const char* name : kView) appendRow(text, rowOf(name), options);
+  return text;
+}
+
+std::string cameraText(const RenderOptions& options) {
+  std::string text = viewText(options);
   appendRow(text, rowOf(kSize), options);
   return text;
 }

@@ -21,6 +21,9 @@ RenderOptions withCommandText(const RenderOptions& current, const std::string& t
 /// itself.
 std::string cameraText(const RenderOptions& options);
 
+/// The same without the resolution.
+std::string viewText(const RenderOptions& options);
+
 /// The options with all that cameraText() writes taken from such a text; an option that it does not name is
 /// as by default, but a resolution stays. Throws UsageError.
 RenderOptions withCameraText(RenderOptions options, const std::string& text);

@@ -31,11 +31,14 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
+bool isNegativeNumber(const std::string& word) {
+  return word.size() > 1 && word[0] == '-' &&
+         (std::isdigit(static_cast<unsigned char>(word[1])) != 0 || word[1] == '.');
+}
+
 void appendOption(std::string& text, const char* option, const std::string& value) {
   // The parser takes a value that begins with a dash for an option, unless "=" joins it to the option before.
-  const bool isNumber =
-      value.size() > 1 && (std::isdigit(static_cast<unsigned char>(value[1])) != 0 || value[1] == '.');
-  const char* join = value.starts_with('-') && !isNumber ? "=" : " ";
+  const char* join = value.starts_with('-') && !isNegativeNumber(value) ? "=" : " ";
   text += (text.empty() ? "" : " ") + std::string(option) + join + quoted(value);
 }
 

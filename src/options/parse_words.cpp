@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "base/report.h"
+#include "options/repeated_words.h"
 
 namespace fragtrace {
 
@@ -48,6 +50,11 @@ void refuseValuesOfSwitches(CLI::App& app) {
   }
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
     refuseValuesOfSwitches(*command);
+}
+
+bool isVerbose(const CLI::App& app) {
+  const CLI::Option* verbose = chosenCommand(app).get_option_no_throw("--verbose");
+  return verbose != nullptr && verbose->count() > 0;
 }
 
 /// Finds the first of the other commands that has the option.
@@ -143,6 +150,7 @@ void parseWords(CLI::App& app, std::vector<std::string> words, const char* more)
   for (size_t i = words.size(); i-- > 0;)
     words[i] = withNumberSettled(words[i], i > 0 ? std::string_view(words[i - 1]) : std::string_view());
   checkValues(words);
+  const std::vector<std::string> repeated = keepLast(app, words);
   words.insert(words.end(), files.begin(), files.end());
   refuseValuesOfSwitches(app);
   std::ranges::reverse(words);  // last first, as the library wants them
@@ -161,6 +169,8 @@ void parseWords(CLI::App& app, std::vector<std::string> words, const char* more)
     const std::string text = isAboutWords && !left.empty() ? whatIsUnknown(app, left) : plainText(error, app);
     throw UsageError(text + (text.ends_with('?') ? "" : more));
   }
+  if (!isVerbose(app)) return;
+  for (const std::string& note : repeated) reportMessage(note);
 }
 
 }  // namespace fragtrace

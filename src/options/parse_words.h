@@ -29,7 +29,7 @@ std::string plainText(const CLI::ParseError& error, const CLI::App& app);
 void parseWords(CLI::App& app, std::vector<std::string> words, const char* more = "");
 
 /// The option that an unknown one probably means: what other programs call it, the same beginning, or similar
-/// letters; empty if none is near. Names have their dashes.
+/// letters; empty if none is near. Names have their dashes, and the form of a value may follow.
 std::string suggestedOption(const std::string& unknown, const std::vector<std::string>& known);
 
 }  // namespace fragtrace

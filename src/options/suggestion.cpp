@@ -16,13 +16,13 @@ struct OtherName {
   std::string_view ours;
 };
 
-/// Names of options in other renderers.
+/// Names of options in other renderers. Ours have a form where a value would not do as it stands.
 constexpr auto kOtherNames = std::to_array<OtherName>({
     {"--samples", "--spp"},
     {"--samples-per-pixel", "--spp"},
-    {"--size", "--resolution"},
-    {"--width", "--resolution"},
-    {"--height", "--resolution"},
+    {"--size", "--resolution WIDTHxHEIGHT"},
+    {"--width", "--resolution WIDTHxHEIGHT"},
+    {"--height", "--resolution WIDTHxHEIGHT"},
     {"--depth", "--bounces"},
     {"--max-depth", "--bounces"},
     {"--max-bounces", "--bounces"},
@@ -30,11 +30,11 @@ constexpr auto kOtherNames = std::to_array<OtherName>({
     {"--envmap", "--hdri-file"},
     {"--hdri", "--hdri-file"},
     {"--fov", "--camera-view-angle"},
-    {"--background", "--background-color"},
-    {"--bg-color", "--background-color"},
+    {"--background", "--background-color R,G,B"},
+    {"--bg-color", "--background-color R,G,B"},
     {"--transparent", "--no-background"},
     {"--film-transparent", "--no-background"},
-    {"--integrator", "--stage"},
+    {"--integrator", "--stage gi"},
     {"--tonemap", "--tone-map"},
     {"--up-axis", "--up"},
     {"--frame-rate", "--fps"},
@@ -50,7 +50,8 @@ constexpr auto kOtherNames = std::to_array<OtherName>({
 std::string suggestedOption(const std::string& unknown, const std::vector<std::string>& known) {
   const auto isKnown = [&](std::string_view name) { return std::ranges::find(known, name) != known.end(); };
   for (const OtherName& name : kOtherNames) {
-    if (name.other == unknown && isKnown(name.ours)) return std::string(name.ours);
+    const std::string_view ours = name.ours.substr(0, name.ours.find(' '));
+    if (name.other == unknown && isKnown(ours)) return std::string(name.ours);
   }
   constexpr size_t kDashes = 2;
   for (const std::string& name : known) {

@@ -170,7 +170,6 @@ class Words(Case):
         self.fails(2, "bench", says=["bench needs a command: error, frame"])
 
     def test_a_wrong_number_of_values_is_told(self):
-        self.refused("--spp", "1", "--spp", "2", says=["--spp: takes one value, not 2"])
         self.refused("--camera-position", "3", says=["--camera-position: takes 3 values, not 1"])
         self.refused("--seed", says=["--seed: its value is missing"])
 

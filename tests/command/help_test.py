@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What --help shows, in text and as JSON."""
+"""What --help shows, in text and as JSON, and words that people of other programs try first."""
 import fcntl
 import json
 import os
@@ -9,9 +9,10 @@ import struct
 import subprocess
 import termios
 
-from support import FRAGTRACE, SCENES, Case, main, run
+from support import FRAGTRACE, SCENES, SMALL, Case, main, run
 
 BOX = SCENES / "cornell-box.gltf"
+TINY = SMALL[:-1]  # not quiet
 MEMBERS = ["name", "forms", "metavariable", "type", "choices", "other_values", "default", "range", "units", "group", "everyday", "values", "separator",
            "repeatable", "required", "excludes", "extensions", "text", "commands"]
 
@@ -76,6 +77,52 @@ class Help(Case):
         self.assertEqual(run("--help", "--json").stdout, run("help", "--json").stdout)
         self.assertIn("bench start", [command["name"] for command in json.loads(run("help", "bench", "--json").stdout)["commands"]])
         self.fails(2, "help", "rendr", "--json", says=["did you mean render?"])
+
+
+class Habits(Case):
+    def test_the_last_of_an_option_counts(self):
+        pictures = []
+        for name, words in (("once.pfm", ["--seed", "7", "--camera-orbit", "30,20"]),
+                            ("twice.pfm", ["--seed=3", "--camera-orbit", "10,5,2", "--fit", "--seed", "7", "--camera-orbit", "30,20", "--fit"])):
+            said = self.renders(BOX, "-o", "no.png", "-o", self.folder / name, *TINY, "--resolution", "64", "32", "--fit", "--verbose", *words).stderr
+            self.assertIn("fragtrace: -o no.png is left out: --output is given again, and the last one counts\n", said)
+            pictures.append((self.folder / name).read_bytes())
+        self.assertIn("--camera-orbit 10,5,2 is left out", said)
+        self.assertEqual(*pictures)
+        self.assertNotIn("left out", self.renders(BOX, "-o", self.folder / "x.png", *TINY, "--seed", "1", "--seed", "2").stderr)
+
+    def test_lists_add_up(self):
+        self.renders(BOX, "-o", self.folder / "x.exr", *SMALL, "--aov", "depth", "--aov", "normal", "--stats", self.folder / "s.json")
+        self.fails(2, "render", BOX, "-o", self.folder / "x.png", "--hide", "0", "--hide", "nobody", says=["nobody"])
+
+    def test_the_camera_of_verbose_may_follow_a_size(self):
+        said = self.renders(BOX, "-o", self.folder / "x.png", *TINY, "--fit", "--verbose").stderr
+        line = said.split("the camera stands at ")[1].split("\n")[0]
+        self.assertNotIn("--resolution", line)
+        self.renders(BOX, "-o", self.folder / "x.png", *SMALL, *line.split(), "--resolution", "8x8")
+
+    def test_hints_are_accepted(self):
+        """The words of a hint, with a value where they name its form, are taken at the next try."""
+        for words, meant in ((["--width", "64"], "--resolution WIDTHxHEIGHT"), (["--size", "64"], "--resolution WIDTHxHEIGHT"), (["--samples", "1"], "--spp"),
+                             (["--max-depth", "2"], "--bounces"), (["--fov", "40"], "--camera-view-angle"), (["--background", "white"], "--background-color R,G,B"),
+                             (["--integrator", "path"], "--stage gi"), (["--transparent"], "--no-background"), (["--up-axis", "z"], "--up"),
+                             (["--camera-pos", "0,1,3"], "--camera-position"), (["--tonemap", "agx"], "--tone-map")):
+            self.fails(2, "render", BOX, "-o", self.folder / "x.png", *words, says=[f"did you mean {meant}?"])
+            option, *form = meant.split()
+            value = {"WIDTHxHEIGHT": ["8x8"], "R,G,B": ["1,1,1"], "gi": ["gi"]}[form[0]] if form else words[1:]
+            self.renders(BOX, "-o", self.folder / "x.png", *SMALL, option, *value)
+
+    def test_files_of_other_programs_are_told_who_opens_them(self):
+        for name, content, kind in (("a.obj", b"v 0 0 0\n", "Wavefront OBJ"), ("a.STL", b"\0" * 84, "STL"), ("a.ply", b"ply\nformat", "PLY"),
+                                    ("a.usdz", b"PK\x03\x04", "USD"), ("a.usda", b"#usda 1.0", "USD"), ("b", b"PXR-USDC", "USD"), ("c", b"BLENDER-v3", "a file of Blender"),
+                                    ("a.blend", b"\x28\xb5\x2f\xfd", "a file of Blender"), ("a.dae", b"<?xml?>", "COLLADA"), ("a.fbx", b"; FBX 7", "FBX"),
+                                    ("d", b"Kaydara FBX", "FBX"), ("a.abc", b"Ogawa", "Alembic")):
+            (self.folder / name).write_bytes(content)
+            self.fails(3, "render", self.folder / name, "-o", self.folder / "x.png", says=[f"is {kind}, not glTF; Blender opens it and writes a .glb"])
+        (self.folder / "a.step").write_bytes(b"ISO-10303-21;")
+        self.fails(3, "render", self.folder / "a.step", "-o", self.folder / "x.png", says=["is STEP, not glTF; FreeCAD opens it"])
+        (self.folder / "a.zip").write_bytes(b"PK\x03\x04")
+        self.fails(3, "render", self.folder / "a.zip", "-o", self.folder / "x.png", says=["is a ZIP archive"])
 
 
 if __name__ == "__main__":

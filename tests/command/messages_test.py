@@ -145,7 +145,7 @@ class UnknownWords(Case):
         self.fails(2, BOX, "-o", self.folder / "a.png", says=["-o is no option of view; did you mean the command render?"])
         self.fails(2, "render", BOX, "-v", says=["did you mean --verbose?"])
         self.fails(2, "render", BOX, "--transparent", says=["did you mean --no-background?"])
-        self.fails(2, "render", BOX, "--background", "white", says=["did you mean --background-color?"])
+        self.fails(2, "render", BOX, "--background", "white", says=["did you mean --background-color R,G,B?"])
         self.fails(2, "render", BOX, "-o", self.folder / "x.png", "--background-color", "white", says=["'white' is no number, as in 1,1,1 for white"])
         (self.folder / "-file.glb").touch()
         for words in (["-file.glb"], ["render", "-file.glb", "-o", "x.png"]):

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <span>
 #include <string_view>
+#include <utility>
 
 namespace fragtrace {
 namespace {
@@ -39,14 +42,58 @@ constexpr ForeignFile kForeignFiles[] = {
     {"<", "is a page of the web or XML, not the model itself"},
     {"\xff\xfe", "is UTF-16, and glTF is UTF-8"},
     {"\xfe\xff", "is UTF-16, and glTF is UTF-8"},
-    {"Kaydara FBX", "is FBX, not glTF; Blender opens it and writes a .glb"},
     {"\x89PNG", "is a picture, not glTF"},
     {"\xff\xd8\xff", "is a picture, not glTF"},
 };
 
+/// Formats of other programs, by the file's extension.
+struct ForeignFormat {
+  std::string_view extensions;  ///< each between two dots
+  const char* name;
+  const char* opener;  ///< the program that turns them into glTF
+};
+constexpr ForeignFormat kForeignFormats[] = {
+    {".fbx.", "FBX", "Blender"},
+    {".obj.", "Wavefront OBJ", "Blender"},
+    {".stl.", "STL", "Blender"},
+    {".ply.", "PLY", "Blender"},
+    {".usd.usda.usdc.usdz.", "USD", "Blender"},
+    {".abc.", "Alembic", "Blender"},
+    {".dae.", "COLLADA", "Blender"},
+    {".blend.blend1.", "a file of Blender", "Blender"},
+    {".wrl.x3d.", "X3D", "Blender"},
+    {".3ds.", "3DS", "Blender"},
+    {".3mf.", "3MF", "Blender"},
+    {".max.", "a file of 3ds Max", "3ds Max"},
+    {".ma.mb.", "a file of Maya", "Maya"},
+    {".c4d.", "a file of Cinema 4D", "Cinema 4D"},
+    {".skp.", "a file of SketchUp", "SketchUp"},
+    {".step.stp.", "STEP", "FreeCAD"},
+    {".iges.igs.", "IGES", "FreeCAD"},
+};
+/// Such formats by their first bytes, where the file is called otherwise.
+constexpr std::pair<std::string_view, std::string_view> kForeignBeginnings[] = {
+    {"Kaydara FBX", ".fbx"}, {"BLENDER", ".blend"}, {"PXR-USDC", ".usdc"}, {"#usda ", ".usda"},
+    {"ISO-10303", ".step"},  {"solid ", ".stl"},    {"ply\n", ".ply"},     {"ply\r", ".ply"},
+};
+
+/// Names the format that has the extension, and what to do; empty if there is none.
+std::string foreignFormat(std::string extension) {
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  for (const ForeignFormat& format : kForeignFormats)
+    if (!extension.empty() && format.extensions.find(extension + ".") != std::string_view::npos)
+      return std::string("is ") + format.name + ", not glTF; " + format.opener +
+             " opens it and writes a .glb";
+  return "";
+}
+
 std::string whyNotGltf(std::string_view text, const std::string& file) {
   if (text.empty()) return "is empty, not glTF";
   if (file.ends_with(".nvdb")) return "is not glTF; --volume places it in a scene";
+  std::string format = foreignFormat(std::filesystem::path(file).extension().string());
+  for (const auto& [beginning, extension] : kForeignBeginnings)
+    if (format.empty() && text.starts_with(beginning)) format = foreignFormat(std::string(extension));
+  if (!format.empty()) return format;
   for (const ForeignFile& foreign : kForeignFiles)
     if (text.starts_with(foreign.beginning)) return foreign.reason;
   return "is not glTF: neither JSON nor a .glb";
