@@ -21,6 +21,7 @@
 #include "image/display/tone_map.h"
 #include "options/choose.h"
 #include "options/numbers.h"
+#include "options/option_facts.h"
 #include "render/film/film_pixels.h"
 #include "session/interrupt.h"
 #include "session/progress_bar.h"
@@ -30,6 +31,7 @@ namespace fragtrace {
 
 namespace {
 
+constexpr std::array<std::string_view, 5> kPaths{"orbit", "dolly", "sun", "color", "roughness"};
 constexpr std::array<std::string_view, 4> kModes{"filtered", "raw", "no-past", "spatial"};
 
 struct MotionOptions {
@@ -53,6 +55,7 @@ void declareMotion(CLI::App& app, MotionOptions& o) {
          "file of camera options, a line a place, as the viewer copies these; or what moves before a "
          "camera at rest: sun, the sun of --sky from 2 to 60 degrees and back; color, the base colours "
          "of all materials round the circle of hues; roughness, theirs from 0.1 to 0.9 and back")
+      ->check(withChoices(kPaths, true))
       ->capture_default_str();
   app.add_option("--period", o.period, "seconds that the path takes before it begins again")
       ->check(realNumber(0.1, 1e4))

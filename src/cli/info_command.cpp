@@ -8,6 +8,8 @@
 #include "base/text.h"
 #include "bvh/bvh.h"
 #include "cli/commands.h"
+#include "cli/info_contents.h"
+#include "cli/info_text.h"
 #include "gltf/gltf.h"
 #include "options/choose.h"
 #include "options/option_row.h"
@@ -45,46 +47,7 @@ double gpuBytesPerTriangle(const Scene& scene, const Bvh& bvh, const TraitSet& t
   return double(packScene(scene, bvh, {}, variant).geometryBytes()) / double(scene.triangles.size());
 }
 
-/// The parts that options may name: how many, and of each its index, its name and a note; nothing where there
-/// is none.
-void printParts(const char* what, const std::vector<std::string>& names,
-                const std::vector<std::string>& notes = {}) {
-  if (names.empty()) return;
-  std::string list;
-  for (size_t i = 0; i < names.size(); ++i) {
-    const std::string note = i < notes.size() ? notes[i] : "";
-    list +=
-        (i == 0 ? "" : ", ") + std::to_string(i) + " " + (names[i].empty() ? "unnamed" : inQuotes(names[i]));
-    if (!note.empty()) list += " (" + note + ")";
-  }
-  std::printf("  %-11s %zu: %s\n", what, names.size(), list.c_str());
-}
-
-const char* kindOf(const Camera& camera) { return kCameraTypeNames[size_t(camera.type)].data(); }
-
-void printAllParts(const Scene& scene) {
-  std::vector<std::string> cameras;
-  std::vector<std::string> kinds;
-  for (const Camera& camera : scene.cameras) {
-    cameras.push_back(camera.name);
-    kinds.emplace_back(kindOf(camera));
-  }
-  std::vector<std::string> durations;
-  for (const std::optional<double>& seconds : scene.animationSeconds) {
-    durations.push_back(seconds ? formatted("%.4g s", *seconds) : "of unknown duration");
-  }
-  if (cameras.empty()) std::printf("  cameras     none\n");
-  printParts("cameras", cameras, kinds);
-  printParts("scenes", scene.sceneNames);
-  printParts("animations", scene.animationNames, durations);
-  printParts("variants", scene.materialVariants);
-  const VolumeSource& volume = scene.volume.source;
-  if (!volume.file.empty())
-    std::printf("  volume      %s\n",
-                withoutControls(volume.file.string() + (volume.grid ? ":" + *volume.grid : "")).c_str());
-}
-
-/// Adds the same as JSON.
+/// Adds what the text has of the scene's parts.
 void addParts(nlohmann::ordered_json& json, const Scene& scene) {
   json["scene_names"] = scene.sceneNames;
   json["animation_names"] = scene.animationNames;
@@ -101,24 +64,14 @@ void addParts(nlohmann::ordered_json& json, const Scene& scene) {
   if (!scene.volume.source.file.empty()) json["volume"] = scene.volume.source.file.string();
 }
 
-/// The contents of a node, in words.
-std::vector<std::string> contentsOf(const SceneNode& node) {
-  std::vector<std::string> words;
-  if (node.mesh) words.emplace_back("mesh");
-  if (node.light) words.emplace_back("light");
-  if (node.camera) words.emplace_back("camera");
-  return words;
-}
-
-/// Prints a line for each node, indented below its parent.
-void printNodes(const std::vector<SceneNode>& nodes) {
-  std::printf("  nodes       %zu\n", nodes.size());
-  for (const SceneNode& node : nodes) {
-    std::string notes = node.hidden ? ", hidden" : "";
-    for (const std::string& word : contentsOf(node)) notes += ", " + word;
-    std::printf("    %*s%u %s%s\n", 2 * node.depth, "", node.index, inQuotes(node.name).c_str(),
-                notes.c_str());
-  }
+SceneCosts costsOf(const Scene& scene) {
+  const Bvh tree = buildSceneBvh(scene);
+  const Surroundings surroundings = hasOwnLight(scene) ? Surroundings::None : Surroundings::Map;
+  SceneCosts costs{.tree = bvhQuality(tree), .traits = traitsOf(scene, surroundings)};
+  if (!scene.triangles.empty())
+    costs.bytesPerTriangle = gpuBytesPerTriangle(scene, tree, costs.traits, surroundings);
+  if (scene.volume.grid) costs.volumeBytes = texelsOf(*scene.volume.grid) * sizeof(glm::uvec2);
+  return costs;
 }
 
 nlohmann::ordered_json nodesJson(const std::vector<SceneNode>& nodes) {
@@ -132,47 +85,31 @@ nlohmann::ordered_json nodesJson(const std::vector<SceneNode>& nodes) {
   return json;
 }
 
-void printText(const std::filesystem::path& path, const SceneDescription& s, const BvhQuality& bvh,
-               double bytesPerTriangle, size_t volumeBytes, const TraitSet& traits) {
-  std::printf("%s\n", path.string().c_str());
-  std::printf("  triangles   %zu (%zu emissive), vertices %zu, spheres %zu\n", s.triangles,
-              s.emissiveTriangles, s.vertices, s.spheres);
-  if (s.points + s.lines > 0)
-    std::printf("  lines       %zu points, %zu line segments (as solids of --line-width pixels)\n", s.points,
-                s.lines);
-  std::printf("  materials   %zu, textures %zu, images %zu (%.1f MB encoded)\n", s.materials, s.textures,
-              s.images, double(s.imageBytes) / 1e6);
-  std::printf("  lights      %zu point, %zu spot, %zu directional\n", s.pointLights, s.spotLights,
-              s.directionalLights);
-  std::printf("  extensions  %s\n",
-              s.extensionsUsed.empty() ? "none" : withoutControls(joined(s.extensionsUsed)).c_str());
-  if (s.bounds.empty()) {
-    std::printf("  bounds      empty\n");
-  } else {
-    const glm::dvec3& a = s.bounds.minimum;
-    const glm::dvec3& b = s.bounds.maximum;
-    std::printf("  bounds      (%g, %g, %g) to (%g, %g, %g) m\n", a.x, a.y, a.z, b.x, b.y, b.z);
+/// Adds what the text has for a reader.
+void addContents(nlohmann::ordered_json& json, const RenderOptions& options, const Scene& scene,
+                 const BoundsDouble& bounds) {
+  json["size"] = nullptr;
+  if (!bounds.empty()) {
+    const glm::dvec3 size = bounds.maximum - bounds.minimum;
+    json["size"] = {size.x, size.y, size.z};
   }
-  std::printf("  tree        %u nodes, %u leaves, depth %u, %.2f primitives per leaf, SAH cost %.2f\n",
-              bvh.nodeCount, bvh.leafCount, bvh.depth, bvh.primitivesPerLeaf, bvh.sahCost);
-  const double geometry = bytesPerTriangle * double(s.triangles);
-  if (s.sharedMeshes > 0)
-    std::printf(
-        "  shared      %zu meshes in %zu instances, %zu triangles drawn; %u nodes are theirs, %u above "
-        "them\n",
-        s.sharedMeshes, s.sharedInstances, s.trianglesDrawn, bvh.meshNodeCount,
-        bvh.nodeCount - bvh.meshNodeCount);
-  std::printf("  instancing  %s\n", s.sharing.c_str());
-  std::printf("  GPU memory  %.1f MB: geometry %.1f",
-              (geometry + double(s.texelBytes) + double(volumeBytes)) / 1e6, geometry / 1e6);
-  if (s.triangles > 0) std::printf(" (%.1f bytes per triangle)", bytesPerTriangle);
-  std::printf(", textures %.1f", double(s.texelBytes) / 1e6);
-  if (volumeBytes > 0) std::printf(", volume %.1f", double(volumeBytes) / 1e6);
-  std::printf("\n");
-  for (const StageRow& row : stageRows()) {
-    const std::string reason = whyOff(row.stage, traits);
-    if (!reason.empty()) std::printf("  not needed  %s (%s)\n", row.name, reason.c_str());
+  json["materials"] = nlohmann::ordered_json::array();
+  for (const Material& m : scene.materials) {
+    nlohmann::ordered_json textures = nlohmann::ordered_json::array();
+    for (const TextureContents& t : texturesOf(scene, m))
+      textures.push_back({{"slot", t.slot}, {"name", t.name}, {"width", t.width}, {"height", t.height}});
+    json["materials"].push_back({{"name", m.name}, {"textures", textures}});
   }
+  json["lamps"] = nlohmann::ordered_json::array();
+  for (const LampContents& lamp : lampsOf(scene))
+    json["lamps"].push_back(
+        {{"name", lamp.name}, {"type", lamp.type}, {"intensity", lamp.intensity}, {"unit", lamp.unit}});
+  json["lit_by"] = whoLights(options, scene).by;
+  json["generator"] = scene.made.generator;
+  json["copyright"] = scene.made.copyright;
+  json["files"] = nlohmann::ordered_json::array();
+  for (const FileContents& file : filesOf(options.scene, scene))
+    json["files"].push_back({{"name", file.name}, {"bytes", file.bytes}});
 }
 
 /// The grids of a volume's file.
@@ -228,31 +165,25 @@ int inform(const InfoOptions& options) {
     }
   }
   const SceneDescription description = describe(scene);
-  const Bvh tree = buildSceneBvh(scene);
-  const BvhQuality bvh = bvhQuality(tree);
   for (const std::string& warning : scene.warnings) std::cerr << "fragtrace: warning: " << warning << '\n';
-  const Surroundings surroundings = hasOwnLight(scene) ? Surroundings::None : Surroundings::Map;
-  const TraitSet traits = traitsOf(scene, surroundings);
-  const double bytesPerTriangle =
-      scene.triangles.empty() ? 0.0 : gpuBytesPerTriangle(scene, tree, traits, surroundings);
-  const size_t volumeBytes = scene.volume.grid ? texelsOf(*scene.volume.grid) * sizeof(glm::uvec2) : 0;
   if (!options.json) {
-    printText(options.render.scene, description, bvh, bytesPerTriangle, volumeBytes, traits);
-    printAllParts(scene);
+    printContents(options.render, scene, description);
+    if (options.render.output.verbose) printCosts(description, costsOf(scene));
     if (options.nodes) printNodes(scene.nodes);
     return 0;
   }
+  const SceneCosts costs = costsOf(scene);
   nlohmann::ordered_json json;
   json["schema"] = 1;
   json["file"] = options.render.scene.string();
   json["scene"] = sceneJson(description);
-  json["bvh"] = bvhJson(bvh);
-  if (bytesPerTriangle > 0.0) json["gpu_bytes_per_triangle"] = bytesPerTriangle;
+  json["bvh"] = bvhJson(costs.tree);
+  if (costs.bytesPerTriangle > 0.0) json["gpu_bytes_per_triangle"] = costs.bytesPerTriangle;
   json["texture_bytes"] = description.texelBytes;
-  if (volumeBytes > 0) json["volume_bytes"] = volumeBytes;
+  if (costs.volumeBytes > 0) json["volume_bytes"] = costs.volumeBytes;
   nlohmann::ordered_json notNeeded = nlohmann::ordered_json::object();
   for (const StageRow& row : stageRows()) {
-    const std::string reason = whyOff(row.stage, traits);
+    const std::string reason = whyOff(row.stage, costs.traits);
     if (!reason.empty()) notNeeded[row.name] = reason;
   }
   json["not_needed"] = notNeeded;
@@ -260,6 +191,7 @@ int inform(const InfoOptions& options) {
   for (const Material& m : scene.materials) materials.push_back(m.name);
   json["material_names"] = materials;
   addParts(json, scene);
+  addContents(json, options.render, scene, description.bounds);
   if (options.nodes) json["nodes"] = nodesJson(scene.nodes);
   json["warnings"] = scene.warnings;
   std::cout << jsonText(json);
@@ -295,6 +227,8 @@ RunCommand addInfo(CLI::App& app) {
   app.add_flag("--decode", raw->decode, "also decode the textures, so that a broken one is an error");
   for (const OptionRow& row : inputRows()) addOption(app, row.name, raw->render);
   addOption(app, "--instancing", raw->render);
+  addOption(app, "--verbose", raw->render,
+            "also print the tree and what it costs, and all materials of a file with many");
   return [raw] { return runInfo({raw->render.options, raw->json, raw->nodes, raw->decode}); };
 }
 

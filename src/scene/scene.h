@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
@@ -386,6 +387,13 @@ struct Vertices {
   std::vector<glm::vec4> color;  ///< linear, multiplies base colour; (1,1,1,1) where a primitive has none
 };
 
+/// What a file says of its making, and the files of its buffers.
+struct Making {
+  std::string generator{};
+  std::string copyright{};
+  std::vector<std::filesystem::path> buffers{};
+};
+
 /// Everything the renderer knows of a glTF file. Primitive indices count triangles first, then spheres.
 struct Scene {
   LocalSpace space;
@@ -407,7 +415,8 @@ struct Scene {
   std::vector<Instance> instances;
   std::string sharing;  ///< why meshes are shared or are not, in a few words
   std::vector<std::string> extensionsUsed;
-  bool refersToFiles = false;           ///< its file does: to buffers or pictures
+  bool refersToFiles = false;  ///< its file does: to buffers or pictures
+  Making made;
   std::vector<std::string> sceneNames;  ///< all that SceneSelection may name; "" for one without a name
   std::vector<std::string> animationNames;
   std::vector<std::optional<double>> animationSeconds;  ///< time of the last key; none: it is not said

@@ -104,8 +104,8 @@ class GpuMemory(Bench):
         self.assertTrue(60 < told["gpu_bytes_per_triangle"] < 160, told["gpu_bytes_per_triangle"])
         self.assertLessEqual(told["gpu_bytes_per_triangle"] * 69326, told["scene_bytes"])
         self.assertNotIn("buffer_reads_fallback", told)
-        self.assertIn("bytes per triangle", run("info", ROOM).stdout)
-        self.assertNotIn("bytes per triangle", run("info", SCENES / "sphere-black.gltf").stdout)
+        self.assertIn("bytes per triangle", run("info", ROOM, "--verbose").stdout)
+        self.assertNotIn("bytes per triangle", run("info", SCENES / "sphere-black.gltf", "--verbose").stdout)
         self.renders(SCENES / "sphere-black.gltf", "-o", self.folder / "p.pfm", *SMALL, "--stats", stats)
         self.assertNotIn("gpu_bytes_per_triangle", json.loads(stats.read_text()))
 

@@ -182,6 +182,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
   Scene scene;
   scene.extensionsUsed = document.model.extensionsUsed;
   scene.refersToFiles = document.refersToFiles;
+  scene.made = document.made;
   scene.sceneNames = document.sceneNames;
   scene.animationNames = document.animationNames;
   scene.animationSeconds = document.animationSeconds;

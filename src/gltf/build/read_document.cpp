@@ -75,6 +75,7 @@ constexpr double kBuffersPart = 0.4;
 std::vector<uint8_t> readBuffer(const std::string& uri, size_t index, size_t count, Document& document) {
   const std::string place = pointerTo("buffers", index, "uri");
   document.refersToFiles = document.refersToFiles || !isDataUri(uri);
+  if (!isDataUri(uri)) document.made.buffers.push_back(pathOfUri(document.access, uri));
   const double step = (kBuffersPart - kContainerPart) / double(count);
   const double from = kContainerPart + double(index) * step;
   document.access.progress = tellReading(
@@ -186,8 +187,14 @@ void checkBufferViews(json& root, const Buffers& data, const IsUsed& isUsed, Doc
   takeShortBuffers(root, data, losesUsedView, diagnostics);
 }
 
-/// Notes the names that the user may choose from.
+/// Notes who made the file, and the names that the user may choose from.
 void noteNames(json& root, Document& document) {
+  const auto said = [&](const char* member) {
+    const json& asset = root["asset"];
+    return asset.contains(member) && asset[member].is_string() ? asset[member].get<std::string>() : "";
+  };
+  document.made.generator = said("generator");
+  document.made.copyright = said("copyright");
   const json::json_pointer variants("/extensions/KHR_materials_variants/variants");
   document.sceneNames = namesOf(arrayIn(root, "scenes"));
   document.animationNames = namesOf(arrayIn(root, "animations"));

@@ -48,6 +48,7 @@ struct Document {
   int textureSide;             ///< larger pictures are scaled down
   bool drawMissingTextures;    ///< pictures that cannot be read are warned of
   bool refersToFiles = false;  ///< buffers or pictures are other files
+  Making made;
   bool keepsPictures = false;  ///< their bytes are read once for all poses
   MemoryBudget memory;         ///< memory that loading may still take
 };

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "cli/info_contents.h"
+
+#include <algorithm>
+#include <array>
+#include <system_error>
+
+#include "base/errors.h"
+#include "base/text.h"
+#include "session/environment.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// Names of the slots, in the order of kTextureRefs.
+constexpr std::array kSlotNames{"base colour",
+                                "metal and roughness",
+                                "normals",
+                                "emission",
+                                "transmission",
+                                "specular",
+                                "specular colour",
+                                "clearcoat",
+                                "clearcoat roughness",
+                                "clearcoat normals",
+                                "sheen",
+                                "sheen roughness",
+                                "anisotropy",
+                                "iridescence",
+                                "iridescence thickness",
+                                "diffuse transmission",
+                                "diffuse transmission colour",
+                                "scattering",
+                                "scattering colour",
+                                "occlusion"};
+static_assert(kSlotNames.size() == kTextureRefs.size());
+
+constexpr std::array kLampTypes{"point", "spot", "directional"};
+
+/// "2 lamps", "1 material that shines"; empty for none.
+std::string counted(size_t count, const char* one, const char* more) {
+  return count == 0 ? "" : std::to_string(count) + " " + (count == 1 ? one : more);
+}
+
+/// Returns true if the picture is a file of its own.
+bool isFile(const EncodedImage& image) { return image.name != image.place && !image.place.empty(); }
+
+}  // namespace
+
+std::vector<TextureContents> texturesOf(const Scene& scene, const Material& material) {
+  std::vector<TextureContents> found;
+  for (size_t i = 0; i < kTextureRefs.size(); ++i) {
+    const TextureRef& reference = material.*kTextureRefs[i].ref;
+    if (!reference.present()) continue;
+    const uint32_t index = scene.textures[reference.texture].image;
+    if (index == kMissIndex) continue;
+    const EncodedImage& image = scene.images[index];
+    const std::string file = std::filesystem::path(image.name).filename().string();
+    found.push_back({kSlotNames[i], isFile(image) ? file : image.name, image.width, image.height});
+  }
+  return found;
+}
+
+std::vector<LampContents> lampsOf(const Scene& scene) {
+  std::vector<LampContents> lamps;
+  for (const Light& light : scene.lights) {
+    const double intensity = scene.lightSources[light.source].intensity;
+    lamps.push_back({light.node, kLampTypes[size_t(light.type)], intensity,
+                     light.type == LightType::Directional ? "lx" : "cd"});
+  }
+  return lamps;
+}
+
+std::vector<FileContents> filesOf(const std::filesystem::path& path, const Scene& scene) {
+  std::vector<std::filesystem::path> paths{path};
+  paths.insert(paths.end(), scene.made.buffers.begin(), scene.made.buffers.end());
+  for (const EncodedImage& image : scene.images) {
+    if (isFile(image)) paths.emplace_back(image.name);
+  }
+  std::vector<FileContents> files;
+  for (const std::filesystem::path& file : paths) {
+    std::error_code error;
+    const uint64_t bytes = std::filesystem::file_size(file, error);
+    const bool isNew = std::ranges::find(files, file.string(), &FileContents::name) == files.end();
+    if (!error && isNew) files.push_back({file.string(), bytes});
+  }
+  return files;
+}
+
+WhoLights whoLights(const RenderOptions& options, const Scene& scene) {
+  OwnLight light = OwnLight::Enough;
+  try {
+    light = lightOf(options, scene);
+  } catch (const InputError&) {  // a texture that shines and is broken
+    return {"unknown", "not known, since a texture that shines cannot be decoded"};
+  }
+  if (light == OwnLight::Enough) {
+    const auto shining =
+        std::ranges::count_if(scene.materials, [](const Material& m) { return m.emissive(); });
+    std::vector<std::string> own{counted(scene.lights.size(), "lamp", "lamps"),
+                                 counted(size_t(shining), "material that shines", "materials that shine")};
+    std::erase(own, "");
+    return {"own", "its own: " + joined(own, " and ")};
+  }
+  const bool studio = options.light.defaultLight == DefaultLight::Studio;
+  const std::string why =
+      light == OwnLight::None ? "nothing in it shines" : "its emissive textures are too dim";
+  return {std::string(kDefaultLightNames[size_t(options.light.defaultLight)]),
+          why + ": `render` adds " + (studio ? "the studio" : "a white environment") + " (--default-light)"};
+}
+
+std::string bytesText(uint64_t bytes) {
+  if (bytes < 1000) return countText(size_t(bytes), "byte");
+  return bytes < 1'000'000 ? formatted("%.0f kB", double(bytes) / 1e3)
+                           : formatted("%.1f MB", double(bytes) / 1e6);
+}
+
+}  // namespace fragtrace

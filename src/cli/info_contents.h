@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// What `info` tells of a scene to somebody who has not made it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+#include "shader/render_options.h"
+
+namespace fragtrace {
+
+struct TextureContents {
+  const char* slot;  ///< "base colour"
+  std::string name;  ///< the file's, or the place in the scene's file
+  int width;
+  int height;
+};
+
+/// The textures of a material, in the order of kTextureRefs.
+std::vector<TextureContents> texturesOf(const Scene& scene, const Material& material);
+
+struct LampContents {
+  std::string name;  ///< that of the node
+  const char* type;
+  double intensity;
+  const char* unit;
+};
+
+/// The punctual lights that nodes of the scene place.
+std::vector<LampContents> lampsOf(const Scene& scene);
+
+struct FileContents {
+  std::string name;
+  uint64_t bytes;
+};
+
+/// The scene's file and those that it refers to; one that is missing is left out.
+std::vector<FileContents> filesOf(const std::filesystem::path& path, const Scene& scene);
+
+/// What would light the scene with these options: its own light, or a word of kDefaultLightNames.
+struct WhoLights {
+  std::string by;    ///< "own", or that word
+  std::string text;  ///< a clause
+};
+WhoLights whoLights(const RenderOptions& options, const Scene& scene);
+
+/// "3.1 MB", "450 kB", "12 bytes"
+std::string bytesText(uint64_t bytes);
+
+}  // namespace fragtrace
