@@ -81,7 +81,7 @@ constexpr auto kHelpRows = std::to_array<HelpRow>({
     {"--scene", {nullptr, kRest, "NAME"}},
     {"--material-variant", {nullptr, kEveryday, "NAME"}},
     {"--hide", {nullptr, kEveryday}},
-    {"--set", {nullptr, kEveryday}},
+    {"--set", {nullptr, kEveryday, "MATERIAL:NAME=VALUES"}},
     {"--up", {nullptr, kEveryday, "AXIS"}},
     {"--memory-limit", {"Device", kEveryday}},
     {"--texture-limit", {nullptr, kRest, "PIXELS", "pixels"}},

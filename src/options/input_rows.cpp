@@ -63,17 +63,36 @@ OptionRow listRow(const char* name, std::string help, Member member, const char*
   return row;
 }
 
-/// "POINTER=1,2" or "POINTER=1, 2"
+/// The place of the first equals sign without a backslash before it.
+size_t firstEquals(const std::string& text) {
+  size_t at = 0;
+  while (at < text.size() && text[at] != '=') at += text[at] == '\\' ? 2 : 1;
+  return at < text.size() ? at : std::string::npos;
+}
+
+/// The word of a mode, as the file has it; empty: it is none.
+std::string modeIn(const std::string& word) {
+  for (const char* mode : {"OPAQUE", "MASK", "BLEND", "true", "false"})
+    if (isSameButForCase(word, mode)) return mode;
+  return "";
+}
+
+/// "POINTER=1,2", "POINTER=1, 2", "MATERIAL:NAME=1,2" or "MATERIAL:NAME=BLEND"
 SetNumber setNumberIn(const std::string& text) {
-  const size_t equals = text.rfind('=');
+  const bool isPlace = text.starts_with('/');
+  const size_t equals = isPlace ? text.rfind('=') : firstEquals(text);
   SetNumber set{text.substr(0, equals), {}};
-  if (!set.pointer.starts_with('/') || equals >= text.size() - 1) {
+  const size_t colon = isPlace ? std::string::npos : set.pointer.rfind(':');
+  const bool isNamed = colon != std::string::npos && colon > 0 && colon + 1 < set.pointer.size();
+  if (!(isPlace || isNamed) || equals >= text.size() - 1) {
     const size_t slash = set.pointer.find('/');
     const bool isMeant = slash != std::string::npos && slash > 0 && equals < text.size() - 1;
     const size_t start = text.starts_with("#/") ? 2 : 0;
-    throw UsageError("--set: '" + text + "' is not of the form PLACE=NUMBERS" +
+    throw UsageError("--set: '" + text + "' is not of the form PLACE=NUMBERS or MATERIAL:NAME=VALUES" +
                      (isMeant ? "; did you mean /" + text.substr(start) + "?" : ""));
   }
+  set.word = modeIn(text.substr(equals + 1));
+  if (!set.word.empty()) return set;
   for (size_t start = equals + 1; start <= text.size();) {
     const size_t end = std::min(text.find(',', start), text.size());
     const std::string word = CLI::detail::trim_copy(text.substr(start, end - start));
@@ -90,11 +109,15 @@ SetNumber setNumberIn(const std::string& text) {
 OptionRow setRow() {
   OptionRow row = memberRow(
       "--set",
-      "number to draw in place of the file's, as JSON pointer and value, such as "
-      "/materials/0/pbrMetallicRoughness/roughnessFactor=0.25; several with commas where the file has an "
-      "array; can be given several times",
+      "value to draw instead of the file's: of the materials with that name, as \"MATERIAL:NAME=VALUES\", "
+      "such "
+      "as \"Wood*:roughness=0.25\", also of what the file's material lacks (clearcoat, sheen, transmission, "
+      "index, alphaMode, ...); or a number by JSON pointer, such as /materials/0/alphaCutoff=0.25; several "
+      "with "
+      "commas where the file has an array; can be given several times",
       FRAGTRACE_MEMBER(selection.set), {.effect = Effect::Picture, .renewal = Renewal::Scene});
-  row.examples = {"/materials/0/pbrMetallicRoughness/roughnessFactor=0.25"};
+  row.examples = {"/materials/0/pbrMetallicRoughness/roughnessFactor=0.25", "Wood*:roughness=0.25",
+                  "b:c:alphaMode=BLEND"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
     const auto take = [&raw](const std::vector<std::string>& texts) {
       raw.options.selection.set.clear();
@@ -109,6 +132,7 @@ OptionRow setRow() {
     for (const SetNumber& set : o.selection.set) {
       words.push_back(set.pointer);
       const char* separator = "=";
+      if (!set.word.empty()) words.back() += separator + set.word;
       for (const double value : set.values) words.back() += std::exchange(separator, ",") + exactText(value);
     }
     return words;

@@ -8,10 +8,12 @@
 
 namespace fragtrace {
 
-/// Numbers that stand in place of the file's.
+/// Numbers, or a word, that stand in place of the file's.
 struct SetNumber {
-  std::string pointer;         ///< JSON pointer, such as /materials/0/pbrMetallicRoughness/roughnessFactor
-  std::vector<double> values;  ///< one, or as many as the array has there
+  /// JSON pointer, such as /materials/0/pbrMetallicRoughness/roughnessFactor, or MATERIAL:NAME
+  std::string pointer;
+  std::vector<double> values;  ///< one, or as many as the array has there; of a word none
+  std::string word{};          ///< of a mode: "BLEND", "true"
 
   bool operator==(const SetNumber&) const = default;
 };

@@ -2,6 +2,7 @@
 // Numbers in place of the file's: as they are loaded, set in a scene that is there, and written.
 #include <gtest/gtest.h>
 
+#include "gltf/build/named_numbers.h"
 #include "gltf/build/numbers.h"
 #include "gltf/edit/changed_file.h"
 #include "gltf/edit/factors.h"
@@ -173,6 +174,47 @@ TEST(ChangedFile, OfAGlbKeepsItsOtherChunks) {
   }
   writeChanged(from, to, {});
   EXPECT_EQ(contentOf(to), contentOf(from));
+}
+
+TEST(ChangedFile, HasWhatMaterialsGotByName) {
+  const TemporaryFolder folder;
+  GltfBuilder builder = coated();
+  builder.root["materials"][0]["name"] = "oak: old";
+  const auto from = folder.write("a.gltf", builder.text());
+  const auto to = folder.path() / "b.gltf";
+  writeChanged(from, to,
+               {{{"oak*:sheenRoughness", {0.5}},
+                 {"oak: old:index", {1.25}},
+                 {"oa?? old:roughness", {0.5}},
+                 {"oak: old:alphaMode", {}, "BLEND"},
+                 {"oak: old:doubleSided", {}, "true"}}});
+  const Scene scene = loadGltf(to);
+  const Material& material = scene.materials.at(0);
+  EXPECT_EQ(material.ior, 1.25f);
+  EXPECT_EQ(material.sheenRoughnessFactor, 0.5f);
+  EXPECT_EQ(material.alphaMode, AlphaMode::Blend);
+  EXPECT_TRUE(material.doubleSided);
+  EXPECT_TRUE(scene.warnings.empty());
+  for (const char* name : {"KHR_materials_sheen", "KHR_materials_ior"})
+    EXPECT_EQ(std::ranges::count(scene.extensionsUsed, name), 1) << name;
+  EXPECT_THROW(checkChange(from, {{{"elm:roughness", {0.5}}}}), UsageError);
+}
+
+TEST(MaterialNames, MatchPatterns) {
+  for (const auto& [pattern, text] :
+       std::initializer_list<std::pair<const char*, const char*>>{{"a", "a"},
+                                                                  {"*", ""},
+                                                                  {"*", "x"},
+                                                                  {"a*c", "abbc"},
+                                                                  {"*b*b*", "abcb"},
+                                                                  {"?", "\xc3\xa4"},
+                                                                  {"\\*", "*"},
+                                                                  {"a\\?", "a?"},
+                                                                  {"**a", "ba"}})
+    EXPECT_TRUE(matchesPattern(pattern, text)) << pattern << " " << text;
+  for (const auto& [pattern, text] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"a", "ab"}, {"ab", "a"}, {"?", ""}, {"\\*", "a"}, {"a*c", "abb"}, {"*b?", "ab"}, {"", "a"}})
+    EXPECT_FALSE(matchesPattern(pattern, text)) << pattern << " " << text;
 }
 
 TEST(ChangedFile, IsNotWrittenWithNumbersThatItCannotHave) {

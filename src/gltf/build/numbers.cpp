@@ -10,6 +10,7 @@
 #include "base/errors.h"
 #include "base/near_name.h"
 #include "base/text.h"
+#include "gltf/build/named_numbers.h"
 #include "gltf/check/schema_checker.h"
 #include "scene/parts.h"
 
@@ -160,9 +161,30 @@ std::string hintFor(const json& root, const std::string& pointer) {
          (names.size() <= kMostListed ? listOfParts(names) : std::to_string(names.size()) + ", from 0 on");
 }
 
-/// The rule of the user's number. Throws UsageError for a place without numbers, and for too few or too many.
-NumberRule checkedRule(const json& root, const SetNumber& set) {
-  const std::optional<NumberRule> rule = numberRuleIn(root, set.pointer);
+/// The mode at a place of a material, and whether it is one that takes the word.
+struct Mode {
+  bool isFlag;
+  bool takes;
+};
+std::optional<Mode> modeAt(const json& root, const SetNumber& set) {
+  const bool isFlag = set.pointer.ends_with("/doubleSided");
+  if (!set.pointer.starts_with("/materials/") || !(isFlag || set.pointer.ends_with("/alphaMode")) ||
+      !isOfSomething(root, set.pointer))
+    return std::nullopt;
+  const bool isTruth = set.word == "true" || set.word == "false";
+  return Mode{isFlag, !set.word.empty() && isTruth == isFlag};
+}
+
+/// The rule of the user's number, which `creates` what holds it; none for a word that is of that place.
+/// Throws UsageError for a place without numbers, and for too few or too many.
+std::optional<NumberRule> checkedRule(const json& root, const SetNumber& set, bool creates) {
+  if (const std::optional<Mode> mode = modeAt(root, set)) {
+    if (mode->takes) return std::nullopt;
+    throw UsageError("--set: " + set.pointer +
+                     (mode->isFlag ? ": is true or false" : ": is OPAQUE, MASK or BLEND"));
+  }
+  const std::optional<NumberRule> rule =
+      creates ? numberRuleAt(set.pointer) : numberRuleIn(root, set.pointer);
   if (!rule)
     throw UsageError("--set: " + set.pointer + " is no number of the file that is read" +
                      hintFor(root, set.pointer));
@@ -171,6 +193,21 @@ NumberRule checkedRule(const json& root, const SetNumber& set) {
     throw UsageError("--set: " + set.pointer + " takes " + countText(width, "number") + ", not " +
                      std::to_string(set.values.size()));
   return *rule;
+}
+
+/// Writes a checked value; a word has no rule.
+void writeValue(json& root, const SetNumber& set, const std::optional<NumberRule>& rule) {
+  if (rule) {
+    decomposeMatrixAt(root, set.pointer);
+    writeNumbers(root, set.pointer, *rule, set.values);
+  } else {
+    root[json::json_pointer(set.pointer)] =
+        set.word == "true" || set.word == "false" ? json(set.word == "true") : json(set.word);
+  }
+  const std::string extension = extensionOf(set.pointer);
+  if (extension.empty()) return;
+  json& used = root["extensionsUsed"];
+  if (std::ranges::find(used, json(extension)) == used.end()) used.push_back(extension);
 }
 
 }  // namespace
@@ -224,23 +261,26 @@ void writeNumbers(json& root, const std::string& pointer, const NumberRule& rule
 }
 
 void checkNumbers(const json& root, std::span<const SetNumber> set) {
-  for (const SetNumber& one : set) checkedRule(root, one);
+  for (const SetNumber& one : set) {
+    for (const SetNumber& placed : placedValues(root, {&one, 1}))
+      checkedRule(root, placed, namesMaterials(one));
+  }
 }
 
 void writeNumbers(json& root, const std::vector<SetNumber>& set, Diagnostics& diagnostics) {
   for (const SetNumber& one : set) {
-    const NumberRule rule = checkedRule(root, one);
-    decomposeMatrixAt(root, one.pointer);
-    writeNumbers(root, one.pointer, rule, one.values);
-    if (const char* warning = whatIsBright(one)) diagnostics.warn(one.pointer, warning);
-    diagnostics.noteSet(one.pointer);
+    for (const SetNumber& placed : placedValues(root, {&one, 1})) {
+      writeValue(root, placed, checkedRule(root, placed, namesMaterials(one)));
+      if (const char* warning = whatIsBright(placed)) diagnostics.warn(placed.pointer, warning);
+      diagnostics.noteSet(placed.pointer);
+    }
   }
 }
 
 const char* whatIsBright(const SetNumber& set) {
   const bool isLight = set.pointer.starts_with("/extensions/KHR_lights_punctual/");
   const bool isColor = set.pointer.ends_with(isLight ? "/color" : "/emissiveFactor");
-  if (!isColor || std::ranges::max(set.values) <= 1.0) return nullptr;
+  if (!isColor || set.values.empty() || std::ranges::max(set.values) <= 1.0) return nullptr;
   return isLight ? "is above 1, and drawn so, but glTF has the light's intensity for that"
                  : "is above 1, and drawn so, but glTF has KHR_materials_emissive_strength for that";
 }

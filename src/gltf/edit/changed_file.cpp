@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/errors.h"
+#include "gltf/build/named_numbers.h"
 #include "gltf/build/numbers.h"
 #include "gltf/edit/json_text.h"
 #include "gltf/read/uri.h"
@@ -98,7 +99,8 @@ void writeChanged(const std::filesystem::path& from, const std::filesystem::path
       throw InputError(from.filename().string() + " refers to other files, such as " + other +
                        ": it can only be written into " + wholeFolderOf(from).string());
     checkNumbers(document, set);
-    const std::string changed = withNumbers(text, set);
+    const std::vector<SetNumber> placed = placedValues(document, set);
+    const std::string changed = withNumbers(text, placed);
     bytes = isGlb ? withJson(bytes, changed) : changed;
   } catch (const InputError&) {
     throw;

@@ -89,7 +89,7 @@ float valueTaken(const Factor& factor, double value) {
 std::string whatIsOutOfRange(const SetNumber& set) {
   constexpr std::string_view kMaterials = "/materials/";
   const size_t end = set.pointer.find('/', kMaterials.size());
-  if (!set.pointer.starts_with(kMaterials) || end == std::string::npos) return "";
+  if (!set.pointer.starts_with(kMaterials) || end == std::string::npos || set.values.empty()) return "";
   Material material;
   material.place = set.pointer.substr(0, end);
   const auto factor = std::ranges::find_if(
@@ -169,12 +169,13 @@ std::vector<std::string> warningsOf(std::span<const SetNumber> set) {
 }
 
 bool setsEmission(std::span<const SetNumber> set) {
-  return std::ranges::any_of(
-      set, [](const SetNumber& one) { return one.pointer.find("/emissive") != std::string::npos; });
+  return std::ranges::any_of(set, [](const SetNumber& one) {
+    return one.pointer.find("emissi") != std::string::npos || one.pointer.ends_with(":strength");
+  });
 }
 
 void setFactors(Material& material, std::span<const SetNumber> set) {
-  for (const auto& [pointer, values] : set) {
+  for (const auto& [pointer, values, word] : set) {
     if (material.place.empty() || !pointer.starts_with(material.place + "/")) continue;
     for (const Factor& factor : kFactors) {
       if (pointer != pointerOf(factor, material) || values.size() != factor.width) continue;
@@ -185,7 +186,7 @@ void setFactors(Material& material, std::span<const SetNumber> set) {
 }
 
 void setLight(LightSource& light, size_t index, std::span<const SetNumber> set) {
-  for (const auto& [pointer, values] : set) {
+  for (const auto& [pointer, values, word] : set) {
     if (pointer == pointerOf(index, "intensity") && values.size() == 1) light.intensity = values[0];
     if (pointer == pointerOf(index, "color") && values.size() == 3)
       light.color = {values[0], values[1], values[2]};

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "gltf/build/named_numbers.h"
+
 namespace fragtrace {
 
 namespace {
@@ -133,12 +135,23 @@ void insertMember(std::string& text, size_t object, const std::vector<Entry>& me
   text.insert(last.value.end, "," + space + key + colon + value);
 }
 
-void setNumber(std::string& text, const SetNumber& set, bool isArray) {
+/// The place of the document's object.
+size_t rootOf(const std::string& text) {
+  constexpr size_t kMark = 3;  // bytes of UTF-8's mark
+  return skipSpace(text, text.starts_with("\xef\xbb\xbf") ? kMark : 0);
+}
+
+/// The bytes of a value that are its text in JSON.
+std::string jsonOf(const SetNumber& set) {
+  if (set.word.empty()) return valueText(set.values, set.values.size() > 1);
+  return set.word == "true" || set.word == "false" ? set.word : nlohmann::json(set.word).dump();
+}
+
+void setValue(std::string& text, const SetNumber& set) {
   std::vector<std::string> parts;
   for (nlohmann::json::json_pointer at(set.pointer); !at.empty(); at.pop_back())
     parts.insert(parts.begin(), at.back());
-  constexpr size_t kMark = 3;  // bytes of UTF-8's mark
-  size_t at = skipSpace(text, text.starts_with("\xef\xbb\xbf") ? kMark : 0);
+  size_t at = rootOf(text);
   for (size_t i = 0; i < parts.size(); ++i) {
     const char first = text.at(at);
     const std::vector<Entry> entries =
@@ -146,20 +159,42 @@ void setNumber(std::string& text, const SetNumber& set, bool isArray) {
     const std::optional<Entry> entry = entryOf(text, entries, parts[i]);
     if (!entry && first != '{') throw std::runtime_error("the file has no " + set.pointer);
     if (!entry) {
-      std::string value = valueText(set.values, isArray);
+      std::string value = jsonOf(set);
       for (size_t inner = parts.size() - 1; inner > i; --inner)
         value.insert(0, "{" + nlohmann::json(parts[inner]).dump() + ": ").append("}");
       return insertMember(text, at, entries, parts[i], value);
+    }
+    if (i + 1 == parts.size() && !set.word.empty()) {
+      text.replace(entry->value.begin, entry->value.end - entry->value.begin, jsonOf(set));
+      return;
     }
     if (i + 1 == parts.size()) return replaceValue(text, entry->value, set.values);
     at = entry->value.begin;
   }
 }
 
+/// Adds the name to the list of extensions that the file uses, unless it is there.
+void useExtension(std::string& text, const std::string& name) {
+  const size_t root = rootOf(text);
+  const std::vector<Entry> members = entriesAt(text, root);
+  const std::string quoted = nlohmann::json(name).dump();
+  const std::optional<Entry> used = entryOf(text, members, "extensionsUsed");
+  if (!used) return insertMember(text, root, members, "extensionsUsed", "[" + quoted + "]");
+  const std::vector<Entry> names = entriesAt(text, used->value.begin);
+  for (const Entry& one : names)
+    if (text.substr(one.value.begin, one.value.end - one.value.begin) == quoted) return;
+  const size_t end = names.empty() ? used->value.begin + 1 : names.back().value.end;
+  text.insert(end, (names.empty() ? "" : ", ") + quoted);
+}
+
 }  // namespace
 
 std::string withNumbers(std::string text, std::span<const SetNumber> set) {
-  for (const SetNumber& one : set) setNumber(text, one, one.values.size() > 1);
+  for (const SetNumber& one : set) {
+    setValue(text, one);
+    if (const std::string extension = extensionOf(one.pointer); !extension.empty())
+      useExtension(text, extension);
+  }
   return text;
 }
 

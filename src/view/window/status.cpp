@@ -129,7 +129,12 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["up"] = state.scene ? rowOf("--up").words(state.scene->options).front() : "";
   json["hidden"] = state.sides[0].selection.hiddenNodes;
   json["set"] = Json::object();
-  for (const SetNumber& set : state.sides[0].selection.set) json["set"][set.pointer] = set.values;
+  for (const SetNumber& set : state.sides[0].selection.set) {
+    if (set.word.empty())
+      json["set"][set.pointer] = set.values;
+    else
+      json["set"][set.pointer] = set.word;
+  }
   json["hdri_rotation"] = state.sides[0].light.hdriRotationDegrees;
   json["sun"] = {sunOf(state.sides[0].light.sky).elevation, sunOf(state.sides[0].light.sky).azimuth};
   json["hdri_intensity"] = state.sides[0].light.hdriIntensity;
