@@ -82,6 +82,7 @@ constexpr auto kHelpRows = std::to_array<HelpRow>({
     {"--material-variant", {nullptr, kEveryday, "NAME"}},
     {"--hide", {nullptr, kEveryday}},
     {"--set", {nullptr, kEveryday, "MATERIAL:NAME=VALUES"}},
+    {"--add-light", {"Light", kEveryday, "LIGHT"}},
     {"--up", {nullptr, kEveryday, "AXIS"}},
     {"--memory-limit", {"Device", kEveryday}},
     {"--texture-limit", {nullptr, kRest, "PIXELS", "pixels"}},

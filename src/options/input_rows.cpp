@@ -5,6 +5,7 @@
 
 #include "base/errors.h"
 #include "base/text.h"
+#include "options/light_words.h"
 #include "options/option_row.h"
 #include "options/row_makers.h"
 #include "scene/up_axis.h"
@@ -140,6 +141,34 @@ OptionRow setRow() {
   return row;
 }
 
+OptionRow addLightRow() {
+  OptionRow row =
+      memberRow("--add-light",
+                "light the scene with a lamp of your own, too: \"sun from=AZIMUTH,ELEVATION strength=3 "
+                "color=1,1,1\", or "
+                "\"area at=X,Y,Z to=X,Y,Z size=W,H power=30 color=1,1,1\", a rectangle that is seen; angles "
+                "are those of "
+                "--camera-orbit, strength is in W/m^2 and power in W; can be given several times",
+                FRAGTRACE_MEMBER(selection.lights), {.effect = Effect::Picture, .renewal = Renewal::Scene});
+  row.examples = {"sun", "sun from=-20,10.5 strength=0.1 color=1,0.5,0", "area at=0,2,1",
+                  "area at=-1,2,0.30000001192092896 to=0,0,0 size=2,0.5 power=7"};
+  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
+    const auto take = [&raw](const std::vector<std::string>& texts) {
+      raw.options.selection.lights.clear();
+      for (const std::string& text : texts) raw.options.selection.lights.push_back(addedLightIn(text));
+    };
+    app.add_option_function<std::vector<std::string>>(r.name, take, r.help)
+        ->type_name("LIGHT")
+        ->allow_extra_args(false);
+  };
+  row.words = [](const RenderOptions& o) {
+    std::vector<std::string> words;
+    for (const AddedLight& light : o.selection.lights) words.push_back(textOf(light));
+    return words;
+  };
+  return row;
+}
+
 /// Throws UsageError.
 glm::dvec3 upOf(const char* option, const std::string& word) {
   for (size_t i = 0; i < kUpAxes.size(); ++i) {
@@ -242,6 +271,7 @@ std::vector<OptionRow> inputRows() {
               "times; `fragtrace info --nodes` lists the nodes",
               FRAGTRACE_MEMBER(selection.hiddenNodes), "/nodes/3", "NODE"),
       setRow(),
+      addLightRow(),
       upRow(),
       memoryRow(),
       limit<int>("--texture-limit",

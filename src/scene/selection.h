@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "scene/added_light.h"
+
 namespace fragtrace {
 
 /// Numbers, or a word, that stand in place of the file's.
@@ -28,8 +30,9 @@ struct SceneSelection {
   std::string materialVariant{};          ///< empty: the materials that the file shows by default
   /// Nodes by name (all that have it), JSON pointer or index; they are not drawn, nor what is below them.
   std::vector<std::string> hiddenNodes{};
-  std::vector<SetNumber> set{};  ///< numbers that are set; the last one for a place counts
-  glm::dvec3 up{0.0, 1.0, 0.0};  ///< turns the whole file, so that this direction, not 0, is +Y
+  std::vector<AddedLight> lights{};  ///< lamps that the user adds
+  std::vector<SetNumber> set{};      ///< numbers that are set; the last one for a place counts
+  glm::dvec3 up{0.0, 1.0, 0.0};      ///< turns the whole file, so that this direction, not 0, is +Y
 
   bool operator==(const SceneSelection&) const = default;
 };

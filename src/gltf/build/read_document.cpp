@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "gltf/build/added_lights.h"
 #include "gltf/build/animation.h"
 #include "gltf/build/numbers.h"
 #include "gltf/check/extensions.h"
@@ -349,6 +350,7 @@ KeptDocument readDocument(const std::filesystem::path& path, const GltfOptions& 
   container.json = std::string();
   checkMembers(root, diagnostics);
   checkVersions(root, diagnostics);
+  addLights(root, options.selection.lights, options.selection.up);
   const IsUsed isUsed = applySchema(root, options.selection, diagnostics);
   mendValues(root, isUsed, diagnostics);
   checkExtensions(root, options.limits.ignoredExtensions, diagnostics);

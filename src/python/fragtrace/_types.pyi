@@ -82,6 +82,7 @@ class Keywords(TypedDict, total=False):
     material_variant: str | float | None
     hide: str | float | Sequence[str] | None
     set: str | float | Sequence[str] | None
+    add_light: str | float | Sequence[str] | None
     up: str | float | Sequence[float] | None
     memory_limit: str | float | None
     texture_limit: int | None

@@ -59,7 +59,7 @@ def words_of(scene, keywords):
             if np.shape(value) != (2,):
                 raise _core.UsageError(f"resolution: {value!r} is not (width, height)")
             words.append("--resolution=" + "x".join(spelled(side) for side in value))
-        elif name in ("hide", "set", "ignore_required") and isinstance(value, (list, tuple)):
+        elif name in ("hide", "set", "add_light", "ignore_required") and isinstance(value, (list, tuple)):
             words += [f"--{option}={one}" for one in value]  # names may hold commas, and numbers do
         elif value is True:
             words.append("--" + option)
