@@ -8,7 +8,7 @@
 #include <map>
 
 #include "options/choose.h"
-#include "options/option_facts.h"
+#include "options/library/option_facts.h"
 #include "options/option_text.h"
 #include "options/parse_words.h"
 #include "session/outputs.h"

@@ -41,6 +41,11 @@ std::string joined(const Texts& texts, const char* separator = ", ") {
   return all;
 }
 
+/// Returns true for "-1", "-.5,2": the command line takes it for a value, not for an option.
+inline bool isNegativeNumber(std::string_view word) {
+  return word.size() > 1 && word[0] == '-' && (word[1] == '.' || (word[1] >= '0' && word[1] <= '9'));
+}
+
 /// The number that all of the text is, as std::from_chars reads it; none for any other text.
 template <typename Number>
 std::optional<Number> numberOfAll(std::string_view text) {

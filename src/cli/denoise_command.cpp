@@ -12,7 +12,7 @@
 #include "image/channels.h"
 #include "image/format.h"
 #include "options/choose.h"
-#include "options/option_facts.h"
+#include "options/library/option_facts.h"
 #include "options/option_row.h"
 #include "options/parse_render.h"
 #include "session/outputs.h"

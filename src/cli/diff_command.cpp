@@ -13,8 +13,8 @@
 #include "image/compare/flip.h"
 #include "image/image.h"
 #include "options/choose.h"
+#include "options/library/option_facts.h"
 #include "options/numbers.h"
-#include "options/option_facts.h"
 #include "session/outputs.h"
 
 namespace fragtrace {

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/help_text.h"
-#include "options/option_facts.h"
+#include "options/library/option_facts.h"
 #include "session/scene_json.h"
 
 namespace fragtrace {

@@ -10,7 +10,7 @@
 
 #include "base/text.h"
 #include "options/help_rows.h"
-#include "options/option_facts.h"
+#include "options/library/option_facts.h"
 
 namespace fragtrace {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "scene/added_light.h"
+#include "scene/selection.h"
 
 namespace fragtrace {
 

@@ -7,7 +7,7 @@
 
 #include "base/text.h"
 #include "options/choose.h"
-#include "options/option_facts.h"
+#include "options/library/option_facts.h"
 
 namespace fragtrace {
 

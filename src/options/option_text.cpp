@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "base/errors.h"
+#include "base/text.h"
 
 namespace fragtrace {
 
@@ -29,11 +30,6 @@ std::string quoted(const std::string& word) {
       text += c;
   }
   return text + "'";
-}
-
-bool isNegativeNumber(const std::string& word) {
-  return word.size() > 1 && word[0] == '-' &&
-         (std::isdigit(static_cast<unsigned char>(word[1])) != 0 || word[1] == '.');
 }
 
 void appendOption(std::string& text, const char* option, const std::string& value) {

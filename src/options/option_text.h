@@ -13,9 +13,6 @@ std::string exactText(double value);
 /// The word, in quotes where a POSIX shell would not take it as it stands.
 std::string quoted(const std::string& word);
 
-/// Returns true for "-1", "-.5,2": the parser takes it for a value, not for an option.
-bool isNegativeNumber(const std::string& word);
-
 /// Appends the option and its value, quoted.
 void appendOption(std::string& text, const char* option, const std::string& value);
 

@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/errors.h"
-#include "options/option_facts.h"
+#include "options/library/option_facts.h"
 #include "options/option_row.h"
 
 namespace fragtrace {

@@ -11,7 +11,7 @@
 
 #include "base/errors.h"
 #include "base/report.h"
-#include "options/repeated_words.h"
+#include "options/library/repeated_words.h"
 
 namespace fragtrace {
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 
-#include "scene/added_light.h"
+#include "scene/selection.h"
 
 namespace fragtrace {
 

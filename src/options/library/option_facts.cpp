@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "options/option_facts.h"
+#include "options/library/option_facts.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "options/repeated_words.h"
+#include "options/library/repeated_words.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <utility>
 
-#include "options/option_facts.h"
-#include "options/option_text.h"
+#include "base/text.h"
+#include "options/library/option_facts.h"
 
 namespace fragtrace {
 
