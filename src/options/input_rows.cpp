@@ -89,8 +89,9 @@ SetNumber setNumberIn(const std::string& text) {
     const size_t slash = set.pointer.find('/');
     const bool isMeant = slash != std::string::npos && slash > 0 && equals < text.size() - 1;
     const size_t start = text.starts_with("#/") ? 2 : 0;
-    throw UsageError("--set: '" + text + "' is not of the form PLACE=NUMBERS or MATERIAL:NAME=VALUES" +
-                     (isMeant ? "; did you mean /" + text.substr(start) + "?" : ""));
+    throw UsageError(
+        "--set: '" + text + "' is not of the form PLACE=NUMBERS or MATERIAL:NAME=VALUES" +
+        (isMeant ? "; did you mean /" + text.substr(start) + "?" : ", such as oak:roughness=0.25"));
   }
   set.word = modeIn(text.substr(equals + 1));
   if (!set.word.empty()) return set;

@@ -11,6 +11,7 @@
 
 #include "base/errors.h"
 #include "base/report.h"
+#include "image/image.h"
 #include "options/library/repeated_words.h"
 
 namespace fragtrace {
@@ -59,8 +60,8 @@ bool isVerbose(const CLI::App& app) {
 
 /// Finds the first of the other commands that has the option.
 std::string commandWith(const std::string& option, const CLI::App& command) {
-  if (command.get_parent() == nullptr) return "";
-  for (const CLI::App* other : command.get_parent()->get_subcommands([](const CLI::App*) { return true; })) {
+  const CLI::App& group = command.get_parent() == nullptr ? command : *command.get_parent();
+  for (const CLI::App* other : group.get_subcommands([](const CLI::App*) { return true; })) {
     if (other->get_option_no_throw(option) != nullptr) return other->get_name();
   }
   return "";
@@ -75,8 +76,15 @@ std::string whatIsUnknown(const CLI::App& app, const std::vector<std::string>& l
            kEndOfOptions + " are files, and options stand before it";
   const auto option =
       std::ranges::find_if(left, [](const std::string& word) { return word.starts_with('-'); });
-  if (option == left.end()) return "'" + left.front() + "' is an argument too many";
+  if (option == left.end()) {
+    const bool writes =
+        isWritableImageName(left.front()) && command.get_option_no_throw("--output") != nullptr;
+    return "'" + left.front() + "' is an argument too many" +
+           (writes ? "; did you mean -o " + left.front() + "?" : "");
+  }
   const std::string unknown = option->substr(0, option->find('='));
+  if (command.get_option_no_throw(unknown) != nullptr)
+    return unknown + " stands before the command; options of " + command.get_name() + " stand behind it";
   const std::string text = unknown + " is no option of " + command.get_name();
   const std::string meant = optionMeant(unknown, command);
   const std::string other = commandWith(unknown, command);

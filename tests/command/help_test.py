@@ -106,11 +106,21 @@ class Habits(Case):
         for words, meant in ((["--width", "64"], "--resolution WIDTHxHEIGHT"), (["--size", "64"], "--resolution WIDTHxHEIGHT"), (["--samples", "1"], "--spp"),
                              (["--max-depth", "2"], "--bounces"), (["--fov", "40"], "--camera-view-angle"), (["--background", "white"], "--background-color R,G,B"),
                              (["--integrator", "path"], "--stage gi"), (["--transparent"], "--no-background"), (["--up-axis", "z"], "--up"),
-                             (["--camera-pos", "0,1,3"], "--camera-position"), (["--tonemap", "agx"], "--tone-map")):
+                             (["--camera-pos", "0,1,3"], "--camera-position"), (["--tonemap", "agx"], "--tone-map"),
+                             (["--env", SCENES / "sky.pfm"], "--hdri-file")):
             self.fails(2, "render", BOX, "-o", self.folder / "x.png", *words, says=[f"did you mean {meant}?"])
             option, *form = meant.split()
             value = {"WIDTHxHEIGHT": ["8x8"], "R,G,B": ["1,1,1"], "gi": ["gi"]}[form[0]] if form else words[1:]
             self.renders(BOX, "-o", self.folder / "x.png", *SMALL, option, *value)
+
+    def test_hints_name_what_words_need(self):
+        picture = self.folder / "x.png"
+        for words, says in ((["render", BOX, picture], f"'{picture}' is an argument too many; did you mean -o {picture}?"),
+                            (["-o", picture, BOX], "-o is no option of fragtrace; did you mean the command render?"),
+                            (["--json", "info", BOX], "--json stands before the command; options of info stand behind it"),
+                            (["render", BOX, "-o", picture, "--frame", "3"], "did you mean --frames A:B?"), (["render", BOX, "--help-all"], "did you mean --help all?"),
+                            (["render", BOX, "-o", picture, "--set", "roughness=1"], "MATERIAL:NAME=VALUES, such as oak:roughness=0.25")):
+            self.fails(2, *words, says=[says])
 
     def test_files_of_other_programs_are_told_who_opens_them(self):
         for name, content, kind in (("a.obj", b"v 0 0 0\n", "Wavefront OBJ"), ("a.STL", b"\0" * 84, "STL"), ("a.ply", b"ply\nformat", "PLY"),
