@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Numbers of materials and lights that are set by eye, and the file that keeps them."""
+import json
 import shutil
 import subprocess
 import time
@@ -151,6 +152,22 @@ class Materials(Case):
         self.assertEqual(viewer.rest(lambda s: len(s["set"]) == 2, "undone")["set"][place], [9])
         self.same(self.picture(viewer), whole)
         self.is_asked_for(viewer)
+        self.ends_well(viewer, viewer.close())
+
+    def test_what_is_set_by_name_is_drawn_and_saved(self):
+        words = ["--set", "floor:color=0.1,0.5,0.9", "--set", "wa*:clearcoat=1", "--set", "post:doubleSided=true"]
+        viewer = self.start("lights", *words)
+        shown = self.picture(viewer)
+        self.same(shown, pixels_of(self.render(self.scene, *PANEL, *words)))
+        write_over(viewer)
+        viewer.until(lambda s: any(m.startswith("wrote ") for m in s["messages"]), "written")
+        self.same(self.picture(viewer), shown)
+        root = json.loads(self.scene.read_text())
+        floor, wall, post = root["materials"]
+        self.assertEqual(floor["pbrMetallicRoughness"]["baseColorFactor"], [0.1, 0.5, 0.9, 1])
+        self.assertEqual(wall["extensions"]["KHR_materials_clearcoat"], {"clearcoatFactor": 1})
+        self.assertIs(post["doubleSided"], True)
+        self.assertIn("KHR_materials_clearcoat", root["extensionsUsed"])
         self.ends_well(viewer, viewer.close())
 
     def test_emission_that_is_set_leaves_the_studio_which_is_named(self):
