@@ -117,6 +117,14 @@ Path meetCatcher(Path p) {
   return beginShadow(p);
 }
 
+/// The share of a shadow that a pixel of the whole picture keeps, since it ends before the edge.
+float shadowLeft(ivec2 pixel) {
+  vec2 size = vec2(frame.pictureSize);
+  vec2 place = vec2(pixel) + 0.5;
+  vec2 toEdge = min(place, size - place);
+  return smoothstep(0.0, frame.shadowFade * min(size.x, size.y), min(toEdge.x, toEdge.y));
+}
+
 /// The alpha of the finished sample. For a shadow on the catcher it is the luminance of the hidden share.
 float coverageOf(Path p) {
   if (kShadowCatcher && p.caught) return luminance(p.radiance);

@@ -170,7 +170,7 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int earlier, int steps) 
     if (!middle) place += samplePixelFilter(kPixelFilter, jitter.x, jitter.y);
   }
   vec2 point = place / vec2(frame.pictureSize) * 2.0 - 1.0;
-  if (kLensShift) point += frame.lensShift.xy;
+  if (kLensShift) point += frame.lensShift;
   CameraRay ray;
   if (kPanorama || kFisheye) {
     ray = roundCameraRay(point);

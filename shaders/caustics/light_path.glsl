@@ -58,7 +58,7 @@ SeenFrom cameraFrom(vec3 point, vec2 lens) {
     c.importance = cosine > 1e-9 ? 1.0 / (pixelArea * cosine * cosine * cosine * c.distance * c.distance) : 0.0;
   }
   vec2 place = vec2(dot(onFilm, right) / dot(right, right), dot(onFilm, up) / dot(up, up));
-  if (kLensShift) place -= frame.lensShift.xy;
+  if (kLensShift) place -= frame.lensShift;
   c.place = (0.5 * place + 0.5) * vec2(frame.pictureSize);
   bool inside = all(greaterThan(c.place, vec2(-kFilterReach))) &&
                 all(lessThan(c.place, vec2(frame.pictureSize) + kFilterReach));

@@ -46,7 +46,7 @@ int renderOne(const RenderOptions& asked) {
   LoadedScene loaded = loadScene(drawn, stats, {}, FilmOf::Part);
   if (options.output.verbose && loaded.overrides.fit) {
     RenderOptions placed = options;
-    placed.camera.overrides = asPlaced(loaded.camera, loaded.scene.bounds);
+    placed.camera.overrides = asPlaced(loaded.camera, loaded.framed);
     say(options, "--fit: the camera stands at " + viewText(placed));
   }
 

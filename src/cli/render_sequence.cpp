@@ -108,7 +108,7 @@ Outcome drawFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOp
   LoadedScene& loaded = *run.loaded;
   const Camera camera = loaded.camera;
   if (sequence.turntable > 0) {
-    const glm::dvec3 focalPoint = turningPoint(camera, loaded.overrides, loaded.scene.bounds);
+    const glm::dvec3 focalPoint = turningPoint(camera, loaded.overrides, loaded.framed);
     const auto turned = [&](double angle) { return turnedCamera(camera, focalPoint, angle); };
     loaded.camera = turned(frame.turn);
     const int segments = int(std::ceil(frame.sweep / glm::half_pi<double>()));
@@ -224,7 +224,7 @@ int runSequence(const RenderOptions& options) {
   SequenceRun run;
   RenderOptions settled = options;
   if (sequence.frames) {
-    settled.camera.overrides = overridesOfAllPoses(options, run.document);
+    settled = placedForAllPoses(options, run.document);
     if (settled.camera.overrides != options.camera.overrides)
       say(options, "one camera shows the whole animation: " + cameraText(settled));
   }

@@ -111,10 +111,21 @@ std::vector<OptionRow> cameraRows() {  // NOLINT(readability-function-size): a t
                 FRAGTRACE_MEMBER(camera.overrides.position), true, kView),
       orbitRow(),
       flag("--fit",
-           "move the camera, without turning it, until the scene, and the shadow on --shadow-catcher, fill "
-           "the picture except for a narrow margin; with --turntable, all pictures use the same distance, "
-           "with --frames the same camera",
-           FRAGTRACE_MEMBER(camera.overrides.fit), {.effect = Effect::View}),
+           "move the camera, without turning it, until the scene fills the picture except for a narrow "
+           "margin; "
+           "with --turntable, all pictures use the same distance, with --frames the same camera",
+           FRAGTRACE_MEMBER(camera.overrides.fit), kView),
+      flag("--fit-shadow", "the same, until the shadow on --shadow-catcher is in the picture, too",
+           FRAGTRACE_MEMBER(camera.overrides.fitShadow), kView),
+      word("--fit-to",
+           "the same as --fit for a part of the scene: the name of a node, with all below it, or else of a "
+           "material",
+           FRAGTRACE_MEMBER(camera.overrides.fitTo), kView),
+      limit<double>(
+          "--fill",
+          "the same as --fit, until this share of the picture's width or height is filled; --fit alone "
+          "fills 0.95",
+          FRAGTRACE_MEMBER(camera.overrides.fill), {0.05, 1.0}, kView),
       vectorRow("--camera-focal-point", "X,Y,Z of the point that the camera looks at",
                 FRAGTRACE_MEMBER(camera.overrides.focalPoint), true, kView),
       vectorRow("--camera-view-up", "X,Y,Z of the direction that points up in the picture",

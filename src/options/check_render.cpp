@@ -131,6 +131,9 @@ void checkCamera(const RenderOptions& o) {
   const char* const others = "perspective and orthographic cameras";
   refuse(asked.lensShift.has_value(), "--lens-shift", others);
   refuse(asked.fit, "--fit", others);
+  refuse(asked.fitShadow, "--fit-shadow", others);
+  refuse(!asked.fitTo.empty(), "--fit-to", others);
+  refuse(asked.fill.has_value(), "--fill", others);
   refuse(o.output.treeLevel.has_value(), "--tree-level", others);
   refuse(asked.orbit && asked.orbit->zoom != 1.0 && type == CameraType::Panorama,
          "--camera-orbit with a zoom", "other cameras");

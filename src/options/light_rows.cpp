@@ -115,6 +115,11 @@ std::vector<OptionRow> lightRows() {
            {.effect = Effect::Picture, .renewal = Renewal::Scene, .attribute = "studio"}),
       catcherRow(),
       catcherHeightRow(),
+      limit<double>(
+          "--shadow-fade",
+          "let the shadow on --shadow-catcher fade out before the edge of the picture, over this part "
+          "of its smaller side; by default 0.08 with --fit, and 0 without",
+          FRAGTRACE_MEMBER(light.shadowFade), {0.0, 0.5}, {.effect = Effect::Picture}),
       offFlag("--no-background", "hide the environment map from the camera, and write alpha",
               FRAGTRACE_MEMBER(light.background), {.effect = Effect::Picture, .attribute = "background"}),
       numbers<double>(

@@ -155,7 +155,7 @@ void Renderer::setFrame(const Film& film, const View& view) {
   frame_.environmentRotation = glm::dvec2(std::cos(view.hdriRotation), std::sin(view.hdriRotation));
   frame_.lens = glm::vec4(float(view.lens.radius / view.space.unit),
                           float(view.lens.focusDistance / view.space.unit), float(view.lens.blades), 0.0f);
-  frame_.lensShift = glm::vec4(2.0 * camera.shift, 0.0, 0.0);
+  frame_.lensShift = 2.0 * camera.shift;
   frame_.environmentScale = float(view.hdriIntensity) * view.surroundings;
   frame_.environmentChance = environmentChance(lightShare_, view.hdriIntensity);
   sunChance_ = sunChance(lightShare_, view.hdriIntensity);
@@ -167,6 +167,7 @@ void Renderer::setFrame(const Film& film, const View& view) {
   frame_.clampBits = std::bit_cast<int>(view.clampIndirect);
   frame_.filmOffset = {placed.corner.x, placed.whole.y - placed.corner.y - film.size().y};
   frame_.worldOrigin = view.space.origin;
+  frame_.shadowFade = float(view.shadowFade);
   frame_.catcherHeight = float((view.catcherHeight - view.space.origin.y) / view.space.unit);
 }
 

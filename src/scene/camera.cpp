@@ -152,7 +152,8 @@ glm::dvec3 recentringPoint(const std::optional<glm::dvec3>& camera, const Bounds
 Camera withOverrides(Camera camera, const CameraOverrides& overrides, const BoundsDouble& bounds) {
   const glm::dvec3 focalPoint = overrides.focalPoint.value_or(focalPointOf(camera, bounds));
   const glm::dvec3 position = overrides.position.value_or(camera.position);
-  const glm::dvec3 up = overrides.viewUp.value_or(camera.up);
+  const bool level = overrides.position && overrides.focalPoint;
+  const glm::dvec3 up = overrides.viewUp.value_or(level ? kVertical : camera.up);
   if (!isFinite(focalPoint) || !isFinite(position) || !isFinite(up)) {
     throw UsageError("--camera-position, --camera-focal-point and --camera-view-up: are not all finite");
   }

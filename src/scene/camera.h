@@ -41,9 +41,16 @@ struct CameraOverrides {
   std::optional<glm::dvec2> lensShift{};
   std::optional<Orbit> orbit{};
   bool fit = false;  ///< the camera is moved until the scene fills the picture; left to fitted() of fit.h
+  bool fitShadow = false;        ///< the same, and the shadow on the catcher counts
+  std::string fitTo{};           ///< the same, for a part of the scene: outlineOf()
+  std::optional<double> fill{};  ///< the same: the share of the picture that is filled; none: kFitted
+  bool leavesStrays = false;     ///< the view is the default one, so that strays do not decide it
   /// A fit holds all of the space that the scene fills while it turns about the vertical axis through the
   /// point looked at.
   bool turns = false;
+
+  /// Returns true if any of the members asks for a fit.
+  bool asksForFit() const { return fit || fitShadow || !fitTo.empty() || fill; }
 
   bool operator==(const CameraOverrides&) const = default;
 };
@@ -64,11 +71,12 @@ glm::dvec3 recentringPoint(const std::optional<glm::dvec3>& camera, const Bounds
 
 /// Replaces the properties that are given. A position alone keeps the focal point, as in VTK, but of a
 /// panorama and a fisheye the direction. A view-up is made orthogonal to the view; one parallel to it is
-/// replaced by another axis. Without a type, a view angle makes an orthographic camera perspective, and a
-/// parallel scale makes a perspective one orthographic. A type alone keeps the size of what lies in the focal
-/// point's plane. A panorama is level: the view-up, or +Y, is its up, and its middle is what lies level below
-/// or above the view. It is twice as wide as high, and a fisheye square, unless the picture's size is given.
-/// Throws UsageError if the position is the focal point, or the angle or the scale is out of range.
+/// replaced by another axis. A position and a focal point without a view-up make a level camera. Without a
+/// type, a view angle makes an orthographic camera perspective, and a parallel scale makes a perspective one
+/// orthographic. A type alone keeps the size of what lies in the focal point's plane. A panorama is level:
+/// the view-up, or +Y, is its up, and its middle is what lies level below or above the view. It is twice as
+/// wide as high, and a fisheye square, unless the picture's size is given. Throws UsageError if the position
+/// is the focal point, or the angle or the scale is out of range.
 Camera withOverrides(Camera camera, const CameraOverrides& overrides, const BoundsDouble& bounds = {});
 
 /// The focal length of a lens that sees a vertical angle (radians) on a sensor of 35 mm film, 24 mm high;
@@ -99,9 +107,9 @@ Camera chooseCamera(std::span<const Camera> cameras, std::optional<int> index,
 /// would be seen along their edges there.
 Orbit firstView(const Scene& scene);
 
-/// The overrides that are asked for. firstView() is added if the scene has no camera, and neither a position
-/// nor an orbit is asked for. The scene then fills the picture, unless a focal point, a scale or a fisheye is
-/// asked for. A panorama is seen from the middle of the scene.
+/// The overrides that are asked for, with `fit` where any member asks for one. firstView() is added if the
+/// scene has no camera, and neither a position nor an orbit is asked for. The scene then fills the picture,
+/// unless a focal point, a scale or a fisheye is asked for. A panorama is seen from the middle of the scene.
 CameraOverrides settledOverrides(CameraOverrides asked, const Scene& scene);
 
 }  // namespace fragtrace

@@ -75,6 +75,9 @@ Orbit firstView(const Scene& scene) {
 }
 
 CameraOverrides settledOverrides(CameraOverrides asked, const Scene& scene) {
+  const bool fits = asked.asksForFit();
+  const bool isChosen = asked.fit || asked.fitShadow || !asked.fitTo.empty();
+  asked.fit = fits;
   if (!scene.cameras.empty() || asked.position || asked.orbit) return asked;
   if (asked.type == CameraType::Panorama) {
     asked.position = scene.bounds.empty() ? glm::dvec3(0.0) : scene.bounds.center();
@@ -82,7 +85,8 @@ CameraOverrides settledOverrides(CameraOverrides asked, const Scene& scene) {
   }
   asked.orbit = firstView(scene);
   if (asked.type == CameraType::Fisheye) return asked;
-  asked.fit = asked.fit || (!asked.focalPoint && !asked.parallelScale);
+  asked.fit = fits || (!asked.focalPoint && !asked.parallelScale);
+  asked.leavesStrays = asked.fit && !isChosen;
   return asked;
 }
 

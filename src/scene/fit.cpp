@@ -5,10 +5,13 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <glm/gtx/norm.hpp>
 #include <iterator>
 #include <limits>
 
 #include "base/bounds.h"
+#include "base/errors.h"
+#include "scene/parts.h"
 #include "scene/projection.h"
 
 namespace fragtrace {
@@ -21,11 +24,57 @@ void appendSphere(const glm::dvec3& center, double radius, std::vector<glm::dvec
     points.push_back(center + kOutside * radius * direction);
 }
 
-/// The vertices of these triangles, each once.
-std::vector<glm::dvec3> verticesOf(const Scene& scene, size_t first, size_t count) {
+/// What is framed of a scene: by default all, else nodes, or else materials.
+struct FramedPart {
+  std::vector<bool> nodes{};      ///< by their place in the file
+  std::vector<bool> materials{};  ///< by index
+
+  bool hasNode(uint32_t index) const { return nodes.empty() || (index < nodes.size() && nodes[index]); }
+  bool hasMaterial(uint32_t index) const { return materials.empty() || materials[index]; }
+};
+
+/// Marks the nodes that are called so, with all below them. Returns none if there is no such node.
+std::vector<bool> nodesCalled(const Scene& scene, const auto& isIt) {
+  std::vector<bool> marked;
+  int depth = -1;  // of the node called so that the next nodes may be below
+  for (const SceneNode& node : scene.nodes) {
+    if (depth >= 0 && node.depth <= depth) depth = -1;
+    if (depth < 0 && isIt(node.name)) depth = node.depth;
+    if (depth < 0) continue;
+    if (marked.size() <= node.index) marked.resize(node.index + 1, false);
+    marked[node.index] = true;
+  }
+  return marked;
+}
+
+/// Throws UsageError.
+FramedPart partCalled(const Scene& scene, const std::string& name) {
+  FramedPart part;
+  if (name.empty()) return part;
+  const auto isSame = [&](const std::string& other) { return other == name; };
+  const auto isAlike = [&](const std::string& other) { return isSameButForCase(other, name); };
+  const auto find = [&](const auto& isIt) {
+    part.nodes = nodesCalled(scene, isIt);
+    if (!part.nodes.empty()) return true;
+    std::vector<bool> marked;
+    for (const Material& material : scene.materials) marked.push_back(isIt(material.name));
+    if (std::ranges::find(marked, true) == marked.end()) return false;
+    part.materials = std::move(marked);
+    return true;
+  };
+  if (!find(isSame) && !find(isAlike))
+    throw UsageError("--fit-to: " + inQuotes(name) +
+                     " is no node and no material of the scene; `fragtrace info --nodes` lists them");
+  return part;
+}
+
+/// The vertices of those of these triangles that are framed, each once.
+std::vector<glm::dvec3> verticesOf(const Scene& scene, size_t first, size_t count,
+                                   const FramedPart& part = {}) {
   std::vector<uint32_t> used;
   used.reserve(3 * count);
   for (size_t i = first; i < first + count; ++i) {
+    if (!part.hasMaterial(scene.triangles[i].material)) continue;
     for (int c = 0; c < 3; ++c) used.push_back(scene.triangles[i].vertex[c]);
   }
   std::ranges::sort(used);
@@ -48,17 +97,32 @@ std::vector<glm::dvec3> cornersOfBox(std::span<const glm::dvec3> points) {
   return corners;
 }
 
-void appendInstances(const Scene& scene, std::vector<glm::dvec3>& points) {
+/// The vertices of all triangles that no instance shows, as far as they are framed.
+std::vector<glm::dvec3> flatVertices(const Scene& scene, const FramedPart& part) {
+  const size_t count = flatTriangleCount(scene) - scene.strokeTriangles;
+  if (part.nodes.empty()) return verticesOf(scene, 0, count, part);
+  std::vector<glm::dvec3> points;
+  for (const PrimitiveOrigin& origin : scene.origins) {
+    const bool isFlat = size_t(origin.firstTriangle) + origin.triangleCount <= count;
+    if (isFlat && part.hasNode(origin.nodeIndex))
+      std::ranges::copy(verticesOf(scene, origin.firstTriangle, origin.triangleCount),
+                        std::back_inserter(points));
+  }
+  return points;
+}
+
+void appendInstances(const Scene& scene, const FramedPart& part, std::vector<glm::dvec3>& points) {
   constexpr size_t kMostPoints = 5'000'000;
   std::vector<std::vector<glm::dvec3>> meshes;
   for (const SharedMesh& mesh : scene.sharedMeshes)
-    meshes.push_back(verticesOf(scene, mesh.firstTriangle, mesh.triangleCount));
+    meshes.push_back(verticesOf(scene, mesh.firstTriangle, mesh.triangleCount, part));
   size_t count = 0;
   for (const Instance& instance : scene.instances) count += meshes[instance.mesh].size();
   if (count > kMostPoints) {
     for (std::vector<glm::dvec3>& mesh : meshes) mesh = cornersOfBox(mesh);
   }
   for (const Instance& instance : scene.instances) {
+    if (!part.hasNode(instance.nodeIndex)) continue;
     for (const glm::dvec3& point : meshes[instance.mesh])
       points.push_back(scene.space.worldOf(glm::dvec3(instance.toLocal * glm::dvec4(point, 1.0))));
   }
@@ -152,20 +216,58 @@ std::vector<glm::dvec3> directionsAllAround() {
   return directions;
 }
 
-std::vector<glm::dvec3> outlineOf(const Scene& scene) {
-  std::vector<glm::dvec3> points = verticesOf(scene, 0, flatTriangleCount(scene) - scene.strokeTriangles);
+std::vector<glm::dvec3> outlineOf(const Scene& scene, const std::string& name) {
+  const FramedPart part = partCalled(scene, name);
+  const auto isFramed = [&](const auto& item) {
+    return part.hasNode(item.nodeIndex) && part.hasMaterial(item.material);
+  };
+  std::vector<glm::dvec3> points = flatVertices(scene, part);
   for (const Strokes& strokes : scene.strokes) {
+    if (!isFramed(strokes)) continue;
     for (const glm::uvec2& ends : strokes.ends) {
       points.emplace_back(scene.vertices.position[ends.x]);
       points.emplace_back(scene.vertices.position[ends.y]);
     }
   }
   for (glm::dvec3& point : points) point = scene.space.worldOf(point);
-  appendInstances(scene, points);
-  for (const Sphere& sphere : scene.spheres)
-    appendSphere(scene.space.worldOf(glm::dvec3(sphere.center)), scene.space.unit * sphere.radius, points);
-  if (scene.volume.grid) std::ranges::copy(scene.volume.corners(), std::back_inserter(points));
+  appendInstances(scene, part, points);
+  for (const Sphere& sphere : scene.spheres) {
+    if (isFramed(sphere))
+      appendSphere(scene.space.worldOf(glm::dvec3(sphere.center)), scene.space.unit * sphere.radius, points);
+  }
+  if (!name.empty() && points.empty())
+    throw UsageError("--fit-to: " + inQuotes(name) + " has nothing that is shown");
+  if (scene.volume.grid && name.empty())
+    std::ranges::copy(scene.volume.corners(), std::back_inserter(points));
   return points;
+}
+
+std::vector<glm::dvec3> withoutStrays(std::vector<glm::dvec3> points) {
+  constexpr size_t kShare = 100;
+  constexpr double kDot = 1.0 / 16.0;  // share of the size
+  const size_t strays = points.size() / kShare;
+  if (strays == 0) return points;
+  glm::dvec3 middle(0.0);
+  std::vector<double> values(points.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    std::ranges::transform(points, values.begin(), [&](const glm::dvec3& p) { return p[axis]; });
+    const auto half = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::ranges::nth_element(values, half);
+    middle[axis] = *half;
+  }
+  const auto nearer = [&](const glm::dvec3& a, const glm::dvec3& b) {
+    return glm::distance2(a, middle) < glm::distance2(b, middle);
+  };
+  std::vector<glm::dvec3> kept = points;
+  const auto last = kept.end() - std::ptrdiff_t(strays);
+  std::ranges::nth_element(kept, last, nearer);
+  kept.erase(last, kept.end());
+  const auto sizeOf = [](std::span<const glm::dvec3> some) {
+    BoundsDouble bounds;
+    for (const glm::dvec3& p : some) bounds.include(p);
+    return glm::length(bounds.extent());
+  };
+  return sizeOf(kept) < kDot * sizeOf(points) ? kept : points;
 }
 
 std::vector<glm::dvec3> farthest(std::vector<glm::dvec3> points) {
@@ -211,7 +313,7 @@ std::vector<glm::dvec3> sweptAbout(const glm::dvec3& point, std::span<const glm:
   return swept;
 }
 
-Camera fitted(Camera camera, std::span<const glm::dvec3> points, double aspectRatio) {
+Camera fitted(Camera camera, std::span<const glm::dvec3> points, double aspectRatio, double share) {
   BoundsDouble bounds;
   const ViewAxes axes(camera);
   std::vector<glm::dvec3> seen;
@@ -232,12 +334,12 @@ Camera fitted(Camera camera, std::span<const glm::dvec3> points, double aspectRa
     // A flat scene that is seen from its edge has neither width nor height, and a tip may reach up to the
     // lens.
     constexpr double kNearest = 0.01;  // share of the size
-    const double slope = std::tan(0.5 * camera.fovY) * kFitted;
+    const double slope = std::tan(0.5 * camera.fovY) * share;
     place = perspectivePlace(seen, {slope * aspectRatio, slope}, bounds.minimum.z - kNearest * size);
     place += glm::dvec3(shear * place.z, 0.0);
   } else {
     const glm::dvec3 half = 0.5 * bounds.extent();
-    camera.halfHeight = std::max({half.y, half.x / aspectRatio, 1e-6 * size}) / kFitted;
+    camera.halfHeight = std::max({half.y, half.x / aspectRatio, 1e-6 * size}) / share;
     place.z = bounds.minimum.z - size;
     place -= glm::dvec3(shift * halfExtents(camera, aspectRatio, 1.0), 0.0);
   }

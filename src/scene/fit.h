@@ -4,6 +4,7 @@
 
 #include <glm/glm.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "scene/scene.h"
@@ -17,8 +18,14 @@ inline constexpr double kFitted = 0.95;
 std::vector<glm::dvec3> directionsAllAround();
 
 /// Points in world space whose convex hull is that of all triangles, spheres, and strokes without their
-/// width. The hull is a little larger where there are spheres or very many instances.
-std::vector<glm::dvec3> outlineOf(const Scene& scene);
+/// width. The hull is a little larger where there are spheres or very many instances. With the name of a
+/// part, those of the nodes that are called so, with all below them, or else of the materials that are.
+/// Throws UsageError where nothing that is shown is called so.
+std::vector<glm::dvec3> outlineOf(const Scene& scene, const std::string& part = {});
+
+/// The points without those, at most a hundredth of them, that are so far away that the others would be a dot
+/// in their midst; all points where there are none such.
+std::vector<glm::dvec3> withoutStrays(std::vector<glm::dvec3> points);
 
 /// The points, or, if there are many, those that are farthest in some of directionsAllAround().
 std::vector<glm::dvec3> farthest(std::vector<glm::dvec3> points);
@@ -26,9 +33,9 @@ std::vector<glm::dvec3> farthest(std::vector<glm::dvec3> points);
 /// Does the same for the circles that points sweep as they turn about the vertical axis, +Y, through `point`.
 std::vector<glm::dvec3> sweptAbout(const glm::dvec3& point, std::span<const glm::dvec3> points);
 
-/// Moves the camera without turning it, and scales an orthographic one, until the points fill kFitted of the
-/// width or of the height of a picture of that width / height, in its middle. Unchanged if there are no
+/// Moves the camera without turning it, and scales an orthographic one, until the points fill that share of
+/// the width or of the height of a picture of that width / height, in its middle. Unchanged if there are no
 /// points, or a single one.
-Camera fitted(Camera camera, std::span<const glm::dvec3> points, double aspectRatio);
+Camera fitted(Camera camera, std::span<const glm::dvec3> points, double aspectRatio, double share = kFitted);
 
 }  // namespace fragtrace

@@ -12,7 +12,7 @@ namespace fragtrace {
 
 /// Returns true if the camera is to be moved until the shadow on the catcher is in the picture, too.
 inline bool fitsShadow(const RenderOptions& options, const CameraOverrides& overrides) {
-  return overrides.fit && options.light.shadowCatcher && has(options.stages, Stage::Gi);
+  return overrides.fitShadow && options.light.shadowCatcher && has(options.stages, Stage::Gi);
 }
 
 /// The environment, coarsely, and the punctual lights, as the plane of that height (Y, metres) gets them in

@@ -52,7 +52,7 @@ View makeView(const RenderOptions& options, const LoadedScene& loaded, const Cam
   View view;
   view.camera = camera;
   view.motion = loaded.motion;
-  view.lens = lensOf(options, camera, scene.bounds, scene.space);
+  view.lens = lensOf(options, camera, loaded.framed, scene.space);
   view.space = scene.space;
   view.hdriRotation = glm::radians(environmentTurn(options.light));
   view.hdriIntensity = options.light.hdriIntensity;
@@ -65,6 +65,7 @@ View makeView(const RenderOptions& options, const LoadedScene& loaded, const Cam
   view.volume.grid.reset();
   view.fog = fogOf(options.fog, scene.bounds);
   view.catcherHeight = catcherHeightOf(options, scene.bounds);
+  view.shadowFade = shadowFadeOf(options, loaded.overrides);
   view.bounces = options.sampling.bounces;
   view.rouletteDepth = options.sampling.rouletteDepth;
   view.seed = options.sampling.seed;

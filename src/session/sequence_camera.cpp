@@ -54,15 +54,15 @@ std::optional<double> animationLength(const Scene& scene, const SceneSelection& 
   return length;
 }
 
-CameraOverrides overridesOfAllPoses(const RenderOptions& options, std::shared_ptr<KeptDocument>& kept) {
-  const CameraOverrides& asked = options.camera.overrides;
-  const bool placed = asked.fit || asked.orbit;
+RenderOptions placedForAllPoses(RenderOptions options, std::shared_ptr<KeptDocument>& kept) {
+  const CameraOverrides asked = options.camera.overrides;
+  const bool placed = asked.asksForFit() || asked.orbit;
   RenderOptions posed = options;
   posed.selection.animationTime = 0.0;
   const Scene first = loadGltf(posed.scene, gltfOptionsOf(posed), &kept);
   if (first.animationNames.empty())
     throw UsageError("--frames: " + options.scene.string() + " has no animation");
-  if (!placed && (asked.position || !first.cameras.empty())) return asked;
+  if (!placed && (asked.position || !first.cameras.empty())) return options;
   const CameraOverrides overrides = settledOverrides(asked, first);
   const bool shadow = fitsShadow(options, overrides);
   Environment environment;
@@ -83,9 +83,12 @@ CameraOverrides overridesOfAllPoses(const RenderOptions& options, std::shared_pt
     placeVolume(scene, options, &volume);
     volume = scene.volume;
     if (scene.bounds.empty()) continue;
-    filled.bounds.include(scene.bounds);
-    if (!overrides.fit) continue;
+    if (!overrides.fit) {
+      filled.bounds.include(scene.bounds);
+      continue;
+    }
     FittedPoints points = pointsToFit(scene, environment, options, overrides);
+    filled.bounds.include(points.bounds);
     append(filled.points.scene, std::move(points.scene));
     append(filled.points.shadow, std::move(points.shadow));
     lowest = std::min(lowest, points.catcherHeight);
@@ -95,7 +98,9 @@ CameraOverrides overridesOfAllPoses(const RenderOptions& options, std::shared_pt
                                cameraIndexOf(options.camera.index, options.selection.camera, first.cameras),
                                overrides, filled.bounds, framedAspect(options));
   if (overrides.fit) camera = fitCamera(camera, filled.points, overrides, chooseSize(camera, options));
-  return asPlaced(camera, filled.bounds);
+  if (const double fade = shadowFadeOf(options, overrides); fade > 0.0) options.light.shadowFade = fade;
+  options.camera.overrides = asPlaced(camera, filled.bounds);
+  return options;
 }
 
 CameraOverrides asPlaced(const Camera& camera, const BoundsDouble& bounds) {

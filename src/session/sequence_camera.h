@@ -15,11 +15,11 @@ std::optional<double> animationLength(const Scene& scene, const SceneSelection& 
 /// A camera as options that place it so.
 CameraOverrides asPlaced(const Camera& camera, const BoundsDouble& bounds);
 
-/// The camera of the options, in their place, where it stands by what the scene holds (no camera in the file,
-/// --camera-orbit, --fit), which moves: one that shows the scene as it is over the whole animation, so that
-/// machines that draw some of the frames each have the same. Otherwise the options' own overrides. Poses the
-/// scene some 50 times at the most. `kept` is as loadGltf() wants it. Throws InputError; UsageError, also
-/// where there is no animation.
-CameraOverrides overridesOfAllPoses(const RenderOptions& options, std::shared_ptr<KeptDocument>& kept);
+/// Returns the options with one camera by its numbers, where it stands by what the scene holds (no camera in
+/// the file, --camera-orbit, --fit), which moves: one that shows the scene as it is over the whole animation,
+/// so that machines that draw some of the frames each have the same. Otherwise returns them as they are.
+/// Poses the scene some 50 times at the most. `kept` is as loadGltf() wants it. Throws InputError;
+/// UsageError, also where there is no animation.
+RenderOptions placedForAllPoses(RenderOptions options, std::shared_ptr<KeptDocument>& kept);
 
 }  // namespace fragtrace

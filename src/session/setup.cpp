@@ -87,11 +87,12 @@ Camera fitCamera(const Camera& camera, const FittedPoints& points, const CameraO
     return parallel ? from.forward.y < 0.0 : from.position.y > points.catcherHeight;
   };
   const double aspect = double(size.x) / size.y;
-  Camera result = fitted(camera, points.scene, aspect);
+  const double share = overrides.fill.value_or(kFitted);
+  Camera result = fitted(camera, points.scene, aspect, share);
   if (!points.shadow.empty() && seesCatcher(result)) {
     std::vector<glm::dvec3> all = points.scene;
     all.insert(all.end(), points.shadow.begin(), points.shadow.end());
-    const Camera farther = fitted(camera, all, aspect);
+    const Camera farther = fitted(camera, all, aspect, share);
     if (seesCatcher(farther)) result = farther;
   }
   return zoomed(result, overrides.orbit.value_or(Orbit()).zoom);
@@ -289,10 +290,26 @@ std::future<LinearImage> startMap(const RenderOptions& options, Phase& reading) 
 
 }  // namespace
 
+double shadowFadeOf(const RenderOptions& options, const CameraOverrides& settled) {
+  constexpr double kFade = 0.08;
+  const bool fades = options.light.shadowCatcher && settled.fit && !settled.fitShadow;
+  return options.light.shadowFade.value_or(fades ? kFade : 0.0);
+}
+
 FittedPoints pointsToFit(const Scene& scene, const Environment& environment, const RenderOptions& options,
                          const CameraOverrides& overrides) {
   FittedPoints points;
-  points.scene = outlineOf(scene);
+  points.scene = outlineOf(scene, overrides.fitTo);
+  points.bounds = scene.bounds;
+  if (overrides.leavesStrays) {
+    const size_t all = points.scene.size();
+    points.scene = withoutStrays(std::move(points.scene));
+    points.strays = all - points.scene.size();
+  }
+  if (points.strays > 0 || !overrides.fitTo.empty()) {
+    points.bounds = {};
+    for (const glm::dvec3& point : points.scene) points.bounds.include(point);
+  }
   if (!fitsShadow(options, overrides)) return points;
   points.catcherHeight = catcherHeightOf(options, scene.bounds);
   points.shadow = shadowOutline(farthest(points.scene), points.catcherHeight,
@@ -304,13 +321,16 @@ void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film) {
   const Scene& scene = loaded.scene;
   loaded.cameraIndex = cameraIndexOf(options.camera.index, options.selection.camera, scene.cameras);
   const CameraOverrides& overrides = loaded.overrides = settledOverrides(options.camera.overrides, scene);
+  FittedPoints points;
+  if (overrides.fit) points = pointsToFit(scene, loaded.environment, options, overrides);
+  loaded.strays = points.strays;
+  loaded.framed = overrides.fit ? points.bounds : scene.bounds;
   loaded.camera =
-      chooseCamera(scene.cameras, loaded.cameraIndex, overrides, scene.bounds, framedAspect(options));
+      chooseCamera(scene.cameras, loaded.cameraIndex, overrides, loaded.framed, framedAspect(options));
   loaded.size = chooseSize(loaded.camera, options);
   if (overrides.fit) {
-    FittedPoints points = pointsToFit(scene, loaded.environment, options, overrides);
     for (std::vector<glm::dvec3>* some : {&points.scene, &points.shadow}) {
-      if (overrides.turns) *some = sweptAbout(turningPoint(loaded.camera, overrides, scene.bounds), *some);
+      if (overrides.turns) *some = sweptAbout(turningPoint(loaded.camera, overrides, loaded.framed), *some);
     }
     loaded.camera = fitCamera(loaded.camera, points, overrides, loaded.size);
   }
@@ -356,6 +376,10 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   const bool early = fitsShadow(options, settledOverrides(options.camera.overrides, scene));
   if (early) settleEnvironment();
   aim(loaded, options, film);
+  if (loaded.strays > 0)
+    loaded.scene.warnings.push_back(
+        "the default view leaves out " + countText(loaded.strays, "point") +
+        " of the scene, far away from all others; --fit moves the camera until all are in the picture");
   addStrokes(loaded.scene, loaded.camera, loaded.size, options.camera.lineWidth);
   checkCatcher(options, light, loaded.scene);
   checkCatcherPlace(options, loaded.scene);
@@ -368,7 +392,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
     openShutter(loaded, options, *before.document, stats);
     stats.phases.push_back(timer.end());
   }
-  sayWarnings(options, loaded.overrides.fit, loaded.scene);
+  sayWarnings(options, loaded.overrides.fit && loaded.strays == 0, loaded.scene);
   stats.loadMs = watch.lap();
   step("building the tree", 0.5);
   loaded.bvh = refitOrBuild(scene.motion.segments > 0 ? nullptr : before.tree, scene, options, stats);

@@ -23,10 +23,12 @@ struct LoadedScene {
   Camera camera;
   CameraOverrides overrides;       ///< the camera was chosen by these (settledOverrides())
   std::optional<int> cameraIndex;  ///< index of that camera in the scene, if one was asked for
+  BoundsDouble framed;  ///< box of what the camera frames, world space: all of the scene, or a part
   /// The camera's motion while the shutter is open; empty: it stands still.
   std::vector<CameraSegment> motion{};
   glm::ivec2 size{0};     ///< size of the picture
   Region region;          ///< part of the picture that is drawn
+  size_t strays = 0;      ///< points that the default view leaves out
   bool dimLamps = false;  ///< the scene has lamps, but they are too dim to light it
   Bvh bvh;
   View view;
@@ -70,9 +72,14 @@ glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options);
 /// The height of the shadow catcher's plane (Y, metres).
 double catcherHeightOf(const RenderOptions& options, const BoundsDouble& bounds);
 
+/// The part of the picture's smaller side over which the catcher's shadow ends before the edge; 0: nowhere.
+double shadowFadeOf(const RenderOptions& options, const CameraOverrides& settled);
+
 /// Points of the world about which --fit moves the camera.
 struct FittedPoints {
   std::vector<glm::dvec3> scene;
+  BoundsDouble bounds;             ///< of these, or, if they are all of the scene, its own
+  size_t strays = 0;               ///< points that are left out
   std::vector<glm::dvec3> shadow;  ///< points around the shadow on the catcher
   double catcherHeight = -std::numeric_limits<double>::infinity();  ///< Y, metres; of several, the lowest
 };
@@ -82,7 +89,8 @@ struct FittedPoints {
 Camera fitCamera(const Camera& camera, const FittedPoints& points, const CameraOverrides& overrides,
                  glm::ivec2 size);
 
-/// The points of the scene, and, where the camera is to be moved for it, of its shadow.
+/// The points of the scene, or of the part that the overrides name, and, where the camera is to be moved for
+/// it, of the shadow. Throws UsageError.
 FittedPoints pointsToFit(const Scene& scene, const Environment& environment, const RenderOptions& options,
                          const CameraOverrides& overrides);
 

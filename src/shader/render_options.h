@@ -174,6 +174,9 @@ struct LightOptions {
   bool studio = false;                  ///< the built-in environment (scene/studio.h)
   bool shadowCatcher = false;           ///< a plane that shows nothing but shadows
   std::optional<double> catcherHeight;  ///< its Y in world space, metres; none: the bottom of the scene
+  /// The part of the picture's smaller side over which the shadow ends before the edge; none: as
+  /// shadowFadeOf().
+  std::optional<double> shadowFade;
 
   bool operator==(const LightOptions&) const = default;
 };

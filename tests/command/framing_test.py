@@ -74,13 +74,47 @@ class Framing(FramingCase):
         for options, said in (({"quad_at": 500}, r'node "dust" reaches \d+ times .* framed; --hide 0 leaves the node out'),
                               ({"vertex": 500}, r'node "model" reaches \d+ times .* framed: a vertex of its mesh lies far off')):
             scene = write(**options)
-            for stderr in (self.renders(scene, "-o", self.folder / "x.png", *tiny).stderr, run("info", scene).stderr):
+            for stderr in (self.renders(scene, "-o", self.folder / "x.png", *tiny, "--fit").stderr, run("info", scene).stderr):
                 self.assertRegex(stderr, f"{scene}: {said}")
+        # One point in a hundred does not decide the default view.
+        near = self.alphas(write(), "--resolution", "24,16")[0]
+        stray, said = self.alphas(write(vertex=500), "--resolution", "24,16")
+        self.assertIn("leaves out 1 point of the scene, far away from all others; --fit", said)
+        self.assertNotIn("reaches", said)
+        self.assertLess(abs(sum(map(sum, near)) - sum(map(sum, stray))), 0.15 * sum(map(sum, near)))
         said = self.renders(write(quad_at=500, camera=True), "-o", self.folder / "x.png", *tiny, "--fit").stderr
         self.assertIn("this view shows nothing of the scene; --camera-position", said)
         self.assertNotIn("reaches", run("info", write(quad_at=500), "--hide", 0).stderr)
         # A camera of the file frames nothing.
         self.assertNotIn("reaches", self.renders(write(quad_at=500, camera=True), "-o", self.folder / "x.png", *tiny).stderr)
+
+    def test_a_part_is_framed_by_name(self):
+        """Two quads of 2 m and 0.2 m, a node each, the smaller one below another node and with a material of its own."""
+        gltf = Gltf(quad({"doubleSided": True, "name": "board"}))
+        gltf.root["materials"].append({"name": "screw head", "doubleSided": True})
+        small = json.loads(json.dumps(gltf.root["meshes"][0]))
+        small["primitives"][0]["material"] = 1
+        gltf.root["meshes"].append(small)
+        gltf.root["nodes"] = [{"mesh": 0, "name": "wall"}, {"name": "Screws", "translation": [5, 0, 0], "children": [2]},
+                              {"mesh": 1, "scale": [0.1, 0.1, 0.1]}, {"camera": 0}]
+        gltf.root["scenes"] = [{"nodes": [0, 1, 3]}]
+        for name in ("images", "textures"):
+            gltf.root.pop(name, None)
+        scene = gltf.write(self.folder / "scene.gltf")
+        asked = ["--resolution", "40,40"]
+        share = lambda *options: sum(map(sum, self.alphas(scene, *asked, *options)[0])) / 1600
+        for name in ("wall", "Screws", "screws", "screw head", "board"):
+            self.assertAlmostEqual(share("--fit-to", name), 0.95 ** 2, delta=0.03, msg=name)
+            self.assertAlmostEqual(share("--fit-to", name, "--fill", 0.5), 0.25, delta=0.03, msg=name)
+        self.assertLess(share("--fit"), 0.2)
+        # An orbit looks at the part, and so does a turntable.
+        self.assertGreater(share("--fit-to", "Screws", "--camera-orbit", "30,0"), 0.5)
+        result = run("render", scene, "-o", self.folder / "x.png", "--fit-to", "bolt")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn('--fit-to: "bolt" is no node and no material of the scene', result.stderr)
+        result = run("render", scene, "-o", self.folder / "x.png", "--fit-to", "wall", "--hide", "wall")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("has nothing that is shown", result.stderr)
 
     def test_an_orbit_does_not_go_with_a_position(self):
         for options in (("--camera-position", "1,2,3"), ("--frames", "0:3", "--fit")):

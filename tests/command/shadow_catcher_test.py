@@ -79,24 +79,24 @@ class ShadowCatcher(CatcherCase):
         gltf.moves(0, [0, 1], translation=[(0, HEIGHT, 0), (1, HEIGHT, 0)])
         return str(gltf.write(Path(scene + ".gltf")))
 
-    def test_fit_holds_the_shadow(self):
+    def test_fit_shadow_holds_the_shadow(self):
         """The shadow is in the picture under the studio, under a low sun, from all sides, and for all frames. No pixel
         of the edge misses a tenth of the light."""
         sun = {"rotation": [-0.354, 0, 0, 0.935]}, {"type": "directional", "intensity": 3}
         for lights, options in (((), ["--studio"]), ((sun,), []), ((sun,), ["--camera-orbit", "180,60"])):
-            alpha = self.picture(self.ball(lights), "x.exr", "--resolution", "48,48", "--spp", 64, "--no-background", "--shadow-catcher", "0.3", "--fit", *options).layers["A"]
+            alpha = self.picture(self.ball(lights), "x.exr", "--resolution", "48,48", "--spp", 64, "--no-background", "--shadow-catcher", "0.3", "--fit-shadow", *options).layers["A"]
             edge = [*alpha[0], *alpha[-1], *(row[0] for row in alpha), *(row[-1] for row in alpha)]
             self.assertLess(max(edge), 0.15, options)
             self.assertGreater(max(map(max, alpha)), 0.9)
         self.renders(self.moved(self.ball((sun,))), "-o", self.folder / "m.##.exr", "--quiet", "--resolution", "48,48", "--spp", 64,
-                     "--no-background", "--shadow-catcher", "0.3", "--fit", "--frames", "0:1", "--fps", 1)
+                     "--no-background", "--shadow-catcher", "0.3", "--fit-shadow", "--frames", "0:1", "--fps", 1)
         for k in range(2):
             alpha = Exr(self.folder / f"m.{k:02}.exr").layers["A"]
             edge = [*alpha[0], *alpha[-1], *(row[0] for row in alpha), *(row[-1] for row in alpha)]
             self.assertLess(max(edge), 0.15, k)
             self.assertGreater(max(map(max, alpha)), 0.9)
         # From below, no shadow is seen, and none needs room; a long one is cut where the ball is still large.
-        framed = ["--resolution", "48,48", "--spp", 1, "--no-background", "--fit", "--aov", "object", "--camera-orbit"]
+        framed = ["--resolution", "48,48", "--spp", 1, "--no-background", "--fit-shadow", "--aov", "object", "--camera-orbit"]
         wide = lambda scene, *options: sum(max(column) > 0 for column in zip(*self.picture(scene, "x.exr", *framed, *options).layers["object.Y"]))
         below = ["30,-40", "--studio"]
         self.assertEqual(wide(self.ball(), *below, "--shadow-catcher", "0.3"), wide(self.ball(), *below))
@@ -106,6 +106,28 @@ class ShadowCatcher(CatcherCase):
         self.assertIn("--fit: the camera stands at --camera-position ", said)
         exr = self.picture(self.ball(), "x.exr", "--resolution", "48,48", "--spp", 4, "--no-background", "--fit", "--studio")
         self.assertGreater(max(exr.layers["A"][24][:3]) + max(exr.layers["A"][1]), 0)  # without a catcher, the ball alone fills it
+
+    def test_fit_frames_the_object_whose_shadow_ends_before_the_edge(self):
+        """The ball is as large and as much in the middle as without a shadow, which nothing cuts off. Copied options, parts and
+        films have the same fade."""
+        sun = {"rotation": [-0.354, 0, 0, 0.935]}, {"type": "directional", "intensity": 3}
+        scene = self.ball((sun,))
+        small = ["--resolution", "48,48", "--spp", 16, "--no-background", "--camera-orbit", "180,30"]
+        places = lambda exr: [(x, y) for y, row in enumerate(exr.layers["object.Y"]) for x, value in enumerate(row) if value > 0]
+        ball = self.picture(scene, "b.exr", *small, "--fit", "--fill", 0.6, "--aov", "object")
+        caught = self.picture(scene, "c.exr", *small, "--fit", "--fill", 0.6, "--aov", "object", "--shadow-catcher", "0.3")
+        self.assertEqual(places(ball), places(caught))
+        alpha = caught.layers["A"]
+        edges = lambda a: [*a[0], *a[-1], *(row[0] for row in a), *(row[-1] for row in a)]
+        self.assertLess(max(edges(alpha)), 0.05)
+        plain = self.picture(scene, "p.exr", *small, "--fit", "--fill", 0.6, "--shadow-catcher", "0.3", "--shadow-fade", 0).layers["A"]
+        self.assertGreater(max(edges(plain)), 0.5)
+        self.assertEqual([row[16:32] for row in alpha[16:32]], [row[16:32] for row in plain[16:32]])  # in the middle nothing fades
+        self.renders(self.moved(scene), "-o", self.folder / "f.##.exr", "--quiet", *small, "--fit", "--fill", 0.6, "--shadow-catcher", "0.3",
+                     "--frames", "0:1", "--fps", 1)
+        self.assertLess(max(edges(Exr(self.folder / "f.00.exr").layers["A"])), 0.05)
+        tile = self.picture(scene, "t.exr", *small, "--fit", "--fill", 0.6, "--shadow-catcher", "0.3", "--region", "0,24,48,24").layers["A"]
+        self.assertEqual(tile, self.picture(scene, "c.exr", *small, "--fit", "--fill", 0.6, "--shadow-catcher", "0.3").layers["A"][24:])
 
     def test_what_is_half_there_casts_half_a_shadow(self):
         """A sheet of alpha 0.5 lies over the camera."""

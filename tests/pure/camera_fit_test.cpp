@@ -95,6 +95,32 @@ TEST(Fit, OfATurntableHoldsAllViewsAndFillsOne) {
   EXPECT_GT(most, 0.93);
 }
 
+TEST(Fit, FillsTheShareThatIsAskedFor) {
+  const auto points = cloud(40, {5, 1, 1}, 7);
+  BoundsDouble bounds;
+  for (const glm::dvec3& point : points) bounds.include(point);
+  for (const double share : {0.05, 0.5, 1.0}) {
+    const Camera camera =
+        fitted(chooseCamera({}, {}, {.orbit = Orbit{20, 25}}, bounds, 1.6), points, 1.6, share);
+    const BoundsDouble places = placesOf(camera, points, 1.6);
+    EXPECT_NEAR(std::max(places.maximum.x, places.maximum.y), share, 1e-6);
+  }
+}
+
+TEST(Fit, StraysAreAHundredthFarAway) {
+  std::vector<glm::dvec3> points = cloud(500, {1, 1, 1}, 3);
+  const auto rest = points;
+  points.emplace_back(100, -3, 2000);
+  EXPECT_EQ(withoutStrays(points).size(), 496u);
+  points.insert(points.end(), 5, glm::dvec3(100, -3, 2000));
+  EXPECT_EQ(withoutStrays(points).size(), points.size());  // more than a hundredth
+  points = rest;
+  points.emplace_back(100, -3, 40);
+  EXPECT_EQ(withoutStrays(points).size(), points.size());  // not far enough
+  const std::vector<glm::dvec3> few(99, glm::dvec3(1.0));
+  EXPECT_EQ(withoutStrays(few).size(), 99u);
+}
+
 TEST(Fit, FlatAndEmptyScenesHaveACamera) {
   const Camera camera = chooseCamera({}, {}, {}, {});
   EXPECT_EQ(fitted(camera, {}, 1.0).position, camera.position);

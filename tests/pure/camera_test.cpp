@@ -85,6 +85,16 @@ TEST(CameraOverrides, PositionAloneKeepsTheFocalPoint) {
   expectSame(camera.position, {11, 0, -1});
 }
 
+TEST(CameraOverrides, PositionAndFocalPointMakeALevelCamera) {
+  Camera leaning;
+  leaning.up = glm::normalize(glm::dvec3(1, 1, 0));
+  const Camera level =
+      withOverrides(leaning, {.position = glm::dvec3(0, 0, 9), .focalPoint = glm::dvec3(0.0)});
+  expectSame(level.up, {0, 1, 0});
+  const Camera moved = withOverrides(leaning, {.position = glm::dvec3(0, 0, 9)}, kBox);
+  EXPECT_LT(moved.up.y, 0.8);
+}
+
 TEST(CameraOverrides, FocalPointAloneTurnsTheCamera) {
   Camera camera;
   camera.position = {1, 2, 3};

@@ -59,9 +59,11 @@ void SceneLoader::start(const RenderOptions& options) {
       result.options.camera.index = result.scene->cameraIndex;
       result.options.selection.camera.clear();
       // A camera that was placed by the scene's vertices is also kept by its numbers.
-      if (result.scene->overrides.fit)
-        result.options.camera.overrides =
-            overridesOf(poseOf(result.scene->camera, result.scene->scene.bounds));
+      if (result.scene->overrides.fit) {
+        if (result.scene->view.shadowFade > 0.0)
+          result.options.light.shadowFade = result.scene->view.shadowFade;
+        result.options.camera.overrides = overridesOf(poseOf(result.scene->camera, result.scene->framed));
+      }
       progress("packing", 0.9);
     } catch (const Cancelled&) {
       result.scene.reset();
