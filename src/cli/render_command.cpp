@@ -106,6 +106,7 @@ RunCommand addRender(CLI::App& app) {
     std::string config;
   };
   const auto raw = std::make_shared<Raw>();
+  raw->render.hasQuality = true;
   addOption(app, "file", raw->render)->required();
   addOption(app, "--output", raw->render);
   for (const OptionGroup group : {OptionGroup::Tracing, OptionGroup::Encoding, OptionGroup::Output,

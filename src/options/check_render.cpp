@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Options that depend on others.
 #include <algorithm>
+#include <array>
+#include <optional>
 
 #include "base/errors.h"
 #include "image/files/video_format.h"
@@ -26,11 +28,40 @@ StageSet stagesOf(const RawRender& raw) {
   return stages;
 }
 
+struct QualityGoal {
+  double noise = 0.0;
+  int mostSamples = 0;
+};
+
+/// By Quality. A draft has the samples that a picture of that kind needs at least; the variance filter takes
+/// most of what noise is left.
+constexpr std::array<QualityGoal, 4> kGoals{{{}, {0.2, 16}, {0.1, 512}, {0.03, 4096}}};
+
+/// Returns true if the picture is for the eye, and no option says how it is sampled or filtered.
+bool hasGoodQuality(const RawRender& raw, const RenderOptions& o) {
+  constexpr std::array kOwn{"--quality", "--spp",           "--noise",      "--time",       "--denoise",
+                            "--region",  "--sample-offset", "--debug-view", "--count-work", "--tree-level"};
+  const bool isOwn = std::ranges::any_of(kOwn, [&](const char* name) { return raw.given.contains(name); });
+  const bool isForTheEye = holdsDisplay(o.output.file) && has(o.stages, Stage::Gi);
+  return raw.hasQuality && isForTheEye && !isOwn && o.light.reuse != LightReuse::Spatial;
+}
+
+/// Settles --quality: what other options say stays as they say it. Returns the largest number of samples, or
+/// none.
+std::optional<int> settleQuality(const RawRender& raw, RenderOptions& o) {
+  if (hasGoodQuality(raw, o)) o.sampling.quality = Quality::Good;
+  if (o.sampling.quality == Quality::None) return raw.spp;
+  const QualityGoal& goal = kGoals[size_t(o.sampling.quality)];
+  if (!isAdaptive(o)) o.sampling.noise = goal.noise;
+  if (!raw.given.contains("--denoise")) o.output.denoise = Denoise::Variance;
+  return raw.spp.value_or(goal.mostSamples);
+}
+
 /// The samples that were asked for, or those that the end of the render needs.
-int samplesOf(const RawRender& raw) {
-  const SamplingOptions& o = raw.options.sampling;
-  const bool adaptive = isAdaptive(raw.options);
-  const int spp = raw.spp.value_or(adaptive ? kMostSamples : o.spp);
+int samplesOf(const RenderOptions& options, std::optional<int> asked) {
+  const SamplingOptions& o = options.sampling;
+  const bool adaptive = isAdaptive(options);
+  const int spp = asked.value_or(adaptive ? kMostSamples : o.spp);
   // The least is two halves of two samples, since one sample says nothing of its error.
   if (adaptive && o.sampleOffset > 0)
     throw UsageError("--sample-offset: adaptive pictures (--noise, --time) are no parts of a render");
@@ -219,7 +250,8 @@ RenderOptions finishRender(const RawRender& raw) {
   chooseStandardOutput(o.output);
   o.stages = stagesOf(raw);
   if (raw.noDefaultLight) o.light.defaultLight = DefaultLight::None;
-  o.sampling.spp = samplesOf(raw);
+  const std::optional<int> most = settleQuality(raw, o);
+  o.sampling.spp = samplesOf(o, most);
   checkLens(o.camera.lens);
   checkCamera(o);
   checkShutter(o);

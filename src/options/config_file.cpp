@@ -142,12 +142,21 @@ void addConfigOption(CLI::App& app, std::string& file) {
 
 int runConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App& command,
                   const std::function<int(const RenderOptions&)>& run) {
-  if (config.empty()) return run(finishRender(raw));
+  const auto noteGiven = [&] {
+    for (const CLI::Option* option : command.get_options()) {
+      if (option->count() > 0) raw.given.insert(option->get_name());
+    }
+  };
+  if (config.empty()) {
+    noteGiven();
+    return run(finishRender(raw));
+  }
   std::vector<std::string> enable = std::exchange(raw.enable, {});
   std::vector<std::string> disable = std::exchange(raw.disable, {});
   const std::set<std::string> taken = applyFile(config, command);
   raw.fileEnable = std::exchange(raw.enable, std::move(enable));
   raw.fileDisable = std::exchange(raw.disable, std::move(disable));
+  noteGiven();
   try {
     return run(finishRender(raw));
   } catch (const UsageError& error) {

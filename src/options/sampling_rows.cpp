@@ -126,6 +126,13 @@ std::vector<OptionRow> samplingRows() {
           "render until 95 % of the pixels that can be noisy have an estimated relative error below this, "
           "for example 0.01",
           FRAGTRACE_MEMBER(sampling.noise), {1e-5, 1.0}, kEnd),
+      choice(
+          "--quality",
+          "goal of noise, largest number of samples, and the variance filter, which the options for each "
+          "change: "
+          "{}; by default good for a .png, .jpg or film for which none of --spp, --noise, --time, --denoise, "
+          "--sample-offset, --region, --light-reuse spatial and --debug-view is given, else none",
+          FRAGTRACE_MEMBER(sampling.quality), kQualityNames, kEnd),
       limit<double>("--time", "render for this many seconds, and place the samples where they help most",
                     FRAGTRACE_MEMBER(sampling.seconds), {0.01, 1e7}, kEnd),
       number<int>(

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -28,6 +29,8 @@ struct Block {
   int above = 0;  ///< pixels above the noise asked for
   int litAbove = 0;
   double error = 0.0;  ///< sum of the squared relative errors
+  double rays = 0.0;   ///< of a sample of each pixel
+  double worst = 0.0;  ///< largest relative error of those pixels that may not be above the noise asked for
 
   /// The samples after a round with enough time: twice as many, so that Sobol sequences stay whole, or as
   /// many as are left.
@@ -39,6 +42,19 @@ struct Block {
   bool tooNoisy() const {
     constexpr double kOver = 1.0 - kPartUnderGoal;
     return above > kOver * noisy || litAbove > kOver * lit;
+  }
+
+  /// The samples in each half that it will take, since errors fall with the root of the samples; at least
+  /// `from`.
+  int last(const AdaptiveGoal& goal, int from) const {
+    if (!tooNoisy()) return from;
+    const double ratio = worst / goal.noise;
+    const double needed = samples * ratio * ratio;
+    Block after = *this;
+    after.samples = from;
+    while (after.samples < needed && after.next(goal.mostSamples) > after.samples)
+      after.samples = after.next(goal.mostSamples);
+    return after.samples;
   }
 
   /// The amount by which one more sample lowers the picture's squared error; it falls with the square of the
@@ -60,21 +76,53 @@ struct Blocks {
 
 void weigh(Blocks& blocks, const FilmPixels& pixels, const std::vector<double>& errors, double noise) {
   for (Block& b : blocks.blocks) b = {b.samples, b.samples};
+  std::vector<std::vector<double>> noisy(blocks.blocks.size());
   for (int y = 0; y < blocks.picture.y; ++y) {
     for (int x = 0; x < blocks.picture.x; ++x) {
       const size_t i = size_t(y) * size_t(blocks.picture.x) + size_t(x);
       const double e = errors[i];
       Block& b = blocks.ofPixel(x, y);
       b.pixels += 1;
-      const bool noisy = canBeNoisy(pixels.pixels[i]);
-      const bool lit = noisy && pixels.pixels[i].luminance() != 0.0;
-      b.noisy += noisy;
+      b.rays += double(pixels.pixels[i].rays) / std::max(1.0, double(pixels.pixels[i].samples));
+      const bool canBe = canBeNoisy(pixels.pixels[i]);
+      const bool lit = canBe && pixels.pixels[i].luminance() != 0.0;
+      b.noisy += canBe;
+      if (canBe) noisy[size_t(&b - blocks.blocks.data())].push_back(e);
       b.lit += lit;
       b.above += e > noise;
       b.litAbove += lit && e > noise;
       b.error += e * e;
     }
   }
+  for (size_t i = 0; i < noisy.size(); ++i) {
+    if (noisy[i].empty()) continue;
+    const auto rank = std::min(size_t((1.0 - kPartUnderGoal) * double(noisy[i].size())), noisy[i].size() - 1);
+    const auto worst = noisy[i].begin() + std::ptrdiff_t(rank);
+    std::ranges::nth_element(noisy[i], worst, std::greater());
+    blocks.blocks[i].worst = *worst;
+  }
+}
+
+/// How far the picture is, in rays.
+struct Distance {
+  double drawn = 0.0;  ///< before this round
+  double round = 0.0;  ///< of this round
+  double after = 0.0;  ///< likely to be needed after it
+
+  double shareDone(double ofRound) const {
+    return (drawn + ofRound * round) / std::max(drawn + round + after, 1.0);
+  }
+};
+
+/// What is drawn until the blocks' targets, and is likely to be left then.
+Distance distanceOf(const Blocks& blocks, const AdaptiveGoal& goal) {
+  Distance d;
+  for (const Block& b : blocks.blocks) {
+    d.drawn += 2.0 * b.samples * b.rays;
+    d.round += 2.0 * (b.target - b.samples) * b.rays;
+    d.after += 2.0 * (b.last(goal, b.target) - b.target) * b.rays;
+  }
+  return d;
 }
 
 /// Sets the targets of the blocks that get more samples, anywhere if `blind`. Returns the number of samples
@@ -150,22 +198,31 @@ Block firstOf(const AdaptiveGoal& goal) {
 }
 
 /// Adds a round's samples to both halves; false if it was stopped. If time may end the first round, all
-/// pixels get a sample before any gets many.
+/// pixels get a sample before any gets many; else `look` sees the first few.
 bool drawRound(Renderer& renderer, AdaptiveRun& run, Blocks& blocks, std::span<const View> views,
-               bool isTimed, RenderTimes& times, const Renderer::Progress& progress) {
+               bool isTimed, RenderTimes& times, const Renderer::Progress& progress,
+               const std::function<void(int samples)>& look) {
+  constexpr int kFew = 8;
   const int first = blocks.blocks.front().target;
   const bool begins = run.state.rounds == 0;
   const std::vector<Work> work = begins ? std::vector<Work>() : workOf(blocks);
   std::vector<int> steps = {first};
   if (begins && isTimed) steps = {1, std::min(4, first), first};
+  if (begins && !isTimed && first > kFew) steps = {kFew, first};
   bool more = true;
   int from = 0;
   for (const int to : steps) {
+    const double before = begins ? double(from) / first : 0.0;
+    const double share = begins ? double(to - from) / first : 1.0;
     for (size_t half : {0, 1}) {
       if (!more || (begins && to <= from)) continue;
-      more = begins ? renderer.addSamples(run.films[half], views[half], from, to, times, progress)
-                    : renderer.addSamples(run.films[half], views[half], work, times, progress);
+      const auto ofRound = [&](double done) {
+        return progress(before + share * 0.5 * (double(half) + done));
+      };
+      more = begins ? renderer.addSamples(run.films[half], views[half], from, to, times, ofRound)
+                    : renderer.addSamples(run.films[half], views[half], work, times, ofRound);
     }
+    if (more && begins && !isTimed && to < first) look(to);
     from = std::max(from, to);
     if (!begins) break;
   }
@@ -216,10 +273,11 @@ AdaptivePicture renderAdaptively(Renderer& renderer, AdaptiveRun& run, const Vie
   const double before = run.state.seconds;
   const auto elapsed = [&] { return before + std::chrono::duration<double>(Clock::now() - start).count(); };
   AdaptivePicture picture;
-  double roundsDone = 0.0;
-  const auto goOn = [&](double) {
+  Distance distance{0.0, 1.0, 3.0};  // a guess, until samples are there
+  const auto goOn = [&](double ofRound) {
     run.state.seconds = elapsed();
     const double timeDone = goal.seconds > 0.0 ? elapsed() / goal.seconds : 0.0;
+    const double roundsDone = goal.noise > 0.0 ? distance.shareDone(ofRound) : 0.0;
     picture.stopped = !progress(std::clamp(std::max(roundsDone, timeDone), 0.0, 1.0));
     return !picture.stopped && timeDone < 1.0;
   };
@@ -234,9 +292,21 @@ AdaptivePicture renderAdaptively(Renderer& renderer, AdaptiveRun& run, const Vie
     loadState(blocks, run.state);
   }
 
+  const auto look = [&](int samples) {
+    const Halves halves{run.films[0].read(), run.films[1].read()};
+    const FilmPixels pixels = pooled(halves.a, halves.b);
+    Blocks few = blocks;
+    for (Block& b : few.blocks) b.samples = samples;
+    weigh(few, pixels, relativeErrors(pixels, varianceOfMean(halves)), goal.noise);
+    for (size_t i = 0; i < few.blocks.size(); ++i) few.blocks[i].target = blocks.blocks[i].target;
+    distance = distanceOf(few, goal);
+    distance.round += distance.drawn;
+    distance.drawn = 0.0;
+  };
+
   for (;;) {
     // Step: draw the round.
-    const bool more = drawRound(renderer, run, blocks, views, goal.seconds > 0.0, times, goOn);
+    const bool more = drawRound(renderer, run, blocks, views, goal.seconds > 0.0, times, goOn, look);
 
     // Step: find how far the picture is from the goal.
     const Halves halves{run.films[0].read(), run.films[1].read()};
@@ -248,8 +318,6 @@ AdaptivePicture renderAdaptively(Renderer& renderer, AdaptiveRun& run, const Vie
     weigh(blocks, picture.pixels, errors, goal.noise);
     judge(picture, goal.noise, errors);
     const bool blind = goal.seconds > 0.0 && std::ranges::all_of(errors, [](double e) { return e == 0.0; });
-    // Errors fall with the root of the samples.
-    roundsDone = goal.noise > 0.0 ? std::pow(goal.noise / std::max(picture.error, goal.noise), 2.0) : 0.0;
     if (!more) run.state.rounds -= 1;  // the next call continues here
     if (!more || (goal.noise > 0.0 && picture.share >= kPartUnderGoal && !(picture.black && blind)))
       return picture;
@@ -259,6 +327,7 @@ AdaptivePicture renderAdaptively(Renderer& renderer, AdaptiveRun& run, const Vie
     const double affordable = goal.seconds > 0.0 ? msLeft / std::max(renderer.msPerSample(), 1e-9)
                                                  : std::numeric_limits<double>::infinity();
     if (chooseTargets(blocks, goal, affordable, blind) <= 0.0) return picture;
+    distance = distanceOf(blocks, goal);
     run.state = stateOf(blocks, run.state);
     const std::vector<uint32_t> targets = targetsOf(blocks);
     run.films[0].setTargets(halves.a, targets);

@@ -132,7 +132,12 @@ inline constexpr int kMostCameraRays = 8;  ///< per sample
 inline constexpr int kUnlimitedBounces = std::numeric_limits<int>::max() - 1;
 
 /// The number and the length of paths.
+/// Goals of noise, with a filter, for those who do not count samples. None: the other options say it all.
+enum class Quality : uint8_t { None, Draft, Good, Best };
+inline constexpr std::array<std::string_view, 4> kQualityNames{"none", "draft", "good", "best"};
+
 struct SamplingOptions {
+  Quality quality = Quality::None;  ///< finishRender() sets noise, spp and the filter by it
   int spp = 64;
   int sampleOffset = 0;  ///< index of the first sample in the seed's sequence
   uint32_t seed = 0;

@@ -183,7 +183,11 @@ void sayHowItEnded(const RenderOptions& options, const Statistics& stats) {
   if (stats.adaptive && stats.adaptive->black) {
     say(options, "warning: the picture is black, so nothing is known of its noise");
   } else if (stats.complete && options.sampling.noise > 0.0 && stats.adaptive->share < 0.95) {
-    say(options, "warning: --spp or --time ended the render before the noise asked for");
+    const bool own = options.sampling.quality == Quality::None;
+    say(options, own ? "warning: --spp or --time ended the render before the noise asked for"
+                     : "some pixels are noisier than --quality " +
+                           std::string(kQualityNames[size_t(options.sampling.quality)]) + " asks for after " +
+                           countText(size_t(options.sampling.spp), "sample"));
   }
   if (const std::string why = whyUnconfined(); options.output.verbose && !why.empty())
     say(options, "the processes that decode files have all system calls: " + why);
