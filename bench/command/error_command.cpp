@@ -195,7 +195,7 @@ std::vector<ErrorSample> measureAdaptive(Contender& c, const View& view, const J
     RenderTimes times;
     const double part = options.sampling.noise > 0.0 ? 1.0 : std::exp2(-i);
     const AdaptiveGoal goal{options.sampling.noise * std::exp2(i), options.sampling.seconds * part,
-                            options.sampling.spp};
+                            options.sampling.spp, options.light.shadowCatcher};
     AdaptiveRun run(c.loaded.size);
     AdaptivePicture picture = renderAdaptively(*c.tracer.renderer, run, view, goal, times);
     const double pixels = double(c.loaded.size.x) * c.loaded.size.y;

@@ -249,11 +249,11 @@ void loadState(Blocks& blocks, const AdaptiveState& state) {
 }
 
 /// Says how far the picture's pixels are from the goal.
-void judge(AdaptivePicture& picture, double noise, const std::vector<double>& errors) {
-  const GoalDistance distance = distanceTo(noise, picture.pixels, errors);
+void judge(AdaptivePicture& picture, const AdaptiveGoal& goal, const std::vector<double>& errors) {
+  const GoalDistance distance = distanceTo(goal.noise, picture.pixels, errors, goal.catcher);
   // An error needs at least two samples in each half.
   const bool enough = totalsOf(picture.pixels).fewestSamples >= 4;
-  picture.share = enough && noise > 0.0 ? distance.share : 0.0;
+  picture.share = enough && goal.noise > 0.0 ? distance.share : 0.0;
   picture.error = enough ? distance.error : 1.0;
   picture.black =
       std::ranges::all_of(picture.pixels.pixels, [](const FilmPixel& p) { return p.luminance() == 0.0; });
@@ -316,7 +316,7 @@ AdaptivePicture renderAdaptively(Renderer& renderer, AdaptiveRun& run, const Vie
     run.state.rounds += 1;
     picture.rounds = run.state.rounds;
     weigh(blocks, picture.pixels, errors, goal.noise);
-    judge(picture, goal.noise, errors);
+    judge(picture, goal, errors);
     const bool blind = goal.seconds > 0.0 && std::ranges::all_of(errors, [](double e) { return e == 0.0; });
     if (!more) run.state.rounds -= 1;  // the next call continues here
     if (!more || (goal.noise > 0.0 && picture.share >= kPartUnderGoal && !(picture.black && blind)))

@@ -16,6 +16,7 @@ struct AdaptiveGoal {
                        ///< good as time allows
   double seconds = 0.0;  ///< limit of drawing; 0: none
   int mostSamples = 0;   ///< largest number in a pixel
+  bool catcher = false;  ///< as distanceTo() takes it
 };
 
 struct AdaptivePicture {

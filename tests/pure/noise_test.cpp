@@ -137,8 +137,8 @@ TEST(Noise, PixelsWhoseSamplesAllMissTheLightAreAsNoisyAsTheirNeighbours) {
   const std::vector<double> errors = relativeErrors(both, independentVariance(both));
   const double truth = 1.0 / std::sqrt(2 * kSamples * kChance);
   EXPECT_NEAR(quantileOf(errors, 0.5) / truth, 1.0, 0.3);
-  EXPECT_GT(distanceTo(0.5 * truth, both, errors).error, 0.7 * truth);
-  EXPECT_LT(distanceTo(0.5 * truth, both, errors).share, 0.1);
+  EXPECT_GT(distanceTo(0.5 * truth, both, errors, false).error, 0.7 * truth);
+  EXPECT_LT(distanceTo(0.5 * truth, both, errors, false).share, 0.1);
 }
 
 /// 9 of 6,144 pixels are lit and noisy; all others miss, or are black.
@@ -151,12 +151,34 @@ TEST(Noise, AGoalLooksAtTheFewPixelsThatAreLit) {
       return lit ? independentSamples(draw, 1.0, kSamples) : std::vector<double>(size_t(kSamples), 0.0);
     });
     for (FilmPixel& p : film.pixels) p.alpha = alpha * p.samples;
-    const GoalDistance distance = distanceTo(0.02, film, relativeErrors(film, independentVariance(film)));
+    const GoalDistance distance =
+        distanceTo(0.02, film, relativeErrors(film, independentVariance(film)), false);
     EXPECT_NEAR(distance.error, 1.0 / std::sqrt(double(kSamples)), 0.1) << alpha;
     EXPECT_LT(distance.share, 0.2) << alpha;
   }
   const FilmPixels missed = filmOf(kSize, [](int, int) { return std::vector<double>(4, 1.0); });
-  EXPECT_EQ(distanceTo(0.02, missed, relativeErrors(missed, independentVariance(missed))).share, 1.0);
+  EXPECT_EQ(distanceTo(0.02, missed, relativeErrors(missed, independentVariance(missed)), false).share, 1.0);
+}
+
+/// A hundred noisy pixels of a product stand on a plane of 6,000 quiet ones.
+TEST(Noise, AQuietPlaneHidesNoNoiseOfTheObjectOnACatcher) {
+  constexpr int kSamples = 32;
+  Draw draw(7);
+  const auto isObject = [](int x, int y) { return x >= 10 && x < 20 && y >= 10 && y < 20; };
+  FilmPixels film = filmOf(kSize, [&](int x, int y) {
+    std::vector<double> samples = independentSamples(draw, 1.0, kSamples);
+    for (double& sample : samples) sample = isObject(x, y) ? sample : 1.0 + 1e-3 * sample;
+    return samples;
+  });
+  for (int y = 0; y < kSize.y; ++y) {
+    for (int x = 0; x < kSize.x; ++x) {
+      FilmPixel& p = film.pixels[size_t(y) * size_t(kSize.x) + size_t(x)];
+      p.alpha = isObject(x, y) ? p.samples : 0.1 * p.samples;
+    }
+  }
+  const std::vector<double> errors = relativeErrors(film, independentVariance(film));
+  EXPECT_LT(distanceTo(0.02, film, errors, false).error, 0.02);
+  EXPECT_GT(distanceTo(0.02, film, errors, true).error, 0.1);
 }
 
 TEST(Noise, VarianceOfAConstantPictureIsNothing) {

@@ -171,12 +171,30 @@ TEST(OptionTable, TheViewersCommandSaysEachRowThatItIsToSay) {
 
 TEST(OptionTable, GoesRoundAsAWhole) {
   // Other rows exclude these.
-  const Words left{
-      "--camera",   "--camera-orbit",  "--camera-view-angle", "--frames",      "--hdri-file",
-      "--format",   "--resume",        "--checkpoint",        "--noise",       "--time",
-      "--caustics", "--camera-type",   "--shadow-catcher",    "--light-reuse", "--stage",
-      "--disable",  "--sample-offset", "--no-default-light",  "--tree-level",  "--background-blur",
-      "--studio",   "--sun-elevation", "--sun-azimuth"};
+  const Words left{"--camera",
+                   "--camera-orbit",
+                   "--camera-view-angle",
+                   "--frames",
+                   "--hdri-file",
+                   "--format",
+                   "--resume",
+                   "--checkpoint",
+                   "--noise",
+                   "--time",
+                   "--quality",
+                   "--caustics",
+                   "--camera-type",
+                   "--shadow-catcher",
+                   "--light-reuse",
+                   "--stage",
+                   "--disable",
+                   "--sample-offset",
+                   "--no-default-light",
+                   "--tree-level",
+                   "--background-blur",
+                   "--studio",
+                   "--sun-elevation",
+                   "--sun-azimuth"};
   Words words{"a.gltf"};
   for (const OptionRow& row : optionRows()) {
     if (isOption(row) && std::ranges::find(left, row.name) == left.end()) words.push_back(uses(row).back());

@@ -237,16 +237,21 @@ std::vector<double> relativeErrors(const FilmPixels& pooled, const std::vector<d
   return errors;
 }
 
-GoalDistance distanceTo(double goal, const FilmPixels& film, const std::vector<double>& errors) {
+GoalDistance distanceTo(double goal, const FilmPixels& film, const std::vector<double>& errors,
+                        bool catcher) {
   std::vector<double> noisy;
   std::vector<double> lit;
+  std::vector<double> filled;
+  std::vector<double> shadow;
   for (size_t i = 0; i < errors.size(); ++i) {
     if (!canBeNoisy(film.pixels[i])) continue;
     noisy.push_back(errors[i]);
     if (film.pixels[i].luminance() != 0.0) lit.push_back(errors[i]);
+    if (!catcher) continue;
+    (film.pixels[i].alpha >= film.pixels[i].samples ? filled : shadow).push_back(errors[i]);
   }
   GoalDistance distance;
-  for (const std::vector<double>* some : {&noisy, &lit}) {
+  for (const std::vector<double>* some : {&noisy, &lit, &filled, &shadow}) {
     if (some->empty()) continue;
     const auto under = std::ranges::count_if(*some, [&](double e) { return e <= goal; });
     distance.error = std::max(distance.error, quantileOf(*some, kPartUnderGoal));

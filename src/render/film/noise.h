@@ -42,12 +42,14 @@ std::vector<double> observedVariance(const FilmPixels& quarter, const FilmPixels
 std::vector<double> relativeErrors(const FilmPixels& pooled, const std::vector<double>& variance);
 
 /// The distance of a picture from a noise goal: of the pixels that can be noisy, or of those among them that
-/// light has reached, whichever is larger. Otherwise black pixels would hide the few that are lit.
+/// light has reached, whichever is larger. Otherwise black pixels would hide the few that are lit. With a
+/// shadow catcher, pixels that surfaces fill and the others, which show its shadow, count each alone, too:
+/// the plane is quiet and large.
 struct GoalDistance {
   double error = 0.0;  ///< 95 % of the pixels have no larger error; 0 without pixels
   double share = 1.0;  ///< share of the pixels at or below the goal
 };
-GoalDistance distanceTo(double goal, const FilmPixels& film, const std::vector<double>& errors);
+GoalDistance distanceTo(double goal, const FilmPixels& film, const std::vector<double>& errors, bool catcher);
 
 inline constexpr double kPartUnderGoal = 0.95;  ///< share of these pixels
 

@@ -176,9 +176,9 @@ Drawing drawAdaptively(const PartRun& part, glm::ivec2 size) {
                      placeOfPart(part.share));
   }
   const auto keep = [&] { part.keep({run.films[0].save(), run.films[1].save()}, {}, run.state); };
-  AdaptivePicture picture = renderAdaptively(*part.job.tracer.renderer, run, part.view,
-                                             {options.sampling.noise, seconds, options.sampling.spp},
-                                             part.stats.times, part.keeping(keep));
+  const AdaptiveGoal goal{options.sampling.noise, seconds, options.sampling.spp, options.light.shadowCatcher};
+  AdaptivePicture picture =
+      renderAdaptively(*part.job.tracer.renderer, run, part.view, goal, part.stats.times, part.keeping(keep));
   part.stats.complete = !picture.stopped;
   const AdaptiveStatistics own{options.sampling.noise, options.sampling.seconds, picture.error,
                                picture.share,          picture.rounds,           picture.known,

@@ -50,7 +50,8 @@ void ViewTracer::estimate(Side& side) {
   if (side.samples < kLeastForError || side.samples < kErrorStep * side.errorAt) return;
   const FilmPixels pixels = side.film->read();
   const std::vector<double> errors = relativeErrors(pixels, independentVariance(pixels));
-  side.error = distanceTo(side.options.sampling.noise, pixels, errors).error;
+  side.error =
+      distanceTo(side.options.sampling.noise, pixels, errors, side.options.light.shadowCatcher).error;
   side.errorAt = side.samples;
 }
 
