@@ -271,6 +271,11 @@ std::vector<OptionRow> inputRows() {
               "name or index of a node to hide, together with everything below it; can be given several "
               "times; `fragtrace info --nodes` lists the nodes",
               FRAGTRACE_MEMBER(selection.hiddenNodes), "/nodes/3", "NODE"),
+      listRow(
+          "--double-sided",
+          "name or index of a material whose back is drawn, and shines, as its front does, or 'all'; can be "
+          "given several times; for surfaces that face the wrong way",
+          FRAGTRACE_MEMBER(selection.doubleSided), "all", "MATERIAL"),
       setRow(),
       addLightRow(),
       upRow(),

@@ -29,6 +29,9 @@ std::optional<size_t> findPart(const std::string& wanted, const std::vector<std:
 /// Does the same, but throws UsageError, which begins with `option` and lists the names.
 size_t indexOfPart(const char* option, const std::string& wanted, const std::vector<std::string>& names);
 
+/// The word by which the user asks for all materials.
+inline constexpr const char* kAllMaterials = "all";
+
 /// The word by which the user asks for all animations at once.
 inline constexpr const char* kAllAnimations = "all";
 

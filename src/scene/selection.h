@@ -45,6 +45,8 @@ struct SceneSelection {
   std::string materialVariant{};          ///< empty: the materials that the file shows by default
   /// Nodes by name (all that have it), JSON pointer or index; they are not drawn, nor what is below them.
   std::vector<std::string> hiddenNodes{};
+  /// Materials by name (all that have it) or index, or kAllMaterials: their backs are drawn as their fronts.
+  std::vector<std::string> doubleSided{};
   std::vector<AddedLight> lights{};  ///< lamps that the user adds
   std::vector<SetNumber> set{};      ///< numbers that are set; the last one for a place counts
   glm::dvec3 up{0.0, 1.0, 0.0};      ///< turns the whole file, so that this direction, not 0, is +Y

@@ -192,6 +192,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
   // World space.
   const std::vector<PlacedNode> nodes = placeNodes(document, options.selection);
   addMaterials(document, nodes, scene);
+  makeDoubleSided(options.selection.doubleSided, scene);
   scene.nodes = namedNodes(document, nodes);
   if (options.progress) options.progress("building the meshes", 0.45);
   ShownMeshes shown = showMeshes(document, scene.materials, nodes);

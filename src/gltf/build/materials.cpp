@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/build/materials.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "gltf/build/material_part.h"
 #include "gltf/build/textures.h"
 #include "gltf/read/value.h"
+#include "scene/parts.h"
 
 namespace fragtrace {
 namespace {
@@ -123,6 +125,20 @@ std::vector<bool> drawnMaterials(const tinygltf::Model& model, const std::vector
 }
 
 }  // namespace
+
+void makeDoubleSided(const std::vector<std::string>& wanted, Scene& scene) {
+  std::vector<std::string> names;
+  for (const Material& m : scene.materials) names.push_back(m.name);
+  names.pop_back();  // that of the default one is ours
+  for (const std::string& word : wanted) {
+    const bool all = word == kAllMaterials && std::ranges::find(names, word) == names.end();
+    const size_t chosen = all ? 0 : indexOfPart("--double-sided", word, names);
+    for (Material& m : scene.materials) {
+      const bool isNamed = m.number == chosen + 1 || (m.name == word && !m.place.empty());
+      m.doubleSided = m.doubleSided || all || isNamed;
+    }
+  }
+}
 
 void addMaterials(Document& document, const std::vector<PlacedNode>& nodes, Scene& scene) {
   const std::vector<bool> drawn = drawnMaterials(document.model, nodes);

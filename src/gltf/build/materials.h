@@ -16,6 +16,10 @@ namespace fragtrace {
 /// drawn. Throws InputError.
 void addMaterials(Document& document, const std::vector<PlacedNode>& nodes, Scene& scene);
 
+/// Makes the materials of these names or indices double-sided, or all. Throws UsageError for one that is not
+/// in the file.
+void makeDoubleSided(const std::vector<std::string>& wanted, Scene& scene);
+
 /// The extension's object in a material, or null if the material does not have it.
 const tinygltf::Value* extensionOf(const tinygltf::Material& source, std::string_view name);
 
