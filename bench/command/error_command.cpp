@@ -109,7 +109,7 @@ struct Judge {
 
   ErrorSample judge(const Image& picture, double samples, double seconds) const {
     const Difference difference = compare(picture, reference);
-    const Image shown = toDisplay(picture, options.output.exposure, options.output.toneMap);
+    const Image shown = toDisplay(picture, options.output.exposure.value_or(0.0), options.output.toneMap);
     return {samples, seconds, difference.mse, difference.relmse, flipError(shown, display).mean};
   }
 };
@@ -338,7 +338,7 @@ ErrorReport measure(const ErrorOptions& options, const Context& context) {
   const Image reference = options.reference.empty()
                               ? makeReference(contenders.front(), referenceSamples, first.output.quiet)
                               : readGivenReference(options, size);
-  const Judge judge{reference, toDisplay(reference, first.output.exposure, first.output.toneMap), first};
+  const Judge judge{reference, toDisplay(reference, first.output.exposure.value_or(0.0), first.output.toneMap), first};
 
   // Step: repetitions outermost, so that a machine that slows down does so for all.
   ProgressBar bar("measuring", first.output.quiet);

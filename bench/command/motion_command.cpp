@@ -208,8 +208,8 @@ MotionError errorOf(const std::vector<KeptPicture>& kept, References& references
   for (const KeptPicture& picture : kept) {
     const std::optional<Image> reference = references.of(picture.options);
     if (!reference) return {};
-    const Image display = toDisplay(picture.image, output.exposure, output.toneMap);
-    const Image wanted = toDisplay(*reference, output.exposure, output.toneMap);
+    const Image display = toDisplay(picture.image, output.exposure.value_or(0.0), output.toneMap);
+    const Image wanted = toDisplay(*reference, output.exposure.value_or(0.0), output.toneMap);
     error.relmse += compare(enlarged(picture.image, size), *reference).relmse / double(kept.size());
     error.flip += flipError(references.shown(display), wanted).mean / double(kept.size());
     step();

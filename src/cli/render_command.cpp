@@ -17,6 +17,7 @@
 #include "options/command_text.h"
 #include "options/config_file.h"
 #include "options/parse_render.h"
+#include "session/file_light.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
 #include "session/picture/denoising.h"
@@ -44,6 +45,7 @@ int renderOne(const RenderOptions& asked) {
   if (options.output.file.extension() != ".pfm") startImageProcess();
   const RenderOptions drawn = withGuides(options);
   LoadedScene loaded = loadScene(drawn, stats, {}, FilmOf::Part);
+  options = exposed(options, loaded.light);
   if (options.output.verbose && loaded.overrides.fit) {
     RenderOptions placed = options;
     placed.camera.overrides = asPlaced(loaded.camera, loaded.framed);

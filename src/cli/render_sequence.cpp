@@ -14,6 +14,7 @@
 #include "cli/render_picture.h"
 #include "image/files/process.h"
 #include "options/command_text.h"
+#include "session/file_light.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
 #include "session/picture/denoising.h"
@@ -75,6 +76,7 @@ Statistics prepareFrame(SequenceRun& run, const SequenceFrame& frame, const Sequ
   if (run.tree) before.tree = &*run.tree;
   const Volume volume = run.loaded ? run.loaded->scene.volume : Volume();
   before.volume = &volume;
+  if (run.loaded) before.light = run.loaded->light;
   if (!turntable) before.document = &run.document;
   run.loaded.reset();
   run.loaded = loadScene(drawn, stats, {}, FilmOf::Part, before);
@@ -97,15 +99,15 @@ Statistics prepareFrame(SequenceRun& run, const SequenceFrame& frame, const Sequ
 }
 
 Outcome drawFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOptions& sequence) {
-  const RenderOptions& options = frame.options;
-  checkOutputs(outputsOf(options), inputsOf(options));
-  nlohmann::ordered_json context = eventContext(options);
+  checkOutputs(outputsOf(frame.options), inputsOf(frame.options));
+  nlohmann::ordered_json context = eventContext(frame.options);
   context.update({{"frame", frame.number},
                   {"first_frame", rangeOf(sequence).first},
                   {"last_frame", rangeOf(sequence).last}});
   setReportContext(context);
   Statistics stats = prepareFrame(run, frame, sequence);
   LoadedScene& loaded = *run.loaded;
+  const RenderOptions options = exposed(frame.options, loaded.light);
   const Camera camera = loaded.camera;
   if (sequence.turntable > 0) {
     const glm::dvec3 focalPoint = turningPoint(camera, loaded.overrides, loaded.framed);

@@ -134,6 +134,13 @@ std::vector<OptionRow> lightRows() {
              "is the environment of --studio",
              FRAGTRACE_MEMBER(light.defaultLight), kDefaultLightNames, kScene),
       noDefaultLightRow(),
+      choice(
+          "--lamp-units",
+          "how the file's point, spot and directional lights are read: {}; photometric takes their numbers "
+          "as "
+          "glTF defines them, radiometric divides them by 683, by which exporters such as Blender's multiply "
+          "watts; auto decides by what the first view shows",
+          FRAGTRACE_MEMBER(light.lampUnits), kLampUnitsNames, kScene),
   };
 }
 

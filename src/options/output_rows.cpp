@@ -214,8 +214,11 @@ std::vector<OptionRow> outputRows() {  // NOLINT(readability-function-size): a t
           "--tree-level",
           "draw the boxes of this level of the bounding-volume hierarchy over a .png or .jpg; 0 is the root",
           FRAGTRACE_MEMBER(output.treeLevel), {0, int(kMaxBvhDepth)}, kDisplay),
-      number<double>("--exposure", "exposure in stops (EV), for .png and .jpg",
-                     FRAGTRACE_MEMBER(output.exposure), {-100.0, 100.0}, kDisplay),
+      limit<double>(
+          "--exposure",
+          "exposure in stops (EV), for .png and .jpg; by default 0, unless the scene's own light is more "
+          "than 16 times too bright or 64 times too dark for middle grey",
+          FRAGTRACE_MEMBER(output.exposure), {-100.0, 100.0}, kDisplay),
       choice("--tone-map", "tone curve of .png and .jpg", FRAGTRACE_MEMBER(output.toneMap), toneMapNames(),
              kDisplay),
       word("--stats",

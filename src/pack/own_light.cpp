@@ -2,57 +2,59 @@
 #include "pack/own_light.h"
 
 #include <algorithm>
-#include <glm/gtc/constants.hpp>
-
-#include "base/vectors.h"
-#include "pack/pack_lights.h"
-#include "pack/pack_textures.h"
-#include "shader/variant.h"
+#include <cmath>
+#include <glm/gtx/component_wise.hpp>
 
 namespace fragtrace {
 
 namespace {
 
-constexpr double kDimRadiance = 0.01;
+/// The share of what is seen from which on emission leaves it dark.
+constexpr double kMostlyDark = 0.5;
 
-/// Areas of emissive surfaces by material, m^2 of local space.
-std::vector<double> emissiveAreas(const Scene& scene) {
-  std::vector<double> areas(scene.materials.size(), 0.0);
-  for (const Triangle& t : scene.triangles) {
-    if (scene.materials[t.material].emissive()) areas[t.material] += areaOf(cornersOf<glm::dvec3>(scene, t));
-  }
-  for (const Sphere& s : scene.spheres) {
-    if (scene.materials[s.material].emissive())
-      areas[s.material] += 4.0 * glm::pi<double>() * double(s.radius) * double(s.radius);
-  }
-  return areas;
+bool shines(const Light& light) { return glm::compMax(light.intensity) > 0.0f; }
+
+/// Returns true if lamps are read as radiometric: as written, what they light is far too bright, and less so
+/// divided.
+bool areRadiometric(const SeenLight& seen, LampUnits units) {
+  if (units != LampUnits::Auto) return units == LampUnits::Radiometric;
+  const double asWritten = seen.meanOfLampLit(1.0) / kMiddleGrey;
+  const double divided = seen.meanOfLampLit(1.0 / kLumensPerWatt) / kMiddleGrey;
+  return asWritten > kTooBright && divided > 0.0 && std::abs(std::log(divided)) < std::log(asWritten);
 }
 
 }  // namespace
 
-bool shinesByTexturesAlone(const Scene& scene) {
-  const auto shinesEvenly = [&scene](const auto& primitive) {
-    const Material& m = scene.materials[primitive.material];
-    return m.emissive() && !m.emissiveTexture.present();
-  };
-  return hasOwnLight(scene) && scene.lights.empty() && std::ranges::none_of(scene.triangles, shinesEvenly) &&
-         std::ranges::none_of(scene.spheres, shinesEvenly);
+bool mayShine(const Scene& scene) {
+  const auto emits = [&](const auto& primitive) { return scene.materials[primitive.material].emissive(); };
+  return std::ranges::any_of(scene.lights, shines) || std::ranges::any_of(scene.triangles, emits) ||
+         std::ranges::any_of(scene.spheres, emits);
 }
 
-OwnLight ownLight(const Scene& scene) {
-  if (!hasOwnLight(scene)) return OwnLight::None;
-  if (!shinesByTexturesAlone(scene)) return OwnLight::Enough;
-  const std::vector<double> areas = emissiveAreas(scene);
-  constexpr int kSide = 64;  // pixels: enough for a mean, and little memory
-  TexturePacker textures(scene, kSide);
-  const double enough = kDimRadiance * scene.bounds.area() / (scene.space.unit * scene.space.unit);
-  double light = 0.0;
-  for (size_t i = 0; i < areas.size(); ++i) {
-    if (areas[i] == 0.0) continue;
-    light += areas[i] * luminance(glm::dvec3(textures.meanRadiance(scene.materials[i])));
-    if (light >= enough) return OwnLight::Enough;
+FileLight decideLight(const SeenScene& first, const Camera& camera, double aspectRatio, LampUnits units) {
+  FileLight light;
+  if (!mayShine(first.scene)) {
+    light.own = OwnLight::None;
+    return light;
   }
-  return OwnLight::Dim;
+  light.byLamps = std::ranges::any_of(first.scene.lights, shines);
+  SeenScene seen = first;
+  seen.readsTextures = !light.byLamps;
+  const SeenLight estimate = seenLight(seen, camera, aspectRatio);
+  if (light.byLamps && areRadiometric(estimate, units)) light.lampScale = 1.0 / kLumensPerWatt;
+  light.asWritten = estimate.meanOfLampLit(1.0);
+  light.mean = estimate.meanLuminance(light.lampScale);
+  const double asShown = light.byLamps ? std::exp2(exposureFor(light.mean)) : 1.0;
+  light.dark = estimate.darkShare(light.lampScale, kMiddleGrey * kTooDark / asShown);
+  light.smoothMetal = estimate.smoothMetal;
+  if (!light.byLamps && light.dark > kMostlyDark) light.own = OwnLight::Dim;
+  return light;
+}
+
+double exposureFor(double mean) {
+  const double ratio = mean / kMiddleGrey;
+  if (!(ratio > 0.0) || (ratio <= kTooBright && ratio >= kTooDark)) return 0.0;
+  return std::round(-10.0 * std::log2(ratio)) / 10.0;
 }
 
 }  // namespace fragtrace

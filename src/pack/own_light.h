@@ -1,25 +1,41 @@
 // SPDX-License-Identifier: MIT
-// Decides if a scene lights itself.
+// Decides how a file's own light is taken: whether it lights what is seen, and the units of its lamps.
 #pragma once
 
 #include <cstdint>
 
+#include "pack/seen_light.h"
 #include "scene/scene.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
 
 enum class OwnLight : uint8_t {
   None,    ///< neither punctual lights nor emission
-  Dim,     ///< emissive textures alone, which leave all that they do not cover nearly black
-  Enough,  ///< lights, emission without a texture, or textures that shine
+  Dim,     ///< emission that leaves most of what the first view shows dark
+  Enough,  ///< punctual lights, emission that lights what is seen, or nothing is seen to judge by
 };
 
-/// Returns true if emissive textures are the only light that the scene has.
-bool shinesByTexturesAlone(const Scene& scene);
+/// What is decided about a file's light, once, by its first view in the pose in which it stands: later
+/// cameras, times, hidden nodes and numbers that are set do not change it.
+struct FileLight {
+  OwnLight own = OwnLight::Enough;
+  bool byLamps = false;    ///< there are punctual lights
+  double lampScale = 1.0;  ///< 1 / kLumensPerWatt where its lamps are read as radiometric
+  double asWritten = 0.0;  ///< mean luminance of what its lamps light, with these as written
+  double mean = 0.0;       ///< mean luminance of all that is seen, with lampScale; 0: none is known
+  double dark = 0.0;  ///< the share of what is seen that is as good as black, with the exposure of `mean`
+  double smoothMetal = 0.0;  ///< the share that is smooth metal
+};
 
-/// Emissive textures are dim when their light, spread over the box around the scene, is less than a radiance
-/// of 0.01. They are decoded to find that out if nothing else shines. Throws InputError for a picture that
-/// cannot be decoded.
-OwnLight ownLight(const Scene& scene);
+/// Returns true if the scene has a light or a surface that emits, however little: only then there is
+/// something to decide. A lamp of intensity 0 is none.
+bool mayShine(const Scene& scene);
+
+/// Decides by the first view. Emissive textures count where no lamps do.
+FileLight decideLight(const SeenScene& first, const Camera& camera, double aspectRatio, LampUnits units);
+
+/// The exposure that brings such a mean to middle grey, to a tenth of a stop; 0: it is near enough.
+double exposureFor(double mean);
 
 }  // namespace fragtrace

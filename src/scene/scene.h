@@ -273,7 +273,7 @@ struct Sphere {
 
 enum class LightType : uint8_t { Point, Spot, Directional };
 
-/// A punctual light; intensity is taken as radiometric (nothing is divided by 683).
+/// A punctual light; intensity is taken as radiometric, after Scene::lampScale.
 struct Light {
   LightType type = LightType::Point;
   glm::vec3 intensity{1.0f};  ///< irradiance on a facing surface 1 away in local space; directional: anywhere
@@ -300,9 +300,9 @@ struct LightSource {
 inline constexpr float kBrightest = 1e20f;
 
 /// Light::intensity of such a light.
-inline glm::vec3 intensityOf(const LightSource& source, const LocalSpace& space) {
+inline glm::vec3 intensityOf(const LightSource& source, const LocalSpace& space, double lampScale = 1.0) {
   const double scale = source.type == LightType::Directional ? 1.0 : 1.0 / (space.unit * space.unit);
-  return glm::vec3(source.color * source.intensity * scale);
+  return glm::vec3(source.color * (source.intensity * lampScale) * scale);
 }
 
 /// The two kinds that glTF has, then an equirectangular panorama and an equidistant fisheye.
@@ -408,6 +408,7 @@ struct Scene {
   std::vector<EncodedImage> images;
   std::vector<Light> lights;
   std::vector<LightSource> lightSources;  ///< all of the file
+  double lampScale = 1.0;                 ///< by which the file's intensities are multiplied (--lamp-units)
   std::vector<Camera> cameras;            ///< cameras in the order in which nodes are visited; world space
   std::vector<PrimitiveOrigin> origins;
   std::vector<SceneNode> nodes;          ///< a parent stands before its children

@@ -71,11 +71,6 @@ LinearImage readMap(const RenderOptions& options) {
   return image;
 }
 
-OwnLight lightOf(const RenderOptions& options, const Scene& scene) {
-  const bool isAsked = !hasMap(options) && options.light.defaultLight != DefaultLight::None;
-  return isAsked ? ownLight(scene) : OwnLight::Enough;
-}
-
 Environment makeEnvironment(const RenderOptions& options, std::future<LinearImage>& map, OwnLight light,
                             std::vector<std::string>& warnings) {
   Environment environment;

@@ -27,7 +27,4 @@ std::string whyDark(const SkyOptions& sky);
 /// The sky of the options. Says that it is dark, and adds a warning to `warnings` at night.
 Environment skyOf(const RenderOptions& options, std::vector<std::string>& warnings);
 
-/// Tells if the scene has a light of its own that the options let count.
-OwnLight lightOf(const RenderOptions& options, const Scene& scene);
-
 }  // namespace fragtrace

@@ -10,6 +10,7 @@
 #include "scene/parts.h"
 #include "session/caught_light.h"
 #include "session/environment.h"
+#include "session/file_light.h"
 #include "session/say.h"
 #include "session/setup.h"
 
@@ -66,13 +67,15 @@ RenderOptions placedForAllPoses(RenderOptions options, std::shared_ptr<KeptDocum
   const CameraOverrides overrides = settledOverrides(asked, first);
   const bool shadow = fitsShadow(options, overrides);
   Environment environment;
+  FileLight light;
   if (shadow) {
     std::vector<std::string> repeated;
     const SaidHere silence(repeated);  // the first picture's messages say it
     std::future<LinearImage> map;
     if (!options.light.hdriFile.empty())
       map = std::async(std::launch::deferred, [&] { return readMap(options); });
-    environment = makeEnvironment(options, map, lightOf(options, first), repeated);
+    light = fileLightOf(posed, first, nullptr, &kept);
+    environment = makeEnvironment(options, map, countedLight(options, light), repeated);
   }
   Filled filled;
   double lowest = std::numeric_limits<double>::infinity();
@@ -82,6 +85,7 @@ RenderOptions placedForAllPoses(RenderOptions options, std::shared_ptr<KeptDocum
     Scene scene = loadGltf(posed.scene, gltfOptionsOf(posed), &kept);
     placeVolume(scene, options, &volume);
     volume = scene.volume;
+    setLampScale(scene, light.lampScale);
     if (scene.bounds.empty()) continue;
     if (!overrides.fit) {
       filled.bounds.include(scene.bounds);

@@ -20,7 +20,6 @@
 #include "options/option_row.h"
 #include "options/vain_options.h"
 #include "pack/literals.h"
-#include "pack/own_light.h"
 #include "pack/pack_textures.h"
 #include "pack/pack_tree.h"
 #include "scene/camera.h"
@@ -29,6 +28,7 @@
 #include "scene/strokes.h"
 #include "session/caught_light.h"
 #include "session/environment.h"
+#include "session/file_light.h"
 #include "session/outputs.h"
 #include "session/picture_memory.h"
 #include "session/shutter.h"
@@ -161,7 +161,7 @@ GltfOptions gltfOptionsOf(const RenderOptions& options) {
 namespace {
 
 /// Warns of lights of the scene that a shadow catcher cannot show.
-void checkCatcher(const RenderOptions& options, OwnLight light, Scene& scene) {
+void checkCatcher(const RenderOptions& options, const FileLight& light, Scene& scene) {
   constexpr size_t kMostLights = 1000;  // each of them is asked at every point
   if (!options.light.shadowCatcher) return;
   if (!has(options.stages, Stage::Gi)) {
@@ -171,7 +171,7 @@ void checkCatcher(const RenderOptions& options, OwnLight light, Scene& scene) {
   if (scene.lights.size() > kMostLights)
     throw UsageError("--shadow-catcher: the scene has " + std::to_string(scene.lights.size()) +
                      " lights, at most " + std::to_string(kMostLights) + " can be caught");
-  if (light == OwnLight::Dim) return;  // such a light counts as none
+  if (countedLight(options, light) == OwnLight::Dim) return;  // such a light counts as none
   const auto emits = [&](const auto& primitive) { return scene.materials[primitive.material].emissive(); };
   if (std::ranges::any_of(scene.triangles, emits) || std::ranges::any_of(scene.spheres, emits))
     scene.warnings.push_back(options.scene.string() +
@@ -215,24 +215,14 @@ void checkMapOptions(const RenderOptions& options, OwnLight light, Scene& scene)
   check("--hdri-intensity", map || byDefault);
 }
 
-void sayDefaultLight(const RenderOptions& options, OwnLight light, Statistics& stats) {
-  stats.defaultLightReason = light == OwnLight::None
-                                 ? "no light in the scene"
-                                 : "the scene's emissive textures are too dim to light it";
-  const bool studio = options.light.defaultLight == DefaultLight::Studio;
-  say(options,
-      stats.defaultLightReason +
-          (studio ? ": the built-in studio lights it (--default-light)"
-                  : ": a white environment that the camera does not see lights it (--default-light)"));
-}
-
-/// Says what lights the scene, where that is worth a word.
-void sayLight(const RenderOptions& options, OwnLight light, const Scene& scene, Statistics& stats) {
-  stats.defaultLight = light != OwnLight::Enough;
-  if (stats.defaultLight)
-    sayDefaultLight(options, light, stats);
-  else if (!hasMap(options) && shinesByTexturesAlone(scene))
-    say(options, "emissive textures are the scene's only light (--studio adds one)");
+/// Says what lights the scene, and notes it.
+void addLight(const RenderOptions& options, const LoadedScene& loaded, Statistics& stats) {
+  sayLight(options, loaded.light);
+  stats.defaultLightReason = defaultLightReason(options, loaded.light);
+  stats.defaultLight = !stats.defaultLightReason.empty();
+  if (!loaded.scene.lights.empty())
+    stats.lampUnits = loaded.light.lampScale == 1.0 ? "photometric" : "radiometric";
+  stats.exposure = exposed(options, loaded.light).output.exposure;
 }
 
 /// Says the warnings of the scene, with those about options in vain, and of a node far off, if the scene is
@@ -361,19 +351,28 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   loaded.scene = readScene(options, progress, before, stats);
   const Scene& scene = loaded.scene;
   checkOutputs(outputsOf(options), inputsOf(scene));
-  const OwnLight light = lightOf(options, scene);
-  loaded.dimLamps = light == OwnLight::Dim;
   std::vector<std::string> ofEnvironment;  // warnings, which are printed at once
+  const auto settleLight = [&](const Bvh* tree) {
+    PhaseTimer timer("light");
+    loaded.light = before.light ? *before.light : fileLightOf(options, scene, tree, before.document);
+    setLampScale(loaded.scene, loaded.light.lampScale);
+    stats.phases.push_back(timer.end());
+  };
   const auto settleEnvironment = [&] {
     PhaseTimer timer("sky");
-    loaded.environment = before.environment ? std::move(*before.environment)
-                                            : makeEnvironment(options, map, light, ofEnvironment);
+    loaded.environment =
+        before.environment
+            ? std::move(*before.environment)
+            : makeEnvironment(options, map, countedLight(options, loaded.light), ofEnvironment);
     if (!options.light.sky.on) return;
     stats.phases.push_back(timer.end());
     stats.sun = sunOf(options.light.sky);
   };
-  // The tree is built while the map is decoded, unless the camera depends on the map.
+  // The tree is built while the map is decoded, unless the camera depends on the map. It serves the decision
+  // about the light, too, where it holds the file's surfaces alone.
   const bool early = fitsShadow(options, settledOverrides(options.camera.overrides, scene));
+  const bool apart = early || !scene.strokes.empty() || shutterSeconds(options) > 0.0;
+  if (apart) settleLight(nullptr);
   if (early) settleEnvironment();
   aim(loaded, options, film);
   if (loaded.strays > 0)
@@ -381,10 +380,8 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
         "the default view leaves out " + countText(loaded.strays, "point") +
         " of the scene, far away from all others; --fit moves the camera until all are in the picture");
   addStrokes(loaded.scene, loaded.camera, loaded.size, options.camera.lineWidth);
-  checkCatcher(options, light, loaded.scene);
   checkCatcherPlace(options, loaded.scene);
   checkFogDepth(options, loaded.scene);
-  checkMapOptions(options, light, loaded.scene);
   stats.scene = describe(scene);
   if (opens) {
     step("reading the motion", 0.4);
@@ -392,11 +389,14 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
     openShutter(loaded, options, *before.document, stats);
     stats.phases.push_back(timer.end());
   }
-  sayWarnings(options, loaded.overrides.fit && loaded.strays == 0, loaded.scene);
   stats.loadMs = watch.lap();
   step("building the tree", 0.5);
   loaded.bvh = refitOrBuild(scene.motion.segments > 0 ? nullptr : before.tree, scene, options, stats);
   stats.bvhBuildMs = watch.lap();
+  if (!apart) settleLight(&loaded.bvh);
+  checkCatcher(options, loaded.light, loaded.scene);
+  checkMapOptions(options, countedLight(options, loaded.light), loaded.scene);
+  sayWarnings(options, loaded.overrides.fit, loaded.scene);
   step("reading the environment", 0.9);
   if (!early) settleEnvironment();
   std::ranges::move(ofEnvironment, std::back_inserter(loaded.scene.warnings));
@@ -406,7 +406,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   stats.size = loaded.region.size;
   stats.region = options.camera.region;
   stats.loadMs += watch.lap();
-  sayLight(options, light, scene, stats);
+  addLight(options, loaded, stats);
   return loaded;
 }
 

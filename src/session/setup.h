@@ -7,6 +7,7 @@
 
 #include "bvh/refit.h"
 #include "gltf/gltf.h"
+#include "pack/own_light.h"
 #include "render/renderer.h"
 #include "scene/motion/camera_motion.h"
 #include "scene/scene.h"
@@ -26,10 +27,10 @@ struct LoadedScene {
   BoundsDouble framed;  ///< box of what the camera frames, world space: all of the scene, or a part
   /// The camera's motion while the shutter is open; empty: it stands still.
   std::vector<CameraSegment> motion{};
-  glm::ivec2 size{0};     ///< size of the picture
-  Region region;          ///< part of the picture that is drawn
-  size_t strays = 0;      ///< points that the default view leaves out
-  bool dimLamps = false;  ///< the scene has lamps, but they are too dim to light it
+  glm::ivec2 size{0};  ///< size of the picture
+  Region region;       ///< part of the picture that is drawn
+  size_t strays = 0;   ///< points that the default view leaves out
+  FileLight light{};   ///< what is decided about the file's own light
   Bvh bvh;
   View view;
   DecodeProgress decoding{};  ///< told when the textures are, which is later
@@ -49,6 +50,7 @@ struct SceneBefore {
   const RefittableTree* tree = nullptr;
   const Volume* volume = nullptr;
   std::shared_ptr<KeptDocument>* document = nullptr;  ///< passed to loadGltf()
+  std::optional<FileLight> light{};                   ///< what was decided when the file was opened
 };
 
 /// Loads scene and environment, chooses camera and size, builds the tree; fills in the statistics of that.

@@ -160,6 +160,8 @@ std::string statisticsText(const Statistics& s) {
     json["gpu_bytes_per_triangle"] = double(s.geometryBytes) / double(s.scene.triangles);
   json["default_light"] = s.defaultLight;
   if (s.defaultLight) json["default_light_reason"] = s.defaultLightReason;
+  if (!s.lampUnits.empty()) json["lamp_units"] = s.lampUnits;
+  json["exposure"] = s.exposure.value_or(0.0);
   json["variant"] = s.variant;
   json["quick_compilation"] = s.quickCompilation;
   json["schedule"] = s.scheduleReason.empty() ? "wavefront" : "megakernel";

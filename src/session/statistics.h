@@ -68,6 +68,8 @@ struct Statistics {
   size_t geometryBytes = 0;  ///< bytes among these for tree, leaves, records and vertex attributes
   bool defaultLight = false;
   std::string defaultLightReason;
+  std::string lampUnits;           ///< as --lamp-units names them; empty: there is no lamp
+  std::optional<double> exposure;  ///< stops; none: 0
   MotionStatistics motion;
   std::optional<SunPlace> sun;  ///< place of a sky's sun
   double clampIndirect = 0.0;   ///< 0: not clamped

@@ -12,6 +12,7 @@
 #include "pack/literals.h"
 #include "pack/pack_textures.h"
 #include "scene/light_spread.h"
+#include "session/file_light.h"
 #include "session/outputs.h"
 #include "session/say.h"
 #include "shader/variant.h"
@@ -99,8 +100,8 @@ void describeLightSelection(const ShaderVariant& variant, const LoadedScene& loa
 
 /// Returns true if light paths, which could begin at dim lamps alone, would bring nothing that is seen.
 bool haveNothingToBring(const RenderOptions& options, const TraitSet& present, const LoadedScene& loaded) {
-  return options.light.caustics == Caustics::Auto && has(present, Trait::Caustics) && loaded.dimLamps &&
-         !samplesSun(present);
+  return options.light.caustics == Caustics::Auto && has(present, Trait::Caustics) &&
+         countedLight(options, loaded.light) == OwnLight::Dim && !samplesSun(present);
 }
 
 /// Why light paths are traced for the picture, or are not.

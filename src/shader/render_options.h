@@ -68,6 +68,10 @@ inline constexpr std::array<std::string_view, 3> kCausticsNames{"auto", "on", "o
 /// built-in environment (scene/studio.h), or nothing.
 enum class DefaultLight : uint8_t { White, Studio, None };
 inline constexpr std::array<std::string_view, 3> kDefaultLightNames{"white", "studio", "none"};
+/// The units in which the file gives its lamps: as glTF has them; lumens that were watts, 683 times too many;
+/// or whichever of these lights what is seen (pack/own_light.h).
+enum class LampUnits : uint8_t { Auto, Photometric, Radiometric };
+inline constexpr std::array<std::string_view, 3> kLampUnitsNames{"auto", "photometric", "radiometric"};
 /// The filter that removes noise from a finished picture (render/denoise.h, image/denoise/oidn.h). Auto: Open
 /// Image Denoise where it is installed, else the variance filter.
 enum class Denoise : uint8_t { None, Variance, Oidn, Auto };
@@ -175,6 +179,7 @@ struct LightOptions {
   std::optional<glm::vec3> backgroundColor;  ///< none: the environment map, black without one
   bool background = true;
   DefaultLight defaultLight = DefaultLight::Studio;
+  LampUnits lampUnits = LampUnits::Auto;
   SkyOptions sky;
   bool studio = false;                  ///< the built-in environment (scene/studio.h)
   bool shadowCatcher = false;           ///< a plane that shows nothing but shadows
@@ -209,7 +214,7 @@ struct OutputOptions {
   std::vector<std::string> lightGroups;  ///< names of the lights that have a layer each
   SequenceOptions sequence;
   double checkpointSeconds = 0.0;  ///< between two checkpoints; 0: none is written
-  double exposure = 0.0;           ///< stops
+  std::optional<double> exposure;  ///< stops; none: 0, unless the scene's light is far too bright or too dark
   ToneMap toneMap = ToneMap::Neutral;
   Encoding encoding;
   std::optional<int> treeLevel;  ///< its boxes are drawn over the picture

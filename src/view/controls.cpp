@@ -198,8 +198,9 @@ bool changePicture(ViewState& state, const Control& control, const Movement& m) 
       return true;
     case Action::Exposure:
       for (RenderOptions& side : state.sides)
-        side.output.exposure = std::clamp(side.output.exposure + kExposureStep * control.argument,
-                                          -kMostExposure, kMostExposure);
+        side.output.exposure =
+            std::clamp(side.output.exposure.value_or(0.0) + kExposureStep * control.argument, -kMostExposure,
+                       kMostExposure);
       return true;
     case Action::RotateEnvironment:
       for (RenderOptions& side : state.sides) {

@@ -15,6 +15,7 @@
 
 #include "bvh/tree_boxes.h"
 #include "image/image.h"
+#include "pack/own_light.h"
 #include "scene/describe.h"
 #include "shader/render_options.h"
 #include "shader/traits.h"
@@ -105,6 +106,8 @@ struct ViewedScene {
   TraitSet present;
   SceneDescription description;
   bool defaultLight = false;                        ///< the scene has no light of its own
+  FileLight light{};                                ///< what is decided about that light
+  std::optional<double> exposure{};                 ///< stops that it asks for
   Surroundings surroundings = Surroundings::None;   ///< the light beside the scene's own
   bool refersToFiles = false;                       ///< its file can only be written into its own folder
   std::vector<std::filesystem::path> environments;  ///< files near it that may

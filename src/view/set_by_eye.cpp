@@ -67,17 +67,12 @@ void setNumber(ViewState& state, SetNumber number, const SetNumber& inFile) {
   state.scene->options.selection = state.sides[0].selection;
 }
 
-bool keepsEnvironment(const RenderOptions& shown, const SceneSelection& wanted, Surroundings kind) {
-  if (kind == Surroundings::DefaultLight) return false;  // no option would light a scene of its own light so
-  if (hasMap(shown) || setsEmission(wanted.set)) return true;
-  return kind == Surroundings::Map && shown.selection.hiddenNodes == wanted.hiddenNodes &&
-         !setsEmission(shown.selection.set);
-}
-
 void nameLight(RenderOptions& options, const ViewedScene& scene) {
-  if (hasMap(options) || !setsEmission(options.selection.set)) return;
-  if (scene.surroundings == Surroundings::Map) options.light.studio = true;
-  if (scene.surroundings == Surroundings::None) options.light.defaultLight = DefaultLight::None;
+  if (scene.light.lampScale != 1.0) options.light.lampUnits = LampUnits::Radiometric;
+  if (hasMap(options)) return;
+  const bool shines = scene.light.own == OwnLight::Dim || setsEmission(options.selection.set);
+  if (shines && scene.surroundings == Surroundings::Map) options.light.studio = true;
+  if (shines && scene.surroundings == Surroundings::None) options.light.defaultLight = DefaultLight::None;
 }
 
 Material shownMaterial(const ViewState& state, size_t index) {

@@ -19,13 +19,8 @@ void setNumberIn(std::vector<SetNumber>& set, SetNumber number, const SetNumber&
 /// end what was set there.
 void setNumber(ViewState& state, SetNumber number, const SetNumber& inFile);
 
-/// Returns true if the scene of these options keeps what lights it beside its own light, when it is posed as
-/// the selection says. The default light depends on the nodes that are shown, but not on emission that the
-/// user sets: it would end in the middle of a drag.
-bool keepsEnvironment(const RenderOptions& shown, const SceneSelection& wanted, Surroundings kind);
-
-/// Names the light of the scene that is shown, where emission that is set could have `render` choose another
-/// one by default.
+/// Names the light of the scene that is shown, and the units of its lamps, where the program decided them or
+/// emission that is set could do so in the file that is saved.
 void nameLight(RenderOptions& options, const ViewedScene& scene);
 
 /// A material's values, a line each: those that the user sees first, and of the others those that are not the

@@ -63,13 +63,18 @@ void takeScene(RenderOptions& side, const RenderOptions& from) {
   side.light.sky.on = from.light.sky.on;
   side.light.backgroundBlur = from.light.backgroundBlur;
   side.light.defaultLight = from.light.defaultLight;
+  side.light.lampUnits = from.light.lampUnits;
 }
 
 void showScene(ViewState& state, ViewedScene scene) {
   const bool another = !state.scene || state.scene->options.scene != scene.options.scene;
   if (another) state.playback.playing = false;
+  std::optional<double> asked;
+  if (state.scene) asked = state.scene->exposure;
   state.scene = std::move(scene);
   for (RenderOptions& side : state.sides) {
+    // An exposure that the user has set stays.
+    if (side.output.exposure == asked) side.output.exposure = state.scene->exposure;
     if (!side.scene.empty() || &side == &state.sides[0]) takeScene(side, state.scene->options);
   }
   if (another) resetCamera(state);
@@ -132,7 +137,8 @@ bool sameScene(const RenderOptions& a, const RenderOptions& b) {
   return a.scene == b.scene && a.selection == b.selection && a.light.hdriFile == b.light.hdriFile &&
          a.light.studio == b.light.studio && a.light.sky.on == b.light.sky.on &&
          a.light.backgroundBlur == b.light.backgroundBlur && a.light.defaultLight == b.light.defaultLight &&
-         a.device.instancing == b.device.instancing && a.limits == b.limits;
+         a.light.lampUnits == b.light.lampUnits && a.device.instancing == b.device.instancing &&
+         a.limits == b.limits;
 }
 
 bool sameNodes(const RenderOptions& a, const RenderOptions& b) {

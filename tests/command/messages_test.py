@@ -220,11 +220,10 @@ class InVain(Case):
         self.assertNotIn("the plane is", result.stderr)
 
     def test_emissive_textures_alone(self):
-        """A message says that bright ones are the only light. With dim ones, the messages of the catcher and of light
-        paths do not mention lamps."""
+        """With dim ones, which the studio joins, the messages of the catcher and of light paths do not mention lamps."""
         root = quad({"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0}, "pbrMetallicRoughness": {"roughnessFactor": 0}}, images=[png(1, 1, bytes([255] * 4))])
         scene = self.folder / "screen.gltf"
-        for factor, says in ((1, ["emissive textures are the scene's only light (--studio"]), (1e-3, ["emissive textures are too dim to light it"])):
+        for factor, says in ((1, []), (1e-3, ["the scene's emission leaves 100 % of what is seen dark"])):
             root["materials"][0]["emissiveFactor"] = 3 * [factor]
             scene.write_text(json.dumps(root))
             for options in ([], ["--shadow-catcher", "bottom"]):
@@ -232,7 +231,7 @@ class InVain(Case):
                 self.assertEqual([line for line in says if line not in said], [], said)
                 self.assertEqual("does not count for --shadow-catcher" in said, factor == 1 and options != [], said)
                 self.assertEqual("no light paths" in said, factor == 1 and options != [], said)
-            self.assertNotIn("emissive textures", self.renders(scene, "-o", self.folder / "x.png", *TINY, "--studio").stderr)
+            self.assertNotIn("emission leaves", self.renders(scene, "-o", self.folder / "x.png", *TINY, "--studio").stderr)
 
     def test_a_scene_of_which_all_is_hidden(self):
         nodes = json.loads(run("info", "--nodes", "--json", BOX).stdout)["nodes"]

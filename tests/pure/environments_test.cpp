@@ -79,20 +79,17 @@ TEST(Environments, WhatEmissionByEyeCouldChangeIsNamed) {
   EXPECT_EQ(named(Surroundings::Map, "/materials/0/alphaCutoff"), std::pair(false, Studio));
 }
 
-TEST(Environments, EmissionByEyeEndsNeitherTheStudioNorItsAbsence) {
-  const SceneSelection emission{.set = {{"/materials/0/emissiveFactor", {1, 1, 1}}}};
-  const SceneSelection hidden{.hiddenNodes = {"lamp"}};
-  RenderOptions shown;
-  EXPECT_TRUE(keepsEnvironment(shown, {}, Surroundings::Map));
-  EXPECT_TRUE(keepsEnvironment(shown, emission, Surroundings::Map));
-  EXPECT_TRUE(keepsEnvironment(shown, emission, Surroundings::None));
-  // No option would name white light, which ends as in `render`.
-  EXPECT_FALSE(keepsEnvironment(shown, emission, Surroundings::DefaultLight));
-  EXPECT_FALSE(keepsEnvironment(shown, hidden, Surroundings::Map));
-  shown.selection = emission;
-  EXPECT_FALSE(keepsEnvironment(shown, {}, Surroundings::Map));
-  shown.light.studio = true;
-  EXPECT_TRUE(keepsEnvironment(shown, hidden, Surroundings::Map));
+TEST(Environments, WhatTheProgramDecidedIsNamed) {
+  ViewedScene scene;
+  scene.surroundings = Surroundings::Map;
+  RenderOptions options;
+  nameLight(options, scene);
+  EXPECT_EQ(options, RenderOptions());
+  scene.light.own = OwnLight::Dim;
+  scene.light.lampScale = 1.0 / kLumensPerWatt;
+  nameLight(options, scene);
+  EXPECT_TRUE(options.light.studio);
+  EXPECT_EQ(options.light.lampUnits, LampUnits::Radiometric);
 }
 
 }  // namespace

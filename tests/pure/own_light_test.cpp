@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Tests whether a scene lights itself, or the default light must light it.
+// Tests what is decided about a file's own light by what a view shows of it.
 #include "pack/own_light.h"
 
 #include <gtest/gtest.h>
 
 #include "gltf_builder.h"
+#include "scene/camera.h"
 
 namespace fragtrace::gltf_test {
 namespace {
@@ -23,35 +24,76 @@ GltfBuilder shining(double factor, bool isTextured) {
   return builder;
 }
 
-OwnLight lightOf(GltfBuilder builder) { return ownLight(load(builder)); }
+/// The same with a lamp before it, whose numbers are these.
+GltfBuilder lit(const char* type, double intensity) {
+  GltfBuilder builder = shining(0.0, false);
+  builder.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", type}, {"intensity", intensity}}};
+  builder.root["nodes"].push_back(
+      {{"translation", {0, 0, 2}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  return builder;
+}
+
+FileLight lightOf(GltfBuilder builder, LampUnits units = LampUnits::Auto) {
+  const Scene scene = load(builder);
+  return decideLight({scene, buildSceneBvh(scene)}, frameScene(scene.bounds), 1.0, units);
+}
 
 TEST(OwnLight, IsNoneWithoutLightsAndEmission) {
   GltfBuilder builder;
   builder.addTriangle();
-  EXPECT_EQ(lightOf(builder), OwnLight::None);
-  EXPECT_EQ(lightOf(shining(0.0, true)), OwnLight::None);
+  EXPECT_EQ(lightOf(builder).own, OwnLight::None);
+  EXPECT_EQ(lightOf(shining(0.0, true)).own, OwnLight::None);
+  EXPECT_EQ(lightOf(lit("point", 0.0)).own, OwnLight::None);
 }
 
-TEST(OwnLight, EmissionWithoutATextureIsEnoughHoweverLittle) {
-  EXPECT_EQ(lightOf(shining(1e-5, false)), OwnLight::Enough);
-}
-
-TEST(OwnLight, ATextureIsEnoughIfItIsBrightForTheSceneRoundIt) {
-  EXPECT_EQ(lightOf(shining(1.0, true)), OwnLight::Enough);
-  EXPECT_EQ(lightOf(shining(0.001, true)), OwnLight::Dim);
-  GltfBuilder hall = shining(1.0, true);
+TEST(OwnLight, EmissionIsEnoughWhereItLightsWhatIsSeen) {
+  EXPECT_EQ(lightOf(shining(1.0, false)).own, OwnLight::Enough);
+  EXPECT_EQ(lightOf(shining(1.0, true)).own, OwnLight::Enough);
+  EXPECT_EQ(lightOf(shining(1e-4, false)).own, OwnLight::Dim);
+  EXPECT_EQ(lightOf(shining(1e-4, true)).own, OwnLight::Dim);
+  GltfBuilder hall = shining(1.0, false);
   hall.addTriangle();
   hall.node(1)["scale"] = {50, 50, 50};
-  EXPECT_EQ(lightOf(hall), OwnLight::Dim);
-  hall.root["materials"][0]["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 10000;
-  EXPECT_EQ(lightOf(hall), OwnLight::Enough);
+  EXPECT_EQ(lightOf(hall).own, OwnLight::Dim);
 }
 
-TEST(OwnLight, AnyOtherLightIsEnoughBesideADimTexture) {
-  GltfBuilder lamp = shining(0.001, true);
-  lamp.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
-  lamp.root["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
-  EXPECT_EQ(lightOf(lamp), OwnLight::Enough);
+TEST(OwnLight, LampsAreEnoughAndTheirUnitsAreThoseThatExpose) {
+  struct Row {
+    const char* type;
+    double intensity;
+    bool isRadiometric;
+    double exposure;  // 0, or its sign
+  };
+  for (const Row& row : {Row{"directional", 3.0, false, 0.0}, Row{"directional", 2000.0, true, 0.0},
+                         Row{"directional", 100'000.0, true, -1.0}, Row{"directional", 1e-3, false, 1.0},
+                         Row{"point", 10.0, false, 0.0}, Row{"point", 20'000.0, true, 0.0}}) {
+    const FileLight light = lightOf(lit(row.type, row.intensity));
+    EXPECT_EQ(light.own, OwnLight::Enough);
+    EXPECT_EQ(light.lampScale != 1.0, row.isRadiometric) << row.type << row.intensity;
+    EXPECT_EQ(exposureFor(light.mean) * row.exposure > 0.0, row.exposure != 0.0) << row.type << row.intensity;
+    EXPECT_EQ(exposureFor(light.mean) == 0.0, row.exposure == 0.0) << row.type << row.intensity;
+  }
+  EXPECT_EQ(lightOf(lit("directional", 2000.0), LampUnits::Photometric).lampScale, 1.0);
+  EXPECT_EQ(lightOf(lit("directional", 3.0), LampUnits::Radiometric).lampScale, 1.0 / kLumensPerWatt);
+}
+
+/// A matt surface of albedo 1 under a lamp that faces it shows E / pi.
+TEST(SeenLight, IsThatOfAMattSurface) {
+  GltfBuilder builder = lit("directional", 3.0);
+  const Scene scene = load(builder);
+  const SeenLight seen = seenLight({scene, buildSceneBvh(scene)}, frameScene(scene.bounds), 1.0);
+  EXPECT_NEAR(seen.meanLuminance(1.0), 3.0 / 3.14159265, 1e-3);
+  EXPECT_EQ(seen.paths, 256);
+  EXPECT_EQ(seen.darkShare(1.0, 0.1), 0.0);
+  EXPECT_EQ(seen.darkShare(0.01, 0.1), 1.0);
+  const SeenLight again = seenLight({scene, buildSceneBvh(scene)}, frameScene(scene.bounds), 1.0);
+  EXPECT_EQ(again.meanLuminance(1.0), seen.meanLuminance(1.0));
+}
+
+TEST(SeenLight, TakesNoMoreThanFourThousandPaths) {
+  GltfBuilder builder = lit("directional", 2000.0);
+  const Scene scene = load(builder);
+  EXPECT_EQ(seenLight({scene, buildSceneBvh(scene)}, frameScene(scene.bounds), 1.0).paths, 4096);
 }
 
 }  // namespace

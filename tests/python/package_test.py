@@ -111,6 +111,15 @@ class Pictures(Package):
             fragtrace.diff(picture, picture, "bias")
         self.assertLess(fragtrace.diff(self.folder / "a.jpg", self.folder / "a.png"), 0.1)
 
+    def test_a_file_has_the_exposure_that_the_light_asks_for(self):
+        """As the command's picture has it."""
+        scene = SCENES / "sphere-plane.gltf"
+        picture = fragtrace.render(scene, **SMALL, lamp_units="radiometric")
+        self.assertGreater(picture.statistics["exposure"], 0)
+        subprocess.run([FRAGTRACE, "render", scene, "--resolution", "24x16", "--spp", "2", "--lamp-units", "radiometric", "--quiet", "-o", self.folder / "command.png"], check=True)
+        picture.save(self.folder / "a.png")
+        np.testing.assert_array_equal(fragtrace.read(self.folder / "a.png"), fragtrace.read(self.folder / "command.png"))
+
     def test_the_header_and_the_depth(self):
         picture = fragtrace.render(SCENES / "cornell-box.gltf", **SMALL)
         expected = self.command(SCENES / "cornell-box.gltf", "--resolution", "24x16", "--spp", 2)

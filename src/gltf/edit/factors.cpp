@@ -213,7 +213,7 @@ bool setByEye(Scene& scene, std::span<const Material> materials, std::span<const
   scene.lightSources.assign(lights.begin(), lights.end());
   for (size_t i = 0; i < lights.size(); ++i) setLight(scene.lightSources[i], i, set);
   for (Light& light : scene.lights)
-    light.intensity = intensityOf(scene.lightSources[light.source], scene.space);
+    light.intensity = intensityOf(scene.lightSources[light.source], scene.space, scene.lampScale);
   return true;
 }
 

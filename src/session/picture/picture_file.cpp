@@ -122,9 +122,9 @@ int bitsOf(const OutputOptions& output) {
 Image displayedPicture(const RenderOptions& options, const Image& linear,
                        std::span<const PictureLine> lines) {
   const bool colors = showsColors(options);
-  Image display =
-      toDisplay(holdsDisplayAlpha(options.output.file) ? linear : withoutAlpha(linear),
-                colors ? 0.0 : options.output.exposure, colors ? ToneMap::Linear : options.output.toneMap);
+  Image display = toDisplay(holdsDisplayAlpha(options.output.file) ? linear : withoutAlpha(linear),
+                            colors ? 0.0 : options.output.exposure.value_or(0.0),
+                            colors ? ToneMap::Linear : options.output.toneMap);
   if (options.output.alpha == AlphaOf::Display) display = forBlendedValues(std::move(display));
   const Placement place = linear.placement.value_or(Placement{{0, 0}, {linear.width, linear.height}});
   if (options.output.dither && bitsOf(options.output) == 8 && !colors) dither(display, place.corner);

@@ -85,6 +85,7 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
     if (row.traits.attribute != nullptr)
       std::visit([&](const auto& value) { json[row.traits.attribute] = value; }, row.value(named));
   }
+  if (loaded.light.lampScale != 1.0) json["lamp_units"] = kLampUnitsNames[size_t(LampUnits::Radiometric)];
   json["background_color"] = nullptr;
   if (!loaded.view.showEnvironment)
     json["background_color"] = numbers(glm::dvec3(options.light.backgroundColor.value_or(glm::vec3(0.0f))));

@@ -7,7 +7,7 @@
 #include "base/thread_name.h"
 #include "gltf/edit/changed_file.h"
 #include "gltf/edit/factors.h"
-#include "pack/own_light.h"
+#include "session/file_light.h"
 #include "session/say.h"
 #include "view/camera_controller.h"
 #include "view/environments.h"
@@ -51,9 +51,13 @@ void SceneLoader::start(const RenderOptions& options) {
         say(options, "warning: " + warning);
       result.scene =
           std::make_unique<LoadedScene>(loadScene(plain, result.stats, progress, FilmOf::Picture, before));
-      const bool known = !hasMap(options) && options.light.defaultLight != DefaultLight::None;
-      result.ownLight =
-          known ? !result.stats.defaultLight : ownLight(result.scene->scene) == OwnLight::Enough;
+      RenderOptions unlit = plain;
+      unlit.light.studio = unlit.light.sky.on = false;
+      unlit.light.hdriFile.clear();
+      const LoadedScene& loaded = *result.scene;
+      const FileLight light =
+          hasMap(options) ? fileLightOf(unlit, loaded.scene, nullptr, &result.document) : loaded.light;
+      result.ownLight = light.own == OwnLight::Enough;
       result.environments = environmentsNear(options);
       // From now on the camera is named by its index, like cameras that are chosen in the window.
       result.options.camera.index = result.scene->cameraIndex;

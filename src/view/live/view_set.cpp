@@ -4,7 +4,7 @@
 
 #include "gltf/edit/changed_file.h"
 #include "gltf/edit/factors.h"
-#include "pack/own_light.h"
+#include "session/file_light.h"
 #include "view/live/view_tracer.h"
 
 namespace fragtrace {
@@ -33,7 +33,9 @@ namespace {
 /// The option by which `render` lights the file that holds the numbers as it is shown; empty: none is needed.
 std::string lightToName(const RenderOptions& options, const LoadedScene& loaded) {
   if (hasMap(options) || options.light.defaultLight == DefaultLight::None) return "";
-  const bool shines = ownLight(loaded.scene) == OwnLight::Enough;
+  RenderOptions saved = options;
+  takePose(saved.selection, {});
+  const bool shines = fileLightOf(saved, loaded.scene, nullptr, nullptr).own == OwnLight::Enough;
   if (loaded.environment.kind == Surroundings::Map) return shines ? "--studio" : "";
   return loaded.environment.kind == Surroundings::None && !shines ? "--no-default-light" : "";
 }

@@ -7,6 +7,7 @@
 #include "base/vectors.h"
 #include "gl/driver_choice.h"
 #include "session/environment.h"
+#include "session/file_light.h"
 #include "session/outputs.h"
 #include "session/phase_timer.h"
 #include "view/set_by_eye.h"
@@ -196,6 +197,9 @@ void ViewTracer::adoptScene() {
   viewed.present = traitsOf(loaded_->scene, loaded_->environment);
   viewed.description = result->stats.scene;
   viewed.defaultLight = !result->ownLight;
+  viewed.light = loaded_->light;
+  if (const double exposure = exposureOf(result->options, loaded_->light); exposure != 0.0)
+    viewed.exposure = exposure;
   viewed.refersToFiles = loaded_->scene.refersToFiles;
   viewed.surroundings = loaded_->environment.kind;
   viewed.environments = std::move(result->environments);
@@ -257,7 +261,6 @@ bool ViewTracer::isPosed(const TraceRequest& request) const {
 void ViewTracer::pose(const TraceRequest& request) {
   const RenderOptions& wanted = request.sides[0];
   const bool sameNodes = loadedOptions_.selection.hiddenNodes == wanted.selection.hiddenNodes;
-  const bool keepsLight = keepsEnvironment(loadedOptions_, wanted.selection, loaded_->environment.kind);
   takePose(loadedOptions_.selection, wanted.selection);
   posedCamera_ = wanted.camera.overrides;
   posedCameraIndex_ = wanted.camera.index;
@@ -273,7 +276,8 @@ void ViewTracer::pose(const TraceRequest& request) {
   try {
     Statistics stats;
     SceneBefore before;
-    if (keepsLight) before.environment = &loaded_->environment;
+    before.environment = &loaded_->environment;
+    before.light = loaded_->light;
     if (tree_ && sameNodes) before.tree = &*tree_;
     before.document = &document_;
     before.volume = &loaded_->scene.volume;

@@ -140,7 +140,7 @@ Task drawLight(ViewState& state, ViewFacts& facts) {
   Places& places = facts.places;
   Task task;
   RenderOptions& o = state.sides[0];
-  double exposure = o.output.exposure;
+  double exposure = o.output.exposure.value_or(0.0);
   if (slider(places, "Exposure", exposure, -8.0f, 8.0f, "%.1f EV"))
     for (RenderOptions& side : state.sides) side.output.exposure = exposure;
   label(places, "Tone map");

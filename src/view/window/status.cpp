@@ -122,7 +122,7 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   const std::vector<RenderOptions> sides = tracedSides(state);
   for (size_t i = 0; i < sides.size(); ++i) json["sides"].push_back(sideJson(sides[i], facts, i));
   json["camera"] = report.camera;
-  json["exposure"] = state.sides[0].output.exposure;
+  json["exposure"] = state.sides[0].output.exposure.value_or(0.0);
   json["tone_map"] = toneMapNames()[size_t(state.sides[0].output.toneMap)];
   json["thumbnails"] = facts.thumbnails.size();
   json["reference"] = state.reference.string();

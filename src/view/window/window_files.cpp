@@ -50,7 +50,7 @@ void Window::save(const std::filesystem::path& name) {
   if (both) request.both = state_.comparison;
   request.bar = state_.shownBar();
   request.differenceStops = state_.differenceStops;
-  request.exposure = o.output.exposure;
+  request.exposure = o.output.exposure.value_or(0.0);
   request.toneMap = o.output.toneMap;
   exchange_.save(std::move(request));
 }

@@ -341,7 +341,7 @@ void Window::draw() {
   for (size_t i = 0; i < kMostSides; ++i) {
     const OutputOptions& output =
         i < 2 && !state_.overview ? state_.sides[i].output : state_.options().output;
-    sides[i] = {output.exposure, output.toneMap};
+    sides[i] = {output.exposure.value_or(0.0), output.toneMap};
   }
   display_.draw({size, layout.picture, state_.shownBar(), state_.magnifier, state_.overview,
                  state_.compares() && state_.comparison == CompareMode::Difference, state_.differenceStops},
