@@ -248,7 +248,7 @@ class InVain(Case):
             material["doubleSided"] = True
         scene = self.written("shell.gltf", root)
         inside = ["--camera-position", "0,0,0.1", "--camera-focal-point", "0,0,1", "--spp", "16"]
-        self.warned("100 % of the pixels are black: nearly all camera paths end in the dark; the camera stands inside", *inside, scene=scene)
+        self.warned("100 % of the pixels are black: the camera stands inside the scene, in a closed shell", *inside, scene=scene)
 
     def test_light_below_zero_is_taken_as_none(self):
         path = self.folder / "map.pfm"

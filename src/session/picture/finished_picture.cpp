@@ -9,9 +9,9 @@
 #include "gl/driver_choice.h"
 #include "image/channels.h"
 #include "render/adaptive.h"
-#include "scene/describe.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
+#include "session/picture/black_picture.h"
 #include "session/picture/denoising.h"
 #include "session/picture/picture_file.h"
 #include "session/picture/picture_header.h"
@@ -20,54 +20,6 @@
 namespace fragtrace {
 
 namespace {
-
-/// A view that shows nothing is likely to be a mistake: the user's, ours, or the back of a surface.
-void sayWhatIsNotSeen(const RenderOptions& options, const LoadedScene& loaded, const ShaderVariant& variant,
-                      const Statistics& stats) {
-  const bool chosen = loaded.overrides == options.camera.overrides;
-  const bool nothing =
-      (stats.scene.triangles == 0 && stats.scene.spheres == 0) || hasNoArea(loaded.scene);  // which is said
-  const bool seen = stats.film.hitPixels > 0 || stats.film.samples == 0;
-  if (options.camera.region || nothing || seen || variant.countsVisits) return;
-  say(options,
-      std::string("warning: ") + (chosen ? "this" : "the default") + " view shows nothing of the scene; " +
-          (chosen && !loaded.overrides.fit ? "--fit moves the camera until it does"
-                                           : "--camera-position and --camera-focal-point choose another"));
-}
-
-/// The share of pixels that are exactly black, 0..1.
-double blackShare(const Image& picture) {
-  const auto colors = findColorChannels(picture);
-  if (!colors || picture.values.empty()) return 0.0;
-  size_t black = 0;
-  for (size_t i = 0; i < picture.values.size(); i += picture.channelCount())
-    black +=
-        std::ranges::all_of(*colors, [&](size_t channel) { return picture.values[i + channel] == 0.0f; });
-  return double(black) * double(picture.channelCount()) / double(picture.values.size());
-}
-
-/// Says that a picture is nearly black although surfaces fill it, and why: most likely the camera stands in a
-/// shell.
-void sayWhatIsDark(const RenderOptions& options, const LoadedScene& loaded, const Image& picture,
-                   const Statistics& stats) {
-  constexpr double kNearlyAll = 0.95;
-  constexpr double kEnoughSamples = 16.0;  // with this many samples, chance explains no black pixel
-  const double pixels = double(stats.size.x) * stats.size.y;
-  const bool isLit = has(options.stages, Stage::Gi) && options.output.debugView == DebugView::None;
-  const bool filled = double(stats.film.hitPixels) >= kNearlyAll * pixels;
-  if (!isLit || !filled || samplesPerPixel(stats) < kEnoughSamples) return;
-  const double share = blackShare(picture);
-  if (share < kNearlyAll) return;
-  const BoundsDouble& bounds = loaded.scene.bounds;
-  const glm::dvec3& place = loaded.camera.position;
-  const bool inside = glm::all(glm::lessThanEqual(bounds.minimum, place)) &&
-                      glm::all(glm::lessThanEqual(place, bounds.maximum));
-  say(options,
-      "warning: " + std::to_string(int(100.0 * share)) +
-          " % of the pixels are black: nearly all camera paths end in the dark; " +
-          (inside ? "the camera stands inside the scene, perhaps in a closed shell; --fit moves it out"
-                  : "no light reaches what it sees (--studio, --sky, --hdri-file)"));
-}
 
 /// Says that light is missing from the picture because --bounces ended paths.
 void sayWhatWasCut(const RenderOptions& options, const Statistics& stats) {
@@ -155,8 +107,8 @@ std::optional<Image> drawSamples(const PictureJob& job, DrawingPlan& plan, Devic
   sayDriverLog(options, device);
   if (interrupts() > most) return std::nullopt;
   sayWhatWentWrong(options, stats.film);
-  sayWhatIsNotSeen(options, job.loaded, job.tracer.variant, stats);
-  sayWhatIsDark(options, job.loaded, picture, stats);
+  if (const std::string why = whyNothingIsSeen({options, job.loaded, picture, stats}); !why.empty())
+    say(options, "warning: " + why);
   checkSamples(options, stats);
   return picture;
 }
