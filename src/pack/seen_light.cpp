@@ -411,10 +411,12 @@ struct LogMean {
 /// Returns true if more paths would hardly change what is decided by the estimate.
 bool isClear(const SeenLight& seen) {
   constexpr double kMargin = 2.0;
+  constexpr int kEnough = 1024;  // paths that do not miss light by chance
+  const double dark = seen.darkShare(1.0, kMiddleGrey * kTooDark);
+  if (seen.paths >= kEnough && dark > 0.95) return true;
   const double mean = seen.meanLuminance(1.0) / kMiddleGrey;
-  if (seen.meanOfLampLit(1.0) * kMargin > kTooBright * kMiddleGrey) return false;
-  return mean > kMargin * kTooDark && mean * kMargin < kTooBright &&
-         seen.darkShare(1.0, kMiddleGrey * kTooDark) < 0.25;
+  const double byLamps = seen.meanOfLampLit(1.0) / kMiddleGrey;
+  return mean > kMargin * kTooDark && std::max(mean, byLamps) * kMargin < kTooBright && dark < 0.25;
 }
 
 }  // namespace
