@@ -52,8 +52,9 @@ FileLight decideLight(const SeenScene& first, const Camera& camera, double aspec
 }
 
 double exposureFor(double mean) {
+  constexpr double kAsGoodAsNone = 0x1p-20;  // what is left of light by way of many bounces
   const double ratio = mean / kMiddleGrey;
-  if (!(ratio > 0.0) || (ratio <= kTooBright && ratio >= kTooDark)) return 0.0;
+  if (!(ratio > kAsGoodAsNone) || (ratio <= kTooBright && ratio >= kTooDark)) return 0.0;
   return std::round(-10.0 * std::log2(ratio)) / 10.0;
 }
 

@@ -245,6 +245,7 @@ class LampUnits(Case):
         self.assertIn("they are divided by 683", self.draw(scene, "f#.pfm", *FEW, "--frames", "0:1", "--fps", "1", "--camera-orbit", "35,20"))
         said = self.draw(scene, "one.pfm", *FEW, "--animation-time", "1", "--camera-orbit", "35,20")
         self.assertIn("they are divided by 683", said)
+        self.assertIn("there is light, too little for this exposure", said)
 
 
 if __name__ == "__main__":

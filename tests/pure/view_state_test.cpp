@@ -396,5 +396,18 @@ TEST(ViewerDocument, HoldsTheTableOfAllControls) {
                                                            << sheetMarkdown();
 }
 
+TEST(ViewState, TheExposureThatASceneAsksForGoesWithIt) {
+  ViewState state;
+  ViewedScene bright = someScene();
+  bright.exposure = -7.0;
+  showScene(state, bright);
+  EXPECT_EQ(state.sides[0].output.exposure, -7.0);
+  showScene(state, someScene());
+  EXPECT_EQ(state.sides[0].output.exposure, std::nullopt);
+  state.sides[0].output.exposure = 0.0;  // the user's
+  showScene(state, bright);
+  EXPECT_EQ(state.sides[0].output.exposure, 0.0);
+}
+
 }  // namespace
 }  // namespace fragtrace

@@ -18,11 +18,12 @@ namespace {
 constexpr double kNearlyAll = 0.99;
 constexpr double kFewestPaths = 0.001;  // share: fewer is none
 constexpr double kNoticedMetal = 0.5;   // share of what is seen
+constexpr double kNoticedLight = 0.05;  // share of it
 
 /// What a picture's pixels tell, without those that nothing covers.
 struct Darkness {
   double black = 0.0;  ///< the share of the pixels that a display shows as black
-  double lit = 0.0;    ///< the number of those that have any light
+  double lit = 0.0;    ///< the number of these that have any light
   double mean = 0.0;   ///< their logarithmic mean
 };
 
@@ -43,7 +44,8 @@ Darkness darknessOf(const DrawnView& view) {
     glm::dvec3 color;
     for (int c = 0; c < 3; ++c) color[c] = double(picture.values[i + (*colors)[size_t(c)]]);
     const double light = luminance(color);
-    dark.black += double(light * exposure < kBlack);
+    if (light * exposure >= kBlack) continue;
+    ++dark.black;
     if (!(light > 0.0)) continue;
     dark.mean += std::log(light);
     ++dark.lit;
@@ -124,7 +126,7 @@ std::string whyBlack(const DrawnView& view) {
   const double pixels = double(view.stats.size.x) * view.stats.size.y;
   const auto hit = double(view.stats.film.hitPixels);
   if (hit < (1.0 - kNearlyAll) * pixels) return black + "the scene fills less than 1 % of the view (--fit)";
-  if (dark.lit > 0.5 * hit)
+  if (dark.lit > kNoticedLight * hit)
     return black + formatted("there is light, too little for this exposure (--exposure %.0f)",
                              std::ceil(std::log2(kMiddleGrey / dark.mean)));
   const std::string why = whyUnlit(view);
