@@ -12,7 +12,8 @@ namespace {
 /// The share of what is seen from which on emission leaves it dark.
 constexpr double kMostlyDark = 0.5;
 
-bool shines(const Light& light) { return glm::compMax(light.intensity) > 0.0f; }
+/// A lamp of intensity 0 is none.
+bool isOn(const Light& light) { return glm::compMax(light.intensity) > 0.0f; }
 
 /// Returns true if lamps are read as radiometric: as written, what they light is far too bright, and less so
 /// divided.
@@ -27,7 +28,7 @@ bool areRadiometric(const SeenLight& seen, LampUnits units) {
 
 bool mayShine(const Scene& scene) {
   const auto emits = [&](const auto& primitive) { return scene.materials[primitive.material].emissive(); };
-  return std::ranges::any_of(scene.lights, shines) || std::ranges::any_of(scene.triangles, emits) ||
+  return std::ranges::any_of(scene.lights, isOn) || std::ranges::any_of(scene.triangles, emits) ||
          std::ranges::any_of(scene.spheres, emits);
 }
 
@@ -37,7 +38,7 @@ FileLight decideLight(const SeenScene& first, const Camera& camera, double aspec
     light.own = OwnLight::None;
     return light;
   }
-  light.byLamps = std::ranges::any_of(first.scene.lights, shines);
+  light.byLamps = std::ranges::any_of(first.scene.lights, isOn);
   SeenScene seen = first;
   seen.readsTextures = !light.byLamps;
   const SeenLight estimate = seenLight(seen, camera, aspectRatio);

@@ -20,11 +20,11 @@ namespace {
 
 constexpr int kCellSide = 16;                   // cells of a row and of a column
 constexpr std::array kPathsSoFar = {1, 4, 16};  // of a cell, after each round
-constexpr int kMostSurfaces = 4;                // of a path
+constexpr int kPathSurfaces = 4;                // of a path
 constexpr int kMostPanes = 16;                  // that a ray passes
 constexpr size_t kMostLamps = 4;                // that one point asks
 constexpr double kMeanTexel = 0.5;              // stands for a texture that is not decoded
-constexpr float kFarthest = std::numeric_limits<float>::max();
+constexpr float kNoLimit = std::numeric_limits<float>::max();
 
 /// Random numbers by a counter (splitmix64), so that each path has its own, whatever thread traces it.
 class PathRandom {
@@ -159,7 +159,7 @@ std::optional<SurfacePoint> LightEstimator::meet(const glm::dvec3& origin,
                                                  const glm::dvec3& direction) const {
   SurfacePoint point{.place = origin};
   for (int pane = 0; pane < kMostPanes; ++pane) {
-    const ExactHit hit = tracer_.nearest({glm::vec3(point.place), glm::vec3(direction), kFarthest});
+    const ExactHit hit = tracer_.nearest({glm::vec3(point.place), glm::vec3(direction), kNoLimit});
     if (hit.primitive == kMissIndex) return std::nullopt;
     point.place = glm::dvec3(glm::vec3(point.place)) + hit.t * direction;
     point.primitive = hit.primitive;
@@ -183,7 +183,7 @@ glm::dvec3 LightEstimator::between(const SurfacePoint& from, const glm::dvec3& t
   glm::dvec3 place = from.place + from.reach * from.normal;
   double left = distance - from.reach;
   for (int pane = 0; pane < kMostPanes; ++pane) {
-    const double limit = std::min(left * (1.0 - 1e-4), double(kFarthest));
+    const double limit = std::min(left * (1.0 - 1e-4), double(kNoLimit));
     const ExactHit hit = tracer_.nearest({glm::vec3(place), glm::vec3(towards), float(limit)});
     if (hit.primitive == kMissIndex) return passed;
     passed *= straightThrough(materialOf(hit.primitive));
@@ -197,7 +197,7 @@ glm::dvec3 LightEstimator::between(const SurfacePoint& from, const glm::dvec3& t
 }
 
 /// The texel that the place of a texture lies in, as bits of half floats.
-glm::vec3 texelAt(const Words& texels, const glm::uvec4& slot, const glm::vec2& uv) {
+glm::vec3 coarseTexel(const Words& texels, const glm::uvec4& slot, const glm::vec2& uv) {
   const auto along = [&](float x, int count, uint32_t clamps, uint32_t mirrors) {
     if ((slot.z & clamps) != 0) return std::clamp(int(std::floor(x * float(count))), 0, count - 1);
     const float turns = std::floor(x);
@@ -230,7 +230,7 @@ glm::dvec3 LightEstimator::emissionAt(uint32_t primitive, const glm::dvec3& plac
   const double w = glm::dot(glm::cross(b - a, place - a), normal) / size;
   const glm::vec2 at =
       float(1.0 - v - w) * uv[t.vertex.x] + float(v) * uv[t.vertex.y] + float(w) * uv[t.vertex.z];
-  const glm::vec3 texel = texelAt(texels_, picture.slot, m.emissiveTexture.transform.of(at));
+  const glm::vec3 texel = coarseTexel(texels_, picture.slot, m.emissiveTexture.transform.of(at));
   return glm::dvec3(m.emissiveFactor) * double(m.emissiveStrength) * glm::dvec3(texel);
 }
 
@@ -246,7 +246,7 @@ glm::dvec3 LightEstimator::albedoAt(const SurfacePoint& point) const {
 double LightEstimator::fromLamp(const Light& light, const SurfacePoint& point,
                                 const glm::dvec3& throughput) const {
   glm::dvec3 towards = -glm::dvec3(light.direction);
-  double distance = double(kFarthest);
+  double distance = double(kNoLimit);
   double window = 1.0;
   if (light.type != LightType::Directional) {
     towards = glm::dvec3(light.position) - point.place;
@@ -320,7 +320,7 @@ Gathered LightEstimator::gather(const SurfacePoint& point, const glm::dvec3& thr
 }
 
 /// A direction about the normal, by the cosine.
-glm::dvec3 scattered(const glm::dvec3& normal, PathRandom& random) {
+glm::dvec3 cosineDirection(const glm::dvec3& normal, PathRandom& random) {
   const double z = 1.0 - 2.0 * random.next();
   const double angle = 2.0 * glm::pi<double>() * random.next();
   const double ring = std::sqrt(std::max(0.0, 1.0 - z * z));
@@ -336,7 +336,7 @@ void LightEstimator::trace(const Projection& projection, const glm::dvec2& place
   glm::dvec3 origin(ray->origin);
   glm::dvec3 direction(ray->direction);
   glm::dvec3 throughput(1.0);
-  for (int i = 0; i < kMostSurfaces; ++i) {
+  for (int i = 0; i < kPathSurfaces; ++i) {
     std::optional<SurfacePoint> point = meet(origin, direction);
     if (!point) {
       if (i > 0) ++cell.open;
@@ -367,11 +367,11 @@ void LightEstimator::trace(const Projection& projection, const glm::dvec2& place
     if (!(random.next() < survival)) return;
     throughput /= survival;
     origin = point->place + point->reach * point->normal;
-    direction = scattered(point->normal, random);
+    direction = cosineDirection(point->normal, random);
   }
 }
 
-SeenLight settled(const std::vector<CellSum>& sums, int paths) {
+SeenLight estimateOf(const std::vector<CellSum>& sums, int paths) {
   SeenLight seen;
   seen.paths = paths;
   double metals = 0.0;
@@ -391,7 +391,7 @@ SeenLight settled(const std::vector<CellSum>& sums, int paths) {
   return seen;
 }
 
-double luminanceOf(const SeenCell& cell, double lampScale) {
+double cellLuminance(const SeenCell& cell, double lampScale) {
   return lampScale * cell.byLamps + cell.byEmission + cell.shown;
 }
 
@@ -426,7 +426,7 @@ double SeenLight::meanLuminance(double lampScale) const {
   LogMean visible;
   LogMean lit;
   for (const SeenCell& cell : cells) {
-    const double light = luminanceOf(cell, lampScale);
+    const double light = cellLuminance(cell, lampScale);
     lit.add(light);
     if (light >= kMiddleGrey * kTooDark) visible.add(light);
   }
@@ -436,7 +436,7 @@ double SeenLight::meanLuminance(double lampScale) const {
 double SeenLight::meanOfLampLit(double lampScale) const {
   LogMean lit;
   for (const SeenCell& cell : cells)
-    if (cell.byLamps > cell.byEmission + cell.shown) lit.add(luminanceOf(cell, lampScale));
+    if (cell.byLamps > cell.byEmission + cell.shown) lit.add(cellLuminance(cell, lampScale));
   return lit.mean();
 }
 
@@ -447,7 +447,7 @@ double SeenLight::darkShare(double lampScale, double luminance) const {
   for (const SeenCell& cell : cells) {
     if (cell.shown >= luminance) continue;
     ++others;
-    if (luminanceOf(cell, lampScale) < luminance) ++dark;
+    if (cellLuminance(cell, lampScale) < luminance) ++dark;
   }
   const auto all = double(cells.size());
   if (cells.empty() || all - others >= kNearlyAll * all) return 0.0;
@@ -470,7 +470,7 @@ SeenLight seenLight(const SeenScene& seen, const Camera& camera, double aspectRa
       }
     });
     done = paths;
-    result = settled(cells, paths * int(cells.size()));
+    result = estimateOf(cells, paths * int(cells.size()));
     if (isClear(result) || estimator.isDark()) break;
   }
   return result;
