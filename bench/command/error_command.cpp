@@ -338,7 +338,8 @@ ErrorReport measure(const ErrorOptions& options, const Context& context) {
   const Image reference = options.reference.empty()
                               ? makeReference(contenders.front(), referenceSamples, first.output.quiet)
                               : readGivenReference(options, size);
-  const Judge judge{reference, toDisplay(reference, first.output.exposure.value_or(0.0), first.output.toneMap), first};
+  const Judge judge{reference,
+                    toDisplay(reference, first.output.exposure.value_or(0.0), first.output.toneMap), first};
 
   // Step: repetitions outermost, so that a machine that slows down does so for all.
   ProgressBar bar("measuring", first.output.quiet);

@@ -7,7 +7,7 @@
 
 #include "base/errors.h"
 #include "base/text.h"
-#include "session/environment.h"
+#include "session/file_light.h"
 
 namespace fragtrace {
 
@@ -89,12 +89,13 @@ std::vector<FileContents> filesOf(const std::filesystem::path& path, const Scene
 }
 
 WhoLights whoLights(const RenderOptions& options, const Scene& scene) {
-  OwnLight light = OwnLight::Enough;
+  FileLight file;
   try {
-    light = lightOf(options, scene);
+    file = fileLightOf(options, scene, nullptr, nullptr);
   } catch (const InputError&) {  // a texture that shines and is broken
     return {"unknown", "not known, since a texture that shines cannot be decoded"};
   }
+  const OwnLight light = countedLight(options, file);
   if (light == OwnLight::Enough) {
     const auto shining =
         std::ranges::count_if(scene.materials, [](const Material& m) { return m.emissive(); });
@@ -104,10 +105,9 @@ WhoLights whoLights(const RenderOptions& options, const Scene& scene) {
     return {"own", "its own: " + joined(own, " and ")};
   }
   const bool studio = options.light.defaultLight == DefaultLight::Studio;
-  const std::string why =
-      light == OwnLight::None ? "nothing in it shines" : "its emissive textures are too dim";
   return {std::string(kDefaultLightNames[size_t(options.light.defaultLight)]),
-          why + ": `render` adds " + (studio ? "the studio" : "a white environment") + " (--default-light)"};
+          defaultLightReason(options, file) + ": `render` adds " +
+              (studio ? "the studio" : "a white environment") + " (--default-light)"};
 }
 
 std::string bytesText(uint64_t bytes) {

@@ -293,16 +293,17 @@ struct LightSource {
   LightType type = LightType::Point;
   glm::dvec3 color{1.0};
   double intensity = 1.0;  ///< intensity in the file's units
+  bool added = false;      ///< by the user, so that its units are known
 };
 
 /// The largest radiance of a surface and intensity of a light that a file can ask for: sums of them over
 /// samples stay numbers.
 inline constexpr float kBrightest = 1e20f;
 
-/// Light::intensity of such a light.
+/// Light::intensity of such a light, with Scene::lampScale.
 inline glm::vec3 intensityOf(const LightSource& source, const LocalSpace& space, double lampScale = 1.0) {
   const double scale = source.type == LightType::Directional ? 1.0 : 1.0 / (space.unit * space.unit);
-  return glm::vec3(source.color * (source.intensity * lampScale) * scale);
+  return glm::vec3(source.color * (source.intensity * (source.added ? 1.0 : lampScale)) * scale);
 }
 
 /// The two kinds that glTF has, then an equirectangular panorama and an equidistant fisheye.

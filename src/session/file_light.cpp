@@ -20,14 +20,18 @@ FileLight decideByFirstView(const Scene& scene, const Bvh& tree, LampUnits units
   const CameraOverrides overrides = settledOverrides({}, scene);
   Camera camera = chooseCamera(scene.cameras, std::nullopt, overrides, scene.bounds);
   const double aspect = camera.aspectRatio > 0.0 ? camera.aspectRatio : kUsual;
-  if (overrides.fit) camera = fitted(camera, outlineOf(scene), aspect);
+  if (overrides.fit) {
+    std::vector<glm::dvec3> points = outlineOf(scene);
+    if (overrides.leavesStrays) points = withoutStrays(std::move(points));
+    camera = fitted(camera, points, aspect);
+  }
   return decideLight({scene, tree}, camera, aspect, units);
 }
 
 /// Returns true if the scene is the file's as it stands, with all that it shows.
 bool isAsFile(const SceneSelection& selection) {
-  return selection.hiddenNodes.empty() && selection.set.empty() && !selection.animationTime &&
-         selection.animation.empty();
+  return selection.hiddenNodes.empty() && selection.set.empty() && selection.lights.empty() &&
+         !selection.animationTime && selection.animation.empty();
 }
 
 /// Returns true if nothing of the file could shine, whatever its pose.
@@ -38,7 +42,8 @@ bool staysDark(const RenderOptions& options, const Scene& scene) {
 
 /// Returns true if a light that the options name, or none, stands for that of a file without one.
 bool isChosen(const RenderOptions& options) {
-  return hasMap(options) || options.light.defaultLight == DefaultLight::None;
+  return hasMap(options) || !options.selection.lights.empty() ||
+         options.light.defaultLight == DefaultLight::None;
 }
 
 std::string percent(double share) { return std::to_string(std::lround(100.0 * share)) + " %"; }
@@ -58,6 +63,7 @@ FileLight fileLightOf(const RenderOptions& options, const Scene& scene, const Bv
   plain.scene = options.scene;
   plain.selection = options.selection;
   takePose(plain.selection, {});
+  plain.selection.lights.clear();
   plain.limits = options.limits;
   plain.limits.strict = false;
   const Scene standing = loadGltf(plain.scene, gltfOptionsOf(plain), document);
@@ -67,7 +73,9 @@ FileLight fileLightOf(const RenderOptions& options, const Scene& scene, const Bv
 void setLampScale(Scene& scene, double lampScale) {
   scene.lampScale = lampScale;
   if (lampScale == 1.0) return;
-  for (Light& light : scene.lights) light.intensity *= float(lampScale);
+  for (Light& light : scene.lights) {
+    if (!scene.lightSources[light.source].added) light.intensity *= float(lampScale);
+  }
 }
 
 OwnLight countedLight(const RenderOptions& options, const FileLight& light) {
@@ -76,7 +84,8 @@ OwnLight countedLight(const RenderOptions& options, const FileLight& light) {
 
 double exposureOf(const RenderOptions& options, const FileLight& light) {
   const double exposure = exposureFor(light.mean);
-  const bool alone = !hasMap(options) && countedLight(options, light) == OwnLight::Enough;
+  const bool alone = !hasMap(options) && options.selection.lights.empty() &&
+                     countedLight(options, light) == OwnLight::Enough;
   return alone || exposure < 0.0 ? exposure : 0.0;
 }
 
@@ -110,7 +119,7 @@ void sayWhoLights(const RenderOptions& options, const FileLight& light) {
                          : ": a white environment that the camera does not see lights it (--default-light)"));
     return;
   }
-  if (hasMap(options) || light.own == OwnLight::None) return;
+  if (hasMap(options) || !options.selection.lights.empty() || light.own == OwnLight::None) return;
   const std::string who =
       light.byLamps ? "the file's own lamps light it" : "the file's own emission lights it";
   if (light.dark > kNoticed)

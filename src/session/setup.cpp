@@ -396,7 +396,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   if (!apart) settleLight(&loaded.bvh);
   checkCatcher(options, loaded.light, loaded.scene);
   checkMapOptions(options, countedLight(options, loaded.light), loaded.scene);
-  sayWarnings(options, loaded.overrides.fit, loaded.scene);
+  sayWarnings(options, loaded.overrides.fit && loaded.strays == 0, loaded.scene);
   step("reading the environment", 0.9);
   if (!early) settleEnvironment();
   std::ranges::move(ofEnvironment, std::back_inserter(loaded.scene.warnings));

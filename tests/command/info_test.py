@@ -56,7 +56,7 @@ class Info(Case):
         root = json.loads((SCENES / "cornell-box.gltf").read_text())
         root["materials"][3].pop("emissiveFactor")
         dark = self.written("dark.gltf", root)
-        self.assertRegex(run("info", dark).stdout, r"  light       nothing in it shines: `render` adds ")
+        self.assertRegex(run("info", dark).stdout, r"  light       no light in the scene: `render` adds ")
         self.assertNotEqual(json.loads(run("info", dark, "--json").stdout)["lit_by"], "own")
 
     def test_many_materials_are_cut_short(self):

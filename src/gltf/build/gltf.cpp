@@ -188,6 +188,8 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
   scene.animationSeconds = document.animationSeconds;
   scene.materialVariants = document.materialVariants;
   scene.lightSources = lightSources(document);
+  const auto suns = std::ranges::count_if(options.selection.lights, &AddedLight::isSun);
+  for (LightSource& source : std::span(scene.lightSources).last(size_t(suns))) source.added = true;
 
   // World space.
   const std::vector<PlacedNode> nodes = placeNodes(document, options.selection);

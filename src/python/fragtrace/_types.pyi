@@ -10,7 +10,10 @@ class Keywords(TypedDict, total=False):
     camera: dict[str, Any] | str | float | None
     camera_position: str | Sequence[float] | None
     camera_orbit: str | Sequence[float] | None
-    fit: bool | None
+    fit: dict[str, Any] | bool | None
+    fit_shadow: bool | None
+    fit_to: str | float | None
+    fill: float | None
     camera_focal_point: str | Sequence[float] | None
     camera_view_up: str | Sequence[float] | None
     camera_type: Literal["perspective", "orthographic", "panorama", "fisheye"] | None
@@ -28,6 +31,7 @@ class Keywords(TypedDict, total=False):
     disable: Literal["flat", "phong", "shadows", "reflections", "refraction", "normal-maps", "gi", "schlick", "energy-compensation", "sobol", "light-sampling", "watertight"] | str | Sequence[str] | None
     spp: int | None
     noise: float | None
+    quality: Literal["none", "draft", "good", "best"] | None
     time: float | None
     sample_offset: int | None
     seed: int | None
@@ -44,10 +48,12 @@ class Keywords(TypedDict, total=False):
     background_blur: float | None
     studio: bool | None
     shadow_catcher: str | float | None
+    shadow_fade: float | None
     no_background: bool | None
     background_color: str | Sequence[float] | None
     default_light: Literal["white", "studio", "none"] | None
     no_default_light: bool | None
+    lamp_units: Literal["auto", "photometric", "radiometric"] | None
     sky: dict[str, Any] | bool | None
     sun_elevation: float | None
     sun_azimuth: float | None
@@ -81,6 +87,7 @@ class Keywords(TypedDict, total=False):
     animation: dict[str, Any] | str | float | None
     material_variant: str | float | None
     hide: str | float | Sequence[str] | None
+    double_sided: str | float | Sequence[str] | None
     set: str | float | Sequence[str] | None
     add_light: str | float | Sequence[str] | None
     up: str | float | Sequence[float] | None
