@@ -2,36 +2,52 @@
 #include "options/library/option_facts.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <string_view>
 #include <utility>
+
+#include "base/split.h"
+#include "base/text.h"
 
 namespace fragtrace {
 
 namespace {
 
-/// The library keeps a name with each check. Ours are facts, as JSON.
+/// The library keeps a name with each check. Ours are facts, a line each, after this one.
+constexpr std::string_view kFacts = "facts";
+
 std::string nameOf(const OptionFacts& facts) {
-  nlohmann::json json;
-  if (!facts.choices.empty()) json["choices"] = facts.choices;
-  if (facts.open) json["open"] = true;
-  if (facts.least) json["least"] = *facts.least;
-  if (facts.most) json["most"] = *facts.most;
-  if (!facts.metavariable.empty()) json["metavariable"] = facts.metavariable;
-  if (!facts.unit.empty()) json["unit"] = facts.unit;
-  if (!facts.everyday) json["everyday"] = false;
-  return json.dump();
+  std::string name(kFacts);
+  const auto add = [&](const char* key, const std::string& value) {
+    if (!value.empty()) name.append("\n").append(key).append(" ").append(value);
+  };
+  for (const std::string& choice : facts.choices) add("choice", choice);
+  if (facts.open) add("open", "1");
+  if (facts.least) add("least", formatted("%.17g", *facts.least));
+  if (facts.most) add("most", formatted("%.17g", *facts.most));
+  add("metavariable", facts.metavariable);
+  add("unit", facts.unit);
+  if (!facts.everyday) add("rare", "1");
+  return name;
 }
 
-void addFacts(const nlohmann::json& json, OptionFacts& facts) {
-  if (json.contains("choices")) {
-    facts.choices = json["choices"].get<std::vector<std::string>>();
-    facts.open = json.value("open", false);
+void addFacts(const std::string& name, OptionFacts& facts) {
+  std::vector<std::string> choices;
+  bool open = false;
+  for (const std::string_view line : splitText(name, '\n')) {
+    const size_t space = std::min(line.find(' '), line.size());
+    const std::string_view key = line.substr(0, space);
+    const std::string value(line.substr(std::min(space + 1, line.size())));
+    if (key == "choice") choices.push_back(value);
+    if (key == "open") open = true;
+    if (key == "least") facts.least = numberOfAll<double>(value);
+    if (key == "most") facts.most = numberOfAll<double>(value);
+    if (key == "metavariable") facts.metavariable = value;
+    if (key == "unit") facts.unit = value;
+    if (key == "rare") facts.everyday = false;
   }
-  if (json.contains("least")) facts.least = json["least"].get<double>();
-  if (json.contains("most")) facts.most = json["most"].get<double>();
-  facts.metavariable = json.value("metavariable", facts.metavariable);
-  facts.unit = json.value("unit", facts.unit);
-  facts.everyday = json.value("everyday", facts.everyday);
+  if (choices.empty()) return;
+  facts.choices = std::move(choices);
+  facts.open = open;
 }
 
 constexpr int kUnlimited = 1 << 20;  // the library has several numbers for this
@@ -53,7 +69,7 @@ OptionFacts factsOf(const CLI::Option& declared) {
     } catch (const CLI::OptionNotFound&) {
       return facts;  // the library does not say how many there are
     }
-    if (check->get_name().starts_with('{')) addFacts(nlohmann::json::parse(check->get_name()), facts);
+    if (check->get_name().starts_with(kFacts)) addFacts(check->get_name(), facts);
   }
 }
 
