@@ -283,12 +283,17 @@ Traversal traverseTree(vec3 origin, vec3 direction, float rayLimit, Traversal s,
                        bool anyHit) {
   TreeRay ray = treeRayOf(s, origin, direction, tree);
   while (s.node != kTraversalDone && s.steps < stepLimit) {
-    // Both conditions in one sign bit: at an inner node, and below the limit.
-    while ((s.node | (stepLimit - 1 - s.steps)) >= 0) {
-      s = stepNode(s, ray, rayLimit, tree, true);
-      s.steps += 1;
-      if (kCountVisits) s.visits += 1;
-    }
+    // Both conditions in one sign bit: at an inner node, and below the limit. The loop asks at its end, since llvmpipe
+    // runs the body of a loop once more, without a lane, for a condition at its head.
+    bool walks = (s.node | (stepLimit - 1 - s.steps)) >= 0;
+    do {
+      if (walks) {
+        s = stepNode(s, ray, rayLimit, tree, true);
+        s.steps += 1;
+        if (kCountVisits) s.visits += 1;
+      }
+      walks = (s.node | (stepLimit - 1 - s.steps)) >= 0;
+    } while (walks);
     bool atLeaf = s.node < 0 && s.node != kTraversalDone;
     if (kInstances && atLeaf && ~s.node >= kInstanceLeaf) {
       s = changeSpace(s);
