@@ -78,22 +78,31 @@ const uint kPixelBudgetHit = 2u;  // a loop was ended by something other than it
 const uint kPixelOverWhite = 4u;    // its luminance is that of the pixel laid over white: the shadow is in alpha alone
 const uint kPixelTargetShift = 3u;  // above: the most samples this pixel is to have; 0: what the draw says
 
-// Traversal: an inner node is its index, a leaf the complement of its index, the end this sentinel.
-const int kTraversalDone = -2147483647 - 1;
-const uint kNodeRows = 2u;
+// A node: origin of its grid, and the size of its cells as three bytes, each the exponent of a float; a byte a child
+// for each side of the boxes: low and high x, low and high y; low and high z; inner children and leaves as groups.
+const uint kNodeRows = 3u;
+const float kBoxPadding = 0.000244140625f;  // by this part of a cell, boxes are larger than packed
+// A group is a bit for each of its children and, below, the index that child 0 would have: children are numbered
+// through a node, inner ones first, and both kinds stand side by side. A group that has only the end of the traversal
+// is an empty stack. There are at most 2^26 nodes and leaves each.
+const uint kFirstChild = 0x08000000u;
+const uint kBaseMask = 0x07ffffffu;
+const int kTraversalDone = -1;
+const uint kEndGroup = 0x0fffffffu;
 const uint kLeafRows = 5u;
 // If surfaces move (kMoving), nodes and leaves have these rows twice: for the beginning and for the end of their
 // segment.
 const uint kLeafBlock = 4u;  // the iterative traversal tests this many leaves in one loop iteration
 
-// An instance is a leaf of the upper tree whose index is from here on: kInstanceLeaf + its number, which is that of its
-// first row / kInstanceRows. Popping kInstanceEnd leads back out of it. Rows: three of the matrix from local space into
-// its mesh's, beside them the mesh's origin in local space; origin of its grid and root of its tree; cell of its grid
-// and scale of offsets; three rows of the matrix back, beside them what is added to offsets, -1 where the matrix
-// mirrors, else 1, and how much lengths can grow on the way into the mesh's space.
-const int kInstanceLeaf = 0x40000000;
-const int kInstanceEnd = -2147483647;
-const uint kInstanceRows = 8u;
+// An instance is the only leaf of a node of the upper tree. Its index is kInstanceLeaf + its number, which is that of
+// its first row / kInstanceRows. The node kInstanceEnd leads back out of it. Rows: three of the matrix from local space
+// into its mesh's, beside them the mesh's origin in local space; root of its tree, and scale of offsets; three rows of
+// the matrix back, beside them what is added to offsets, -1 where the matrix mirrors, else 1, and how much lengths can
+// grow on the way into the mesh's space.
+const int kInstanceLeaf = 0x04000000;
+const int kInstanceEnd = -2;
+const uint kInstanceEndGroup = 0x0ffffffeu;
+const uint kInstanceRows = 7u;
 const float kAlbedoFloor = 0.04f;  // part of white in the albedo by which denoising divides light
 const float kMeshReach = 1.75f;  // a shared mesh lies within this distance of its origin: coordinates are at most 1
 
@@ -263,8 +272,8 @@ struct Frame {
   uint cameraSolids;    // the solids that the camera stands in, or kPrimitiveNone (media/solids.glsl)
   vec3 cameraForward;   // size of the unit of local space
   float metresPerUnit;  // of local space
-  vec4 gridOrigin;      // origin of the grid of the quantised boxes, local space
-  vec4 gridCell;        // size of a grid step, local space
+  vec3 sceneExtent;     // sides of the scene's box, local space
+  float treeRounding;   // the least rounding of distances in the tree, local space
   vec3 background;      // radiance that camera rays see
   float backgroundShows;    // 1 when they see the environment instead; -1 when they see nothing
   vec2 environmentSize;     // width, height of the map

@@ -44,7 +44,7 @@ const uint kSplatDimension = 8u;    // dimension within a bounce
 const uint kSplatLensDimensions = 9u;  // dimensions 9 and 10 within a bounce
 const uint kSurvivalDimension = 11u;   // dimension within a bounce
 
-TreeFrame treeFrame() { return TreeFrame(frame.gridOrigin.xyz, frame.gridCell.xyz, frame.leafCount); }
+TreeFrame treeFrame() { return TreeFrame(frame.treeRounding, frame.leafCount); }
 
 float pathRandom(Path p, uint offset) {
   return drawFloat(p.sampler, kBounceDimensions * uint(p.bounce + 1) + offset);

@@ -15,7 +15,8 @@ const int kRowShadowDirection = 7;  // its direction, etaScale
 const int kRowContribution = 8;     // contribution, instance of the hit
 // kPassingRows:
 const int kRowShadowHit = 9;        // the hit of the shadow ray, or of a suspended traversal: distance, slot, weights
-// The last surfaces that the ray and the shadow ray have passed: distance and slot of each.
+// The last surfaces that the ray and the shadow ray have passed: distance and slot of each; a suspended traversal has
+// its two groups instead of the second.
 const int kRowTMin = 10;
 // crossings, instance of the row of the shadow ray's hit, instance that is walked, medium of the shadow ray
 const int kRowCrossings = 11;
@@ -156,6 +157,7 @@ void suspendPath(Path p, int row) {
   Traversal t = p.traversal;
   uint flags = uint(p.after) | (p.caught ? 16u : 0u) | (kLightPaths && p.fromLight.glassFirst ? 32u : 0u);
   pathStates[row + kRowShadowHit] = metBy(t);
+  pathStates[row + kRowTMin].zw = uvec2(t.group, t.leaves);
   pathStates[row + kRowSuspended] = uvec4(uint(t.node), uint(p.lightSampleIndex), flags, uint(t.visits));
   if (!kIterative && !kLiterals) saveStack(t.stack, row + kRowStack);
   if (kLightPart) pathStates[row + kRowAov] = uvec4(floatBitsToUint(p.aovWeight), 0u);
@@ -186,6 +188,8 @@ Path resumePath(int row, uint key) {
   a = readPathStates(row + kRowTMin);
   p.traversal.tMin = uintBitsToFloat(a.x);
   p.traversal.tMinSlot = int(a.y);
+  p.traversal.group = a.z;
+  p.traversal.leaves = a.w;
   if (kInstances) p.traversal.instance = int(readPathStates(row + kRowCrossings).z);
   p.traversal.extends = p.phase == kPhaseExtend;
   p.traversal.both = kLightPaths && p.phase == kPhaseExtend;

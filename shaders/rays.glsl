@@ -7,6 +7,9 @@ layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frame; };
 #include "slab.glsl"
 #include "stack.glsl"
 #include "tree.glsl"
+#include "tree/state.glsl"
+#include "tree/leaf.glsl"
+#include "tree/ray.glsl"
 #include "traverse.glsl"
 
 // These buffers use bindings that the tracer uses for others.
@@ -21,8 +24,8 @@ void traceRay(ivec2 pixel, bool anyHit) {
   int index = pixel.y * frame.pictureSize.x + pixel.x;
   vec4 a = rays[2 * index];
   vec3 direction = rays[2 * index + 1].xyz;
-  TreeFrame tree = TreeFrame(frame.gridOrigin.xyz, frame.gridCell.xyz, frame.leafCount);
+  TreeFrame tree = TreeFrame(frame.treeRounding, frame.leafCount);
   Traversal s = startTraversal(a.w, a.w > 0.0f ? tree.leafCount : 0);
   s = traverse(a.xyz, direction, a.w, s, tree, frame.stepBudget, anyHit);
-  rayHits[index] = uvec2(s.node == kTraversalDone ? uint(s.slot) : kRayUnfinished, floatBitsToUint(s.t));
+  rayHits[index] = uvec2(isDone(s) ? uint(s.slot) : kRayUnfinished, floatBitsToUint(s.t));
 }

@@ -56,6 +56,9 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "slab.glsl"
 #include "stack.glsl"
 #include "tree.glsl"
+#include "tree/state.glsl"
+#include "tree/leaf.glsl"
+#include "tree/ray.glsl"
 #include "traverse.glsl"
 #include "texture.glsl"
 #include "material.glsl"
@@ -195,7 +198,7 @@ Path meet(Path p) {
 
 /// The shadow ray has been traced, as far as the budget lets it.
 Path meetShadow(Path p) {
-  if (p.traversal.node != kTraversalDone) return p;
+  if (!isDone(p.traversal)) return p;
   p.rays += 1;
   if (kCountWork) countShadowRay();
   return settleShadow(p);
@@ -217,7 +220,7 @@ Path advance(Path p, int budget, TreeFrame tree) {
                            isShadow ? p.shadowLimit : kFarAway, p.traversal, tree, budget, isShadow && !kPassing);
     // A shadow ray or one that is not done leaves its hit, too: that of the ray before then needs no registers.
     if (kWholeRays) p = withHit(p, p.traversal);
-    if (!isShadow && p.traversal.node == kTraversalDone) {
+    if (!isShadow && isDone(p.traversal)) {
       p.rays += 1;
       if (kCountWork) countRay(p);
       if (!kWholeRays) p = withHit(p, p.traversal);

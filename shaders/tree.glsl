@@ -1,26 +1,41 @@
 // SPDX-License-Identifier: MIT
 // Decoding of nodes and leaves: the one place that knows how the tree is packed (src/pack/pack_tree.cpp writes it).
 
-/// Both children of an inner node; boxes in grid steps.
-struct NodePair {
-  vec3 low0;
-  vec3 high0;
-  vec3 low1;
-  vec3 high1;
-  int child0;
-  int child1;
+/// A node of up to four children, whose boxes lie on a grid of its own. Boxes are in cells, by their sides: those that
+/// a ray meets first, and the others.
+struct WideNode {
+  vec3 origin;
+  vec3 cell;
+  vec4 nearX, nearY, nearZ;
+  vec4 farX, farY, farZ;
+  uint inner;   // group of the inner children
+  uint leaves;  // group of the leaves
 };
 
-NodePair loadNode(int index) {
-  uvec4 a = readNodes(2 * index);
-  uvec4 b = readNodes(2 * index + 1);
-  NodePair n;
-  n.low0 = vec3(a.x & 0xffffu, a.y & 0xffffu, a.z & 0xffffu);
-  n.high0 = vec3(a.x >> 16, a.y >> 16, a.z >> 16);
-  n.low1 = vec3(b.x & 0xffffu, b.y & 0xffffu, b.z & 0xffffu);
-  n.high1 = vec3(b.x >> 16, b.y >> 16, b.z >> 16);
-  n.child0 = int(a.w);
-  n.child1 = int(b.w);
+/// Four bytes, the lowest first.
+vec4 bytesOf(uint word) { return vec4(ivec4(uvec4(word, word >> 8, word >> 16, word >> 24) & 0xffu)); }
+
+/// Powers of two, from their exponents as in floats.
+vec3 powersOf(uint word) { return uintBitsToFloat(uvec3(word << 23, word << 15, word << 7) & 0x7f800000u); }
+
+WideNode loadNode(int index, vec3 inverse) {
+  uvec4 a = readNodes(int(kNodeRows) * index);
+  uvec4 b = readNodes(int(kNodeRows) * index + 1);
+  uvec4 c = readNodes(int(kNodeRows) * index + 2);
+  bool backX = inverse.x < 0.0f;
+  bool backY = inverse.y < 0.0f;
+  bool backZ = inverse.z < 0.0f;
+  WideNode n;
+  n.origin = uintBitsToFloat(uvec3(a));
+  n.cell = powersOf(a.w);
+  n.nearX = bytesOf(backX ? b.y : b.x);
+  n.farX = bytesOf(backX ? b.x : b.y);
+  n.nearY = bytesOf(backY ? b.w : b.z);
+  n.farY = bytesOf(backY ? b.z : b.w);
+  n.nearZ = bytesOf(backZ ? c.y : c.x);
+  n.farZ = bytesOf(backZ ? c.x : c.y);
+  n.inner = c.z;
+  n.leaves = c.w;
   return n;
 }
 
@@ -72,14 +87,17 @@ vec3 onItsWay(vec3 from, vec3 to, float part) {
   return point;
 }
 
-/// The node at a part of its segment.
-NodePair loadMovingNode(int index, float part) {
-  NodePair n = loadNode(2 * index);
-  NodePair to = loadNode(2 * index + 1);
-  n.low0 += part * (to.low0 - n.low0);
-  n.high0 += part * (to.high0 - n.high0);
-  n.low1 += part * (to.low1 - n.low1);
-  n.high1 += part * (to.high1 - n.high1);
+/// The node at a part of its segment. Its cells have the same size throughout.
+WideNode loadMovingNode(int index, vec3 inverse, float part) {
+  WideNode n = loadNode(2 * index, inverse);
+  WideNode to = loadNode(2 * index + 1, inverse);
+  n.origin += part * (to.origin - n.origin);
+  n.nearX += part * (to.nearX - n.nearX);
+  n.nearY += part * (to.nearY - n.nearY);
+  n.nearZ += part * (to.nearZ - n.nearZ);
+  n.farX += part * (to.farX - n.farX);
+  n.farY += part * (to.farY - n.farY);
+  n.farZ += part * (to.farZ - n.farZ);
   return n;
 }
 
@@ -145,16 +163,16 @@ struct InstanceReturn {
 
 InstanceReturn loadInstanceReturn(int instance) {
   int row = int(kInstanceRows) * instance;
-  vec4 r0 = uintBitsToFloat(readNodes(row + 5));
-  vec4 r1 = uintBitsToFloat(readNodes(row + 6));
+  vec4 r0 = uintBitsToFloat(readNodes(row + 4));
+  vec4 r1 = uintBitsToFloat(readNodes(row + 5));
   InstanceReturn r;
   r.row0 = vec3(r0);
   r.row1 = vec3(r1);
-  vec4 r2 = uintBitsToFloat(readNodes(row + 7));
+  vec4 r2 = uintBitsToFloat(readNodes(row + 6));
   r.row2 = vec3(r2);
   r.stretchBack = r2.w;
   r.handedness = r1.w;
-  r.offsetScale = uintBitsToFloat(readNodes(row + 4)).w;
+  r.offsetScale = uintBitsToFloat(readNodes(row + 3)).y;
   r.offsetBase = r0.w;
   return r;
 }

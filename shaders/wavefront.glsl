@@ -74,9 +74,9 @@ void settleStates() {
 Traversal beginRay(vec3 origin, vec3 direction, float limit, Traversal t, bool anyHit, TreeFrame tree) {
   if (kLargeFirst) {
     t = traverseLiterals(origin, direction, t, anyHit);
-    if (anyHit && t.slot >= 0) t.node = kTraversalDone;
+    if (anyHit && t.slot >= 0) t = ended(t);
   }
-  return stepNode(t, treeRayOf(t, origin, direction, tree), limit, tree, t.node >= 0);
+  return stepNode(t, treeRayOf(t, origin, direction, tree), limit, tree, isAtNode(t));
 }
 
 Traversal beginExtension(Path p, TreeFrame tree) {
@@ -96,7 +96,7 @@ bool isMeeting(Traversal t) { return t.slot >= 0 || kMedia; }
 /// Notes what a shadow ray has met before the tree, and whether it is to be traced. Where light may pass what it has
 /// met, it is done when that was asked, in the next round.
 Wave sendShadow(Wave v, uint bit, int row, Traversal t) {
-  bool done = t.node == kTraversalDone && !(kPassing && t.slot >= 0);
+  bool done = isDone(t) && !(kPassing && t.slot >= 0);
   v.shadows |= done ? 0u : bit;
   v.blocked |= done && t.slot >= 0 ? bit : 0u;
   if (kPassing) {
@@ -107,7 +107,7 @@ Wave sendShadow(Wave v, uint bit, int row, Traversal t) {
 }
 
 Wave sendRay(Wave v, uint bit, Traversal t) {
-  bool done = t.node == kTraversalDone;
+  bool done = isDone(t);
   v.rays |= done ? 0u : bit;
   v.hits |= done && isMeeting(t) ? bit : 0u;
   v.misses |= done && !isMeeting(t) ? bit : 0u;
@@ -212,7 +212,7 @@ Wave beginSamples(Wave v, uint left, TreeFrame tree) {
       if (kDensityGrid) v.steps += p.traversal.steps;
       Traversal t = beginExtension(p, tree);
       samples += 1;
-      more = t.node == kTraversalDone && !isMeeting(t) && samples < kWaveSamples;
+      more = isDone(t) && !isMeeting(t) && samples < kWaveSamples;
       if (!more) {
         p.traversal = t;
         savePath(withHit(p, t), row, !(kPassesLight && frame.cameraSolids != kPrimitiveNone));
@@ -244,14 +244,14 @@ Wave settleRay(Wave v, Traversal t, int current, bool isShadow) {
 /// Traces all rays, except for those that the step budget leaves over. A lane whose ray is done takes its next one.
 Wave traceRays(Wave v, int budget, TreeFrame tree) {
   Traversal t = startTraversal(0.0, 0);
-  TreeRay ray = makeTreeRay(vec3(0.0), vec3(1.0), 0.0, tree.origin, tree.cell);
+  TreeRay ray = makeTreeRay(vec3(0.0), vec3(1.0), 0.0);
   vec3 origin = vec3(0.0);
   vec3 direction = vec3(1.0);
   float limit = 0.0;
   int current = 0;
   bool isShadow = false;
-  while ((t.node != kTraversalDone || (v.rays | v.shadows) != 0u) && v.steps < budget) {
-    if (t.node == kTraversalDone) {
+  while ((!isDone(t) || (v.rays | v.shadows) != 0u) && v.steps < budget) {
+    if (isDone(t)) {
       isShadow = v.rays == 0u;
       current = findLSB(isShadow ? v.shadows : v.rays);
       v.rays = isShadow ? 0u : v.rays & (v.rays - 1u);
@@ -280,26 +280,21 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
       }
       ray = treeRayOf(t, origin, direction, tree);
     }
-    // Six node steps between two leaves (5, 8 and 10 were slower). As a loop they are six iterations, and 1.01 to 1.03
-    // times slower.
-    t = stepNode(t, ray, limit, tree, t.node >= 0);
-    t = stepNode(t, ray, limit, tree, t.node >= 0);
-    t = stepNode(t, ray, limit, tree, t.node >= 0);
-    t = stepNode(t, ray, limit, tree, t.node >= 0);
-    t = stepNode(t, ray, limit, tree, t.node >= 0);
-    t = stepNode(t, ray, limit, tree, t.node >= 0);
-    bool atLeaf = t.node < 0 && t.node != kTraversalDone;
-    if (kInstances && atLeaf && ~t.node >= kInstanceLeaf) {
+    // Three node steps between two leaves. They are no loop, which would be three iterations.
+    t = stepNode(t, ray, limit, tree, isAtNode(t));
+    t = stepNode(t, ray, limit, tree, isAtNode(t));
+    t = stepNode(t, ray, limit, tree, isAtNode(t));
+    if (kInstances && changesSpace(t)) {
       t = changeSpace(t);
       ray = treeRayOf(t, origin, direction, tree);
-      atLeaf = false;
+    } else if (t.leaves >= kFirstChild) {
+      t = meetLeaf(t, ray, isShadow && !kPassing);
     }
-    if (atLeaf) t = meetLeaf(t, ray, isShadow && !kPassing);
     v.steps += 1;
-    if (t.node == kTraversalDone) v = settleRay(v, t, current, isShadow);
-    if (kCountWork && t.node == kTraversalDone) keepWork(numberOf(v, current));
+    if (isDone(t)) v = settleRay(v, t, current, isShadow);
+    if (kCountWork && isDone(t)) keepWork(numberOf(v, current));
   }
-  if (t.node != kTraversalDone) v.rays |= 1u << current;
+  if (!isDone(t)) v.rays |= 1u << current;
   return v;
 }
 

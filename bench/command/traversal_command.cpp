@@ -166,7 +166,7 @@ std::vector<Json> measure(const TraversalOptions& options, const Context& contex
   if (!options.rays.empty() && !scene.spheres.empty())
     throw InputError(options.render.scene.string() + ": has spheres, which --rays does not write");
   ShaderVariant variant = chooseVariant(options.render, traitsOf(scene, Surroundings::None),
-                                        Surroundings::None, loaded.bvh.depth, BufferReads::Auto);
+                                        Surroundings::None, loaded.bvh.stackNeed, BufferReads::Auto);
   if (loaded.bvh.besideTree > 0) variant.literals = largeFirst(scene, loaded.bvh, variant);
   GpuScene packed = packScene(scene, loaded.bvh, {}, variant);
   variant.dispatch = dispatchOf(options.render.device, context);

@@ -82,7 +82,7 @@ Aim aimAlong(vec3 direction, float choice, vec2 uv) {
     disks += i == chosen || dot(apart, apart) <= casters[i].w * casters[i].w ? 1.0f : 0.0f;
   }
   Aim a;
-  a.origin = point - 131072.0f * length(vec3(frame.gridCell)) * direction;  // two diagonals of the scene's box
+  a.origin = point - 2.0f * length(vec3(frame.sceneExtent)) * direction;  // two diagonals of the scene's box
   a.direction = direction;
   a.pdf = disks / (kPi * max(sum, float(1e-30)));
   return a;

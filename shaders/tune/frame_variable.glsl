@@ -3,7 +3,7 @@
 // read once a draw.
 
 layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frameBlock; };
-Frame frame = Frame(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0u, vec3(0.0), 0.0, vec4(0.0), vec4(0.0), vec3(0.0),
+Frame frame = Frame(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0u, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0),
                     0.0, vec2(0.0), vec2(0.0), 0.0, 0.0, 0.0, 0.0, ivec2(0), 0, 0, ivec4(0), 0, 0, 0, 0, 0, 0, 0, 0,
                     ivec2(0), ivec2(0), vec3(0.0), 0.0, vec3(0.0), 0.0, vec4(0.0), vec2(0.0), 0.0, 0.0,
                     ivec4(0));

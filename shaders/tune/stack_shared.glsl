@@ -4,7 +4,7 @@
 
 const int kGroupLanes = 64;  // size of all compute entries' groups
 
-shared int stackEntries[kStackSize * kGroupLanes];  // each entry has a row of all lanes
+shared uint stackEntries[kStackSize * kGroupLanes];  // each entry has a row of all lanes
 
 struct Stack {
   int count;
@@ -14,9 +14,9 @@ int stackPlace(int entry) { return entry * kGroupLanes + int(gl_LocalInvocationI
 
 Stack emptyStack() { return Stack(0); }
 
-int topOf(Stack s) { return s.count > 0 ? stackEntries[stackPlace(s.count - 1)] : kTraversalDone; }
+uint topOf(Stack s) { return s.count > 0 ? stackEntries[stackPlace(s.count - 1)] : kEndGroup; }
 
-Stack stepStack(Stack s, bool push, bool pop, int value) {
+Stack stepStack(Stack s, bool push, bool pop, uint value) {
   if (push) stackEntries[stackPlace(s.count)] = value;
   return Stack(s.count + (push ? 1 : pop && s.count > 0 ? -1 : 0));
 }

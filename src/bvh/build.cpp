@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "bvh/collapse.h"
 #include "bvh/split.h"
 
 namespace fragtrace {
@@ -22,7 +23,6 @@ struct Subtree {
   std::vector<BvhLeaf> leaves;
   uint32_t root = 0;   ///< an index as in BvhNode::child
   uint32_t depth = 0;  ///< inner nodes on the longest path
-  double area = 0.0;   ///< sum over all boxes in the nodes
 };
 
 bool fitsLeaf(std::span<const BuildItem> items, const SplitRules& rules) {
@@ -80,9 +80,6 @@ Subtree buildSubtree(std::span<BuildItem> items, const SplitRules& rules, uint32
   builder.tree.leaves.reserve(items.size() * 9 / 16 + 1);
   builder.tree.root = builder.add(items, level);
   builder.tree.depth -= std::min(builder.tree.depth, level);
-  for (const BvhNode& node : builder.tree.nodes) {
-    for (const Bounds& box : node.bounds) builder.tree.area += areaOf(box);
-  }
   return std::move(builder.tree);
 }
 
@@ -178,24 +175,10 @@ SplitRules rulesFor(size_t primitiveCount, uint32_t firstSingle, uint32_t maxDep
   return {firstSingle, leafSize, std::min(maxDepth, kMaxBvhDepth)};
 }
 
-double areaOfTop(const TopNode& top) {
-  if (!top.first) return top.part.area;
-  return areaOf(top.first->bounds) + areaOf(top.second->bounds) + areaOfTop(*top.first) +
-         areaOfTop(*top.second);
-}
-
 // The parts of a whole tree.
 struct WholeTree {
   std::unique_ptr<TopNode> top;
   std::vector<TopNode*> parts;
-
-  // The sum over all boxes, to which the heuristic's cost is proportional.
-  double area() const { return areaOf(top->bounds) + areaOfTop(*top); }
-  uint32_t depth() const {
-    uint32_t depth = 0;
-    for (const TopNode* part : parts) depth = std::max(depth, part->level + part->part.depth);
-    return depth;
-  }
 };
 
 WholeTree buildWhole(std::span<BuildItem> items, const SplitRules& rules, uint32_t threadCount) {
@@ -205,41 +188,6 @@ WholeTree buildWhole(std::span<BuildItem> items, const SplitRules& rules, uint32
   collectParts(*tree.top, tree.parts);
   buildParts(tree.parts, rules, threadCount);
   return tree;
-}
-
-// Makes the tree fit the next smaller stack where that costs little: it builds the parts that are too deep
-// again, or the whole tree if they are too large for that. Returns true if it did.
-bool flatten(WholeTree& tree, std::span<BuildItem> items, const SplitRules& rules, uint32_t threadCount) {
-  constexpr double kWorthwhile = 1.03;  // a stack one step smaller gains more than this
-  constexpr size_t kLargest = 2000000;  // primitives; a second build of more takes seconds
-  SplitRules flatter = rules;
-  flatter.maxDepth = 0;
-  for (const uint32_t size : kBvhStackSizes) flatter.maxDepth = size < tree.depth() ? size : flatter.maxDepth;
-  // With less than one level to spare, every split would have to be one into halves, and the heuristic would
-  // no longer decide.
-  if (flatter.maxDepth == 0 || items.size() > flatter.capacityBelow(1)) return false;
-  std::vector<TopNode*> deep;
-  bool fits = true;
-  for (TopNode* part : tree.parts) {
-    if (part->level + part->part.depth <= flatter.maxDepth) continue;
-    fits = fits && part->level + 1 < flatter.maxDepth &&
-           part->items.size() <= flatter.capacityBelow(part->level + 1);
-    deep.push_back(part);
-  }
-  const double before = tree.area();
-  if (fits) {
-    std::vector<Subtree> kept;
-    kept.reserve(deep.size());
-    for (TopNode* part : deep) kept.push_back(std::move(part->part));
-    buildParts(deep, flatter, threadCount);
-    if (tree.area() <= kWorthwhile * before) return true;
-    for (size_t i = 0; i < deep.size(); ++i) deep[i]->part = std::move(kept[i]);
-  }
-  if (items.size() > kLargest) return false;
-  WholeTree other = buildWhole(items, flatter, threadCount);
-  if (other.area() > kWorthwhile * before) return false;
-  tree = std::move(other);
-  return true;
 }
 
 }  // namespace
@@ -258,9 +206,6 @@ Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle, const Bv
   for (size_t i = 0; i < items.size(); ++i) items[i] = {primitiveBounds[i], uint32_t(i)};
   primitiveBounds = std::vector<Bounds>();
   WholeTree tree = buildWhole(items, rules, threadCount);
-  while (settings.flatten && flatten(tree, items, rules, threadCount)) {
-    // Take one step after the other, as long as each is worth it.
-  }
   items = std::vector<BuildItem>();
 
   // Join the parts.
@@ -282,7 +227,9 @@ Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle, const Bv
 }
 
 Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle) {
-  return buildBvh(std::move(primitiveBounds), firstSingle, {.flatten = true});
+  Bvh bvh = buildBvh(std::move(primitiveBounds), firstSingle, {});
+  collapse(bvh);
+  return bvh;
 }
 
 }  // namespace fragtrace

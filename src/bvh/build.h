@@ -17,10 +17,9 @@ inline constexpr std::array<uint32_t, 6> kBvhStackSizes{8, 12, 16, 20, 24, kMaxB
 struct BvhBuildSettings {
   uint32_t threadCount = 0;          ///< 0: all cores; the tree is the same for any number
   uint32_t maxDepth = kMaxBvhDepth;  ///< must leave room for the primitives: 2^maxDepth leaves
-  bool flatten =
-      false;  ///< try for the stack size below the depth of the heuristic's tree, as buildBvh() of bvh.h does
 };
 
+/// Builds the binary tree alone; collapse() adds the wide nodes.
 Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle, const BvhBuildSettings& settings);
 
 }  // namespace fragtrace

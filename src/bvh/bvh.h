@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A binary bounding-volume hierarchy: inner nodes hold the boxes of both children, leaves hold one or two
-// primitives.
+// A bounding-volume hierarchy. It is built, refitted and walked on the host as a binary one: inner nodes hold
+// the boxes of both children, leaves hold one or two primitives. Shaders walk the same leaves by nodes of up
+// to four children.
 #pragma once
 
 #include <array>
@@ -18,8 +19,8 @@ inline constexpr uint32_t kBvhLeafBit = 0x80000000u;
 /// Set beside kBvhLeafBit when the child is an instance (the rest is the index into Scene::instances).
 inline constexpr uint32_t kBvhInstanceBit = 0x40000000u;
 
-/// No path from the root passes more inner nodes than this, so a traversal stack of this size cannot
-/// overflow.
+/// No path from the root passes more inner nodes of the binary tree than this, so a traversal stack of this
+/// size cannot overflow.
 inline constexpr uint32_t kMaxBvhDepth = 32;
 
 /// The same for a path through an instance into the tree of its mesh; the way back counts as one more.
@@ -34,10 +35,21 @@ struct BvhLeaf {
   std::array<uint32_t, 2> primitive{kMissIndex, kMissIndex};  ///< the second may be kMissIndex
 };
 
+/// A node of the tree that shaders walk. A child is a place in the binary tree: 2 * node + side. Inner
+/// children come first and stand one after the other in Bvh::wide; leaves do so in Bvh::leaves. An instance
+/// is the one child of its node.
+struct WideNode {
+  static constexpr uint32_t kMost = 4;
+  std::array<uint32_t, kMost> place{};
+  uint32_t firstInner = 0;
+  uint16_t innerCount = 0;
+  uint16_t count = 0;  ///< children
+};
+
 /// The tree of a shared mesh, in the mesh's space.
 struct BvhMesh {
-  uint32_t root = 0;  ///< its first node
-  uint32_t nodeCount = 0;
+  uint32_t root = 0;      ///< its first node
+  uint32_t wideRoot = 0;  ///< the same in Bvh::wide
   Bounds bounds;
 };
 
@@ -48,17 +60,29 @@ struct Bvh {
   std::vector<BvhLeaf> leaves;
   /// The boxes of each node at the end of its segment, if surfaces move (bvh/moving_tree.h).
   std::vector<std::array<Bounds, 2>> endBounds{};
+  std::vector<WideNode>
+      wide{};  ///< none for a list of leaves; the root is node 0, and children come after their parent
   uint32_t besideTree = 0;  ///< leaves at the end to which no node refers: see large_first.h
   uint32_t depth = 0;  ///< inner nodes on the longest path from the root, at most kMaxBvhDepth; with meshes
                        ///< kMaxTwoLevelDepth
+  uint32_t stackNeed = 0;  ///< the most entries that a walk of `wide` has on its stack, less than depth
   Bounds bounds;
   std::vector<BvhMesh>
       meshes;  ///< shared meshes by Instance::mesh; their nodes and leaves stand behind the scene's
 };
 
-/// Nodes of the tree in local space.
-inline size_t topNodeCount(const Bvh& bvh) {
-  return bvh.meshes.empty() ? bvh.nodes.size() : bvh.meshes[0].root;
+inline uint32_t childAt(const Bvh& bvh, uint32_t place) { return bvh.nodes[place / 2].child[place % 2]; }
+
+inline const Bounds& boxAt(const Bvh& bvh, uint32_t place) { return bvh.nodes[place / 2].bounds[place % 2]; }
+
+/// Returns true if the node's one child is an instance.
+inline bool showsInstance(const Bvh& bvh, const WideNode& node) {
+  return node.innerCount == 0 && (childAt(bvh, node.place[0]) & kBvhInstanceBit) != 0;
+}
+
+/// Wide nodes of the tree in local space.
+inline size_t topWideCount(const Bvh& bvh) {
+  return bvh.meshes.empty() ? bvh.wide.size() : bvh.meshes[0].wideRoot;
 }
 
 /// The primitive in a leaf slot (leaf * 2 + side), as shaders name hits; kMissIndex for a negative one.
@@ -78,8 +102,8 @@ Bounds triangleBounds(const Scene& scene, uint32_t triangle);
 Bounds sphereBounds(const Sphere& sphere);
 
 struct BvhQuality {
-  double sahCost = 0.0;  ///< expected node visits + leaf visits of a random ray through the root's box
-  uint32_t nodeCount = 0;
+  double sahCost = 0.0;    ///< expected node visits + leaf visits of a random ray through the root's box
+  uint32_t nodeCount = 0;  ///< wide nodes, which these numbers are about
   uint32_t leafCount = 0;
   uint32_t depth = 0;
   double primitivesPerLeaf = 0.0;

@@ -47,6 +47,8 @@ Bvh buildMovingBvh(const Scene& scene) {
   const auto leaves = uint32_t(begins.leaves.size());
   Bvh all;
   all.depth = begins.depth;
+  all.stackNeed = begins.stackNeed;
+  const auto wide = uint32_t(begins.wide.size());
   for (uint32_t segment = 0; segment < motion.segments; ++segment) {
     refitTo(begins, boundsInPose(scene, segment));
     refitTo(ends, boundsInPose(scene, segment + 1));
@@ -55,6 +57,11 @@ Bvh buildMovingBvh(const Scene& scene) {
     for (BvhNode node : begins.nodes) {
       for (uint32_t& child : node.child) child += segment * ((child & kBvhLeafBit) != 0 ? leaves : nodes);
       all.nodes.push_back(node);
+    }
+    for (WideNode node : begins.wide) {
+      for (uint32_t& place : node.place) place += segment * 2 * nodes;
+      node.firstInner += segment * wide;
+      all.wide.push_back(node);
     }
     for (const BvhNode& node : ends.nodes) all.endBounds.push_back(node.bounds);
     for (BvhLeaf leaf : begins.leaves) {

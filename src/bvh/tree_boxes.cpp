@@ -7,11 +7,6 @@ namespace fragtrace {
 
 namespace {
 
-struct BoxedChild {
-  Bounds bounds;
-  uint32_t child;
-};
-
 /// Metres in front of the camera (of a perspective) where lines begin.
 constexpr double kNearest = 1e-6;
 
@@ -20,25 +15,24 @@ glm::dvec2 placeOf(const glm::dvec3& p) { return glm::dvec2(p.x, p.y) / p.z; }
 }  // namespace
 
 std::vector<Bounds> boxesAtLevel(const Bvh& bvh, uint32_t level) {
-  if (bvh.nodes.empty()) return {};
+  if (bvh.wide.empty()) return {};
   Bounds root = bvh.nodes[0].bounds[0];
   root.include(bvh.nodes[0].bounds[1]);
-  std::vector<BoxedChild> current{{root, 0}};
-  for (uint32_t l = 0; l < level && !current.empty(); ++l) {
-    std::vector<BoxedChild> next;
-    next.reserve(2 * current.size());
-    for (const BoxedChild& c : current) {
-      if ((c.child & kBvhLeafBit) != 0) continue;
-      const BvhNode& node = bvh.nodes[c.child];
-      // A root with one leaf has it as both children.
-      const int sides = node.child[0] == node.child[1] ? 1 : 2;
-      for (int side = 0; side < sides; ++side) next.push_back({node.bounds[side], node.child[side]});
+  std::vector<Bounds> boxes{root};
+  std::vector<uint32_t> nodes{0};
+  for (uint32_t l = 0; l < level; ++l) {
+    std::vector<uint32_t> next;
+    boxes.clear();
+    for (const uint32_t index : nodes) {
+      const WideNode& node = bvh.wide[index];
+      if (showsInstance(bvh, node)) continue;
+      for (uint32_t i = 0; i < node.count; ++i) {
+        boxes.push_back(boxAt(bvh, node.place[i]));
+        if (i < node.innerCount) next.push_back(node.firstInner + i);
+      }
     }
-    current = std::move(next);
+    nodes = std::move(next);
   }
-  std::vector<Bounds> boxes;
-  boxes.reserve(current.size());
-  for (const BoxedChild& c : current) boxes.push_back(c.bounds);
   return boxes;
 }
 

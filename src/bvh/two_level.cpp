@@ -9,6 +9,7 @@
 
 #include "base/vectors.h"
 #include "bvh/build.h"
+#include "bvh/collapse.h"
 
 namespace fragtrace {
 namespace {
@@ -24,7 +25,8 @@ std::vector<Bvh> buildMeshes(const Scene& scene, uint32_t maxDepth) {
     boxes.reserve(mesh.triangleCount);
     for (uint32_t i = 0; i < mesh.triangleCount; ++i)
       boxes.push_back(triangleBounds(scene, mesh.firstTriangle + i));
-    trees.push_back(buildBvh(std::move(boxes), mesh.triangleCount, {.maxDepth = maxDepth, .flatten = true}));
+    trees.push_back(buildBvh(std::move(boxes), mesh.triangleCount, {.maxDepth = maxDepth}));
+    collapse(trees.back());
   }
   return trees;
 }
@@ -106,7 +108,7 @@ Bvh buildTop(const Scene& scene, const std::vector<Bvh>& trees, uint32_t maxDept
   for (const Sphere& sphere : scene.spheres) include(sphereBounds(sphere));
   for (const Bounds& box : instanceBoxes(scene, trees, all)) boxes.push_back(box);
   for (const Sphere& sphere : scene.spheres) boxes.push_back(sphereBounds(sphere));
-  Bvh bvh = buildBvh(std::move(boxes), flat, {.maxDepth = maxDepth, .flatten = true});
+  Bvh bvh = buildBvh(std::move(boxes), flat, {.maxDepth = maxDepth});
 
   std::vector<uint32_t> childOf(bvh.leaves.size());
   std::vector<BvhLeaf> kept;
@@ -126,13 +128,20 @@ Bvh buildTop(const Scene& scene, const std::vector<Bvh>& trees, uint32_t maxDept
     }
   }
   bvh.leaves = std::move(kept);
+  collapse(bvh);
   return bvh;
 }
 
 void appendMesh(const Bvh& tree, const SharedMesh& mesh, Bvh& bvh) {
   const auto nodes = uint32_t(bvh.nodes.size());
   const auto leaves = uint32_t(bvh.leaves.size());
-  bvh.meshes.push_back({nodes, uint32_t(tree.nodes.size()), tree.bounds});
+  const auto wide = uint32_t(bvh.wide.size());
+  bvh.meshes.push_back({nodes, wide, tree.bounds});
+  for (WideNode node : tree.wide) {
+    for (uint32_t& place : node.place) place += 2 * nodes;
+    node.firstInner += wide;
+    bvh.wide.push_back(node);
+  }
   for (BvhNode node : tree.nodes) {
     for (uint32_t& child : node.child) child += (child & kBvhLeafBit) != 0 ? leaves : nodes;
     bvh.nodes.push_back(node);
@@ -159,13 +168,18 @@ Bvh buildSceneBvh(const Scene& scene) {
   assert(reserved < kMaxTwoLevelDepth);
   std::vector<Bvh> trees = buildMeshes(scene, std::min(kMaxBvhDepth, kMaxTwoLevelDepth - reserved));
   uint32_t below = 0;
-  for (const Bvh& tree : trees) below = std::max(below, tree.depth);
+  uint32_t stackBelow = 0;
+  for (const Bvh& tree : trees) {
+    below = std::max(below, tree.depth);
+    stackBelow = std::max(stackBelow, tree.stackNeed);
+  }
   Bvh bvh = buildTop(scene, trees, std::min(kMaxBvhDepth, kMaxTwoLevelDepth - 1 - below));
   for (size_t i = 0; i < trees.size(); ++i) {
     appendMesh(trees[i], scene.sharedMeshes[i], bvh);
     trees[i] = Bvh();
   }
   bvh.depth += 1 + below;
+  bvh.stackNeed += 1 + stackBelow;
   return bvh;
 }
 

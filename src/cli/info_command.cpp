@@ -38,7 +38,7 @@ struct InfoOptions {
 /// The bytes a triangle that a scene takes on the device by default, without textures and lights.
 double gpuBytesPerTriangle(const Scene& scene, const Bvh& bvh, const TraitSet& traits,
                            Surroundings surroundings) {
-  ShaderVariant variant = chooseVariant({}, traits, surroundings, bvh.depth, BufferReads::Auto);
+  ShaderVariant variant = chooseVariant({}, traits, surroundings, bvh.stackNeed, BufferReads::Auto);
   for (const TraitRow& row : traitRows()) {
     if (row.textures.front()) variant.traits.reset(size_t(row.trait));
   }

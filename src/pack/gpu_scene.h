@@ -40,12 +40,6 @@ inline const Image& wholeMap(const Environment& environment, Image& memory) {
 /// The features of the scene in these surroundings.
 TraitSet traitsOf(const Scene& scene, const Environment& environment);
 
-/// The quantisation grid of the tree's boxes: position = origin + steps * cell, steps in 0..65535.
-struct BoxGrid {
-  glm::vec3 origin{0.0f};
-  glm::vec3 cell{1.0f};
-};
-
 /// The powers between which light samples in gi choose, in one unit.
 struct LightShare {
   bool samplesEnvironment = false;
@@ -72,8 +66,8 @@ struct PackedGrid {
 
 struct GpuScene {
   std::array<Words, layout::kSceneBufferCount>
-      buffers;  ///< buffers by binding; empty if the variant never reads one
-  BoxGrid grid;
+      buffers;             ///< buffers by binding; empty if the variant never reads one
+  glm::vec3 extent{1.0f};  ///< sceneExtent()
   uint32_t leafCount = 0;
   glm::ivec4 segments{1, 0, 0, 0};  ///< layout::Frame::segments
   glm::ivec2 environmentSize{0};

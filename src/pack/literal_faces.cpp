@@ -78,13 +78,35 @@ std::optional<LiteralFace> joined(const LiteralFace& a, const LiteralFace& b, Jo
   return std::nullopt;
 }
 
+/// The leaves from `first` on; all of a tree in the order of its binary nodes, so that neighbours follow each
+/// other.
+std::vector<uint32_t> leavesFrom(const Bvh& bvh, uint32_t first) {
+  std::vector<uint32_t> leaves;
+  std::vector<uint32_t> open;
+  if (first == 0 && !bvh.nodes.empty()) open.push_back(0);
+  while (!open.empty()) {
+    const uint32_t child = open.back();
+    open.pop_back();
+    if ((child & kBvhLeafBit) != 0) {
+      leaves.push_back(child & ~kBvhLeafBit);
+      continue;
+    }
+    // A lone leaf is both children of the root.
+    const auto& [a, b] = bvh.nodes[child].child;
+    if (a != b) open.push_back(b);
+    open.push_back(a);
+  }
+  for (auto leaf = first + uint32_t(leaves.size()); leaf < bvh.leaves.size(); ++leaf) leaves.push_back(leaf);
+  return leaves;
+}
+
 }  // namespace
 
 LiteralMesh literalMesh(const Scene& scene, const Bvh& bvh, uint32_t firstLeaf, Joining joining,
                         bool emissiveApart) {
   LiteralMesh mesh;
   std::vector<uint32_t> materials;
-  for (uint32_t leaf = firstLeaf; leaf < bvh.leaves.size(); ++leaf) {
+  for (const uint32_t leaf : leavesFrom(bvh, firstLeaf)) {
     for (uint32_t side = 0; side < 2; ++side) {
       const uint32_t primitive = bvh.leaves[leaf].primitive[side];
       if (primitive == kMissIndex) continue;

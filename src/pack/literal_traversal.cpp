@@ -278,7 +278,7 @@ class TraversalText {
       // If all edges are zero, t is zero too, except where it is the plane's.
       const std::string front = positive + (sliver ? "sum > 0.0" : "t > 0.0");
       if (backFaces_) {
-        // Light paths may hit back faces (Traversal.both of shaders/traverse.glsl).
+        // Light paths may hit back faces (Traversal.both of shaders/tree/state.glsl).
         body_ += "  hit = " + front + " || (kLightPaths && s.both && (" + negative + "sum < 0.0));\n";
         body_ += "  t = sum < 0.0 ? -t : t;\n  sum = abs(sum);\n  hit = hit && t > 0.0;\n";
       } else {

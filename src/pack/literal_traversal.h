@@ -11,7 +11,7 @@ struct LiteralOptions {
   bool weights = false;  ///< barycentric ones are kept; the faces must be triangles or parallelograms then
   bool whole = false;    ///< there is nothing else to test
   bool passing =
-      false;  ///< rays pass through surfaces: hits are ordered as by isNearer() of shaders/traverse.glsl
+      false;  ///< rays pass through surfaces: hits are ordered as by isNearer() of shaders/tree/leaf.glsl
   bool backFaces = false;  ///< light paths ask for the backs of single-sided faces
 };
 

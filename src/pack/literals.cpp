@@ -65,7 +65,7 @@ uvec4 literalEmitter(int emitter, int row) { return uvec4(0u); }
 // Instructions for eight rays, counted on llvmpipe: a face with its part of the points and edges, a visit of
 // a node or a leaf. Rays in lockstep wait for the longest of them.
 constexpr double kFace = 55.0;
-constexpr double kVisit = 260.0;
+constexpr double kVisit = 380.0;
 constexpr double kLockstep = 1.6;
 // Measured on the same machine with two cores: the time saved in the Cornell box over the instructions above,
 // and the time by which a face makes compilation longer.

@@ -21,10 +21,8 @@ void appendInstance(const Instance& instance, const BvhMesh& tree, Words& words)
   const glm::mat3 toMesh{glm::inverse(glm::dmat3(toLocal))};
   const glm::vec3 place{glm::dvec3(instance.toLocal[3])};
   const InstanceOffset offset = instanceOffset(glm::dmat3(toLocal), glm::dmat3(toMesh), glm::dvec3(place));
-  const BoxGrid grid = makeGrid(tree.bounds);
   for (int row = 0; row < 3; ++row) appendRow(words, rowOf(toMesh, row), place[row]);
-  appendRow(words, grid.origin, wordFloat(tree.root));
-  appendRow(words, grid.cell, roundedUp(offset.scale));
+  appendRow(words, glm::vec3(wordFloat(tree.wideRoot), roundedUp(offset.scale), 0.0f), 0.0f);
   const float handedness = glm::determinant(glm::dmat3(toLocal)) < 0.0 ? -1.0f : 1.0f;
   const std::array<float, 3> beside{roundedUp(offset.base), handedness,
                                     roundedUp(stretchBound(glm::dmat3(toMesh)))};
@@ -45,12 +43,12 @@ InstanceOffset instanceOffset(const glm::dmat3& toLocal, const glm::dmat3& toMes
 }
 
 uint32_t firstInstanceBlock(const Bvh& bvh) {
-  constexpr size_t kNodesABlock = layout::kInstanceRows / layout::kNodeRows;
-  return uint32_t((bvh.nodes.size() + kNodesABlock - 1) / kNodesABlock);
+  return uint32_t((bvh.wide.size() * layout::kNodeRows + layout::kInstanceRows - 1) / layout::kInstanceRows);
 }
 
 void appendInstances(const Scene& scene, const Bvh& bvh, Words& nodes) {
   constexpr size_t kBlockWords = size_t(layout::kInstanceRows) * 4;
+  checkIndices("instances", firstInstanceBlock(bvh) + scene.instances.size());
   nodes.reserve((firstInstanceBlock(bvh) + scene.instances.size()) * kBlockWords);
   nodes.resize(firstInstanceBlock(bvh) * kBlockWords);
   for (const Instance& instance : scene.instances) appendInstance(instance, bvh.meshes[instance.mesh], nodes);

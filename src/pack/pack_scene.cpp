@@ -334,7 +334,7 @@ void packGeometry(const Scene& scene, const Bvh& bvh, const TraitSet& traits, bo
     for (const uint32_t binding : kGeometryBindings) packed.unchanged[binding] = true;
     return;
   }
-  packed.buffers[kNodesBinding] = packNodes(bvh, packed.grid, has(traits, Trait::MovingSurfaces));
+  packed.buffers[kNodesBinding] = packNodes(bvh, has(traits, Trait::MovingSurfaces));
   if (!scene.instances.empty()) appendInstances(scene, bvh, packed.buffers[kNodesBinding]);
   packed.buffers[kLeavesBinding] = packLeaves(scene, bvh, has(traits, Trait::MovingSurfaces));
   packed.buffers[kFacesBinding] = packFaces(scene, bvh, has(traits, Trait::Creases));
@@ -361,7 +361,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   using namespace layout;
   GpuScene packed;
   const TraitSet& traits = variant.traits;
-  packed.grid = makeGrid(bvh.bounds);
+  packed.extent = sceneExtent(bvh.bounds);
   packed.leafCount = uint32_t(bvh.leaves.size());
   packed.segments = segmentsOf(scene, bvh);
   const double radius = radiusOf(bvh);

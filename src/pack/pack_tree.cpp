@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
+#include "base/errors.h"
 #include "pack/words.h"
 #include "scene/coincidence.h"
 #include "scene/hit_error.h"
@@ -13,40 +15,145 @@ namespace fragtrace {
 
 namespace {
 
-constexpr double kGridSteps = 65535.0;
-constexpr double kBoxPadding = 0.125;  // of the longest side of a cell, along all axes
+constexpr double kMostCells = 255.0;
+constexpr int kLeastExponent = -100;  // of a cell: times the inverse of any direction it is a normal float
 
-struct GridBox {
-  glm::uvec3 low;
-  glm::uvec3 high;
+/// A child's box along an axis.
+struct Span {
+  double low = 0.0;
+  double high = 0.0;
+  bool isFlat = false;  ///< holds only points of this very coordinate
 };
 
-GridBox quantise(const Bounds& box, const BoxGrid& grid) {
-  GridBox q;
-  const double padding = kBoxPadding * double(std::max({grid.cell.x, grid.cell.y, grid.cell.z}));
-  for (int axis = 0; axis < 3; ++axis) {
-    const double cells = padding / double(grid.cell[axis]);
-    const double low = (double(box.minimum[axis]) - grid.origin[axis]) / grid.cell[axis];
-    const double high = (double(box.maximum[axis]) - grid.origin[axis]) / grid.cell[axis];
-    q.low[axis] = uint32_t(std::clamp(std::floor(low - cells), 0.0, kGridSteps));
-    q.high[axis] = uint32_t(std::clamp(std::ceil(high + cells), 0.0, kGridSteps));
+/// The boxes of a node's children along an axis.
+using Spans = std::span<const Span>;
+
+double lowOf(Spans spans) {
+  double low = spans[0].low;
+  for (const Span& span : spans) low = std::min(low, span.low);
+  return low;
+}
+
+double highOf(Spans spans) {
+  double high = spans[0].high;
+  for (const Span& span : spans) high = std::max(high, span.high);
+  return high;
+}
+
+float floatBelow(double x) {
+  const auto f = float(x);
+  return double(f) > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
+}
+
+/// The origin of the node's grid. Its lines are multiples of the cell, so that sides at round coordinates are
+/// not moved. Where a flat box is the lowest, the origin is its coordinate: rays which leave a floor do not
+/// begin in its boxes.
+float originOf(Spans spans, double low, double cell) {
+  const auto isFlatThere = [&](const Span& span) { return span.isFlat && span.low == low; };
+  return floatBelow(std::ranges::any_of(spans, isFlatThere) ? low : std::floor(low / cell) * cell);
+}
+
+double highCell(double high, float origin, double cell) { return std::ceil((high - double(origin)) / cell); }
+
+/// The least power of two that is large enough for a cell.
+int exponentFor(Spans spans) {
+  const double low = lowOf(spans);
+  const double high = highOf(spans);
+  int exponent = kLeastExponent;
+  if (high > low) exponent = std::max(exponent, std::ilogb((high - low) / kMostCells));
+  const auto fits = [&](double cell) {
+    return highCell(high, originOf(spans, low, cell), cell) <= kMostCells;
+  };
+  while (!fits(std::ldexp(1.0, exponent))) ++exponent;
+  return exponent;
+}
+
+/// What moves is padded by what rounding moves a point on its way (onItsWay of shaders/tree.glsl).
+void pad(Span& from, Span& to) {
+  if (from.isFlat && to.isFlat && from.low == to.low) return;
+  constexpr double kOnItsWay = 4.0 * 0x1p-24;
+  const auto roundingOf = [](double a, double b) {
+    return kOnItsWay * (std::max(std::abs(a), std::abs(b)) + std::abs(b - a));
+  };
+  const double rounding = std::max(roundingOf(from.low, to.low), roundingOf(from.high, to.high));
+  for (Span* span : {&from, &to}) *span = {span->low - rounding, span->high + rounding, false};
+}
+
+/// A node's children by axis, at the beginning of its segment and at its end; without motion these are the
+/// same.
+struct NodeSpans {
+  std::array<std::array<std::array<Span, WideNode::kMost>, 3>, 2> span{};
+  size_t count = 0;
+
+  Spans along(size_t end, size_t axis) const { return Spans(span[end][axis]).first(count); }
+};
+
+NodeSpans spansOf(const Bvh& bvh, const WideNode& node, bool moving) {
+  NodeSpans spans;
+  spans.count = node.count;
+  for (uint32_t i = 0; i < node.count; ++i) {
+    const uint32_t place = node.place[i];
+    const Bounds& begins = boxAt(bvh, place);
+    const Bounds& ends = bvh.endBounds.empty() ? begins : bvh.endBounds[place / 2][place % 2];
+    const auto spanOf = [](const Bounds& box, int axis) {
+      return Span{box.minimum[axis], box.maximum[axis], box.minimum[axis] == box.maximum[axis]};
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+      Span& from = spans.span[0][size_t(axis)][i] = spanOf(begins, axis);
+      Span& to = spans.span[1][size_t(axis)][i] = spanOf(ends, axis);
+      if (moving) pad(from, to);
+    }
   }
-  return q;
+  return spans;
 }
 
-/// Inner nodes keep their index; leaves become the complement of theirs, which is negative; instances are
-/// leaves from kInstanceLeaf on.
-uint32_t childWord(uint32_t child, uint32_t firstInstance) {
-  if ((child & kBvhLeafBit) == 0) return child;
-  if ((child & kBvhInstanceBit) == 0) return ~(child & ~kBvhLeafBit);
-  return ~((child & ~(kBvhLeafBit | kBvhInstanceBit)) + firstInstance + layout::kInstanceLeaf);
+uint32_t bitsOf(uint32_t first, uint32_t end) { return ((1u << end) - (1u << first)) * layout::kFirstChild; }
+
+/// The groups of a node's inner children and of its leaves (layout.glsl).
+std::array<uint32_t, 2> groupsOf(const Bvh& bvh, const WideNode& node, uint32_t firstInstance) {
+  uint32_t leaf = 0;
+  if (node.count > node.innerCount) {
+    const uint32_t child = childAt(bvh, node.place[node.innerCount]);
+    leaf = child & ~(kBvhLeafBit | kBvhInstanceBit);
+    if ((child & kBvhInstanceBit) != 0) leaf += firstInstance + uint32_t(layout::kInstanceLeaf);
+  }
+  return {bitsOf(0, node.innerCount) | (node.innerCount > 0 ? node.firstInner : 0u),
+          bitsOf(node.innerCount, node.count) | ((leaf - node.innerCount) & layout::kBaseMask)};
 }
 
-void appendNode(const BvhNode& node, const BoxGrid& grid, uint32_t firstInstance, Words& words) {
-  for (int side = 0; side < 2; ++side) {
-    const GridBox q = quantise(node.bounds[side], grid);
-    for (int axis = 0; axis < 3; ++axis) words.push_back(q.low[axis] | q.high[axis] << 16);
-    words.push_back(childWord(node.child[side], firstInstance));
+/// Appends the low and the high sides of boxes along an axis.
+void appendSides(Words& words, Spans spans, float origin, double cell) {
+  uint32_t lows = 0;
+  uint32_t highs = 0;
+  for (size_t i = 0; i < spans.size(); ++i) {
+    lows |= uint32_t(std::floor((spans[i].low - double(origin)) / cell)) << 8 * i;
+    highs |= uint32_t(highCell(spans[i].high, origin, cell)) << 8 * i;
+  }
+  words.push_back(lows);
+  words.push_back(highs);
+}
+
+void appendNode(const Bvh& bvh, const WideNode& node, uint32_t firstInstance, bool moving, Words& words) {
+  const NodeSpans spans = spansOf(bvh, node, moving);
+  std::array<double, 3> cells{};
+  uint32_t exponents = 0;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    int exponent = exponentFor(spans.along(0, axis));
+    if (moving) exponent = std::max(exponent, exponentFor(spans.along(1, axis)));
+    cells[axis] = std::ldexp(1.0, exponent);
+    exponents |= uint32_t(exponent + 127) << 8 * axis;
+  }
+  for (size_t end = 0; end < (moving ? 2u : 1u); ++end) {
+    std::array<float, 3> origin{};
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const Spans along = spans.along(end, axis);
+      origin[axis] = originOf(along, lowOf(along), cells[axis]);
+      words.push_back(floatWord(origin[axis]));
+    }
+    words.push_back(exponents);
+    for (size_t axis = 0; axis < 3; ++axis)
+      appendSides(words, spans.along(end, axis), origin[axis], cells[axis]);
+    for (const uint32_t group : groupsOf(bvh, node, firstInstance)) words.push_back(group);
   }
 }
 
@@ -96,40 +203,33 @@ void appendLeaf(Words& words, const LeafSide& a, const LeafSide& b) {
 
 }  // namespace
 
-BoxGrid makeGrid(const Bounds& bounds) {
-  BoxGrid grid;
-  if (bounds.empty()) return grid;
-  const glm::dvec3 low(bounds.minimum);
-  const glm::dvec3 high(bounds.maximum);
-  const glm::dvec3 largest = glm::max(glm::abs(low), glm::abs(high));
-  const glm::dvec3 cell =
-      glm::max(glm::max((high - low) / (kGridSteps - 4.0), largest * 0x1p-23), glm::dvec3(1e-30));
-  const double widest = std::max({cell.x, cell.y, cell.z});
+glm::vec3 sceneExtent(const Bounds& bounds) {
+  if (bounds.empty()) return glm::vec3(1.0f);
+  const glm::dvec3 sides = (glm::dvec3(bounds.maximum) - glm::dvec3(bounds.minimum)) / 65531.0;
+  const double widest = std::max({sides.x, sides.y, sides.z});
+  glm::vec3 extent;
   for (int axis = 0; axis < 3; ++axis) {
-    // The padding is then at most a step, for which two steps of margin on either side leave room.
-    const double step = std::max(cell[axis], kBoxPadding * widest);
-    grid.cell[axis] = std::nextafter(float(step), std::numeric_limits<float>::infinity());
-    grid.origin[axis] = float(low[axis] - 2.0 * grid.cell[axis]);
+    const auto side = float(std::max({sides[axis], 0.125 * widest, 1e-30}));
+    extent[axis] = 65536.0f * std::nextafter(side, std::numeric_limits<float>::infinity());
   }
-  return grid;
+  return extent;
 }
 
-Words packNodes(const Bvh& bvh, const BoxGrid& grid, bool moving) {
-  Words words;
-  words.reserve(bvh.nodes.size() * layout::kNodeRows * (moving ? 8u : 4u));
-  const std::span<const BvhNode> nodes(bvh.nodes);
+float treeRounding(const glm::vec3& extent) { return 0x1p-14f * std::max({extent.x, extent.y, extent.z}); }
+
+void checkIndices(const char* what, size_t count) {
+  if (count > size_t(layout::kInstanceLeaf))
+    throw InputError("the tree of the scene has " + std::to_string(count) + " " + what + ", at most " +
+                     std::to_string(layout::kInstanceLeaf) + " can be drawn");
+}
+
+Words packNodes(const Bvh& bvh, bool moving) {
   const uint32_t firstInstance = firstInstanceBlock(bvh);
-  for (size_t i = 0; i < topNodeCount(bvh); ++i) {
-    appendNode(nodes[i], grid, firstInstance, words);
-    if (!moving) continue;
-    const BvhNode end{bvh.endBounds.empty() ? nodes[i].bounds : bvh.endBounds[i], nodes[i].child};
-    appendNode(end, grid, firstInstance, words);
-  }
-  for (const BvhMesh& mesh : bvh.meshes) {
-    const BoxGrid ofMesh = makeGrid(mesh.bounds);
-    for (const BvhNode& node : nodes.subspan(mesh.root, mesh.nodeCount))
-      appendNode(node, ofMesh, firstInstance, words);
-  }
+  checkIndices("nodes", bvh.wide.size());
+  checkIndices("leaves", bvh.leaves.size());
+  Words words;
+  words.reserve(bvh.wide.size() * layout::kNodeRows * (moving ? 8u : 4u));
+  for (const WideNode& node : bvh.wide) appendNode(bvh, node, firstInstance, moving, words);
   return words;
 }
 
@@ -152,7 +252,7 @@ Words packLeaves(const Scene& scene, const Bvh& bvh, bool moving) {
 
 glm::ivec4 segmentsOf(const Scene& scene, const Bvh& bvh) {
   const uint32_t segments = std::max(1u, scene.motion.segments);
-  return {segments, bvh.nodes.size() / segments, bvh.leaves.size() / segments, scene.motion.vertices};
+  return {segments, bvh.wide.size() / segments, bvh.leaves.size() / segments, scene.motion.vertices};
 }
 
 std::vector<uint32_t> leafSlots(const Scene& scene, const Bvh& bvh) {

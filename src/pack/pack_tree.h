@@ -5,13 +5,19 @@
 
 namespace fragtrace {
 
-/// The grid that covers the tree's box.
-BoxGrid makeGrid(const Bounds& bounds);
+/// The sides of the scene's box, a little larger; none is less than an eighth of the longest.
+glm::vec3 sceneExtent(const Bounds& bounds);
 
-/// Inner nodes with both children's boxes, 16 bits a coordinate, rounded outwards and padded by 1/8 of a cell
-/// against the rounding of the slab test (docs/design/numerics.md). Trees of shared meshes have grids of
-/// their own. Moving ones come twice, as leaves do.
-Words packNodes(const Bvh& bvh, const BoxGrid& grid, bool moving = false);
+/// layout::Frame::treeRounding.
+float treeRounding(const glm::vec3& extent);
+
+/// The wide nodes: boxes of up to four children, a byte a side, rounded outwards on a grid of the node's own.
+/// Moving ones come twice, as leaves do, with cells of the same size. Throws InputError where they are too
+/// many.
+Words packNodes(const Bvh& bvh, bool moving = false);
+
+/// Throws InputError where groups of a node (layout.glsl) have no room for the index of the last one.
+void checkIndices(const char* what, size_t count);
 
 /// Leaves as structure of arrays, padded with empty ones to a multiple of kLeafBlock. Moving ones come twice,
 /// when their segment begins and when it ends.

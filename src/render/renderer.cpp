@@ -8,6 +8,7 @@
 #include <deque>
 
 #include "base/errors.h"
+#include "pack/pack_tree.h"
 #include "scene/projection.h"
 
 namespace fragtrace {
@@ -123,8 +124,8 @@ void Renderer::describeSurroundings(const GpuScene& scene) {
 
 void Renderer::describeScene(const GpuScene& scene) {
   describeSurroundings(scene);
-  frame_.gridOrigin = glm::vec4(scene.grid.origin, 0.0f);
-  frame_.gridCell = glm::vec4(scene.grid.cell, 0.0f);
+  frame_.sceneExtent = scene.extent;
+  frame_.treeRounding = treeRounding(scene.extent);
   casters_ = scene.casters;
   wideLamps_ = scene.wideLamps;
   grid_ = scene.densities;

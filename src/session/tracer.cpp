@@ -187,13 +187,13 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
   const bool dim = haveNothingToBring(options, present, loaded);
   if (dim) options.light.caustics = Caustics::Off;
   const RenderOptions drawn = withCameraRays(options, present, loaded.scene);
-  const uint32_t depth = loaded.bvh.depth;
+  const uint32_t need = loaded.bvh.stackNeed;
   const BufferReads undecided = options.device.bufferReads;  // packed data do not depend on it
-  tracer.variant = choosePictureVariant(drawn, present, loaded.environment.kind, depth, undecided);
+  tracer.variant = choosePictureVariant(drawn, present, loaded.environment.kind, need, undecided);
   ShaderVariant everything = tracer.variant;
   tracer.aovs.clear();
   for (const Aov aov : options.output.aovs) {
-    tracer.aovs.push_back(chooseAovVariant(drawn, present, loaded.environment.kind, depth, undecided, aov));
+    tracer.aovs.push_back(chooseAovVariant(drawn, present, loaded.environment.kind, need, undecided, aov));
     everything.traits |= tracer.aovs.back().traits;
   }
   const bool gi = has(tracer.variant.stages, Stage::Gi);

@@ -18,9 +18,9 @@ using glm::vec4;
 #include "layout.glsl"
 #include "work/kinds.glsl"
 
-static_assert(sizeof(Frame) == 19 * 16);
-static_assert(offsetof(Frame, gridOrigin) == 4 * 16);
-static_assert(offsetof(Frame, pictureSize) == 9 * 16);
+static_assert(sizeof(Frame) == 18 * 16);
+static_assert(offsetof(Frame, sceneExtent) == 4 * 16);
+static_assert(offsetof(Frame, pictureSize) == 8 * 16);
 static_assert(sizeof(Progress) == 16);
 static_assert(sizeof(Shutter) == (1 + 4 * kMostCameraSegments) * 16);
 static_assert(sizeof(Fog) == 3 * 16);

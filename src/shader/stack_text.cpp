@@ -22,10 +22,10 @@ std::string pushLine(int i) {
 
 std::string popLine(int i, int vectors) {
   const std::string e = member(i);
-  std::string next = "kTraversalDone";
+  std::string next = "kEndGroup";
   if (i + 1 < vectors) {
     next = member(i + 1) + ".x";
-    if (i > 0) next = "(kStackSize > " + std::to_string(4 * i + 4) + " ? " + next + " : kTraversalDone)";
+    if (i > 0) next = "(kStackSize > " + std::to_string(4 * i + 4) + " ? " + next + " : kEndGroup)";
   }
   return line(i, e + " = pop ? popped(" + e + ", " + next + ") : " + e);
 }
@@ -34,19 +34,19 @@ std::string popLine(int i, int vectors) {
 
 std::string stackText(int vectors) {
   std::string text = "struct Stack {\n";
-  for (int i = 0; i < vectors; ++i) text += "  ivec4 e" + std::to_string(i) + ";\n";
+  for (int i = 0; i < vectors; ++i) text += "  uvec4 e" + std::to_string(i) + ";\n";
   text += "};\n";
-  // An empty stack: popping it gives kTraversalDone.
+  // An empty stack: popping it gives kEndGroup.
   text += "Stack emptyStack() {\n  Stack s;\n";
-  for (int i = 0; i < vectors; ++i) text += line(i, member(i) + " = ivec4(kTraversalDone)");
+  for (int i = 0; i < vectors; ++i) text += line(i, member(i) + " = uvec4(kEndGroup)");
   text += "  return s;\n}\n";
-  text += "int topOf(Stack s) { return s.e0.x; }\n";
-  text += "ivec4 pushed(ivec4 e, int top) { return ivec4(top, e.x, e.y, e.z); }\n";
-  text += "ivec4 popped(ivec4 e, int next) { return ivec4(e.y, e.z, e.w, next); }\n";
+  text += "uint topOf(Stack s) { return s.e0.x; }\n";
+  text += "uvec4 pushed(uvec4 e, uint top) { return uvec4(top, e.x, e.y, e.z); }\n";
+  text += "uvec4 popped(uvec4 e, uint next) { return uvec4(e.y, e.z, e.w, next); }\n";
   // Pushes value on top, pops the top (e0.x), or neither; never both. Two passes of single selects: nested
   // ones cost llvmpipe a seventh of the time of a ball's paths. A push goes from the bottom up, a pop from
   // the top down, so that each entry is read before it changes.
-  text += "Stack stepStack(Stack s, bool push, bool pop, int value) {\n";
+  text += "Stack stepStack(Stack s, bool push, bool pop, uint value) {\n";
   for (int i = vectors; i-- > 0;) text += pushLine(i);
   for (int i = 0; i < vectors; ++i) text += popLine(i, vectors);
   return text + "  return s;\n}\n";
@@ -57,8 +57,8 @@ std::string stackRowsText(int vectors) {
   std::string load = "Stack loadStack(int r) {\n  Stack s = emptyStack();\n";
   for (int i = 0; i < vectors; ++i) {
     const std::string row = i == 0 ? "r" : "r + " + std::to_string(i);
-    save += line(i, "pathStates[" + row + "] = uvec4(" + member(i) + ")");
-    load += line(i, member(i) + " = ivec4(readPathStates(" + row + "))");
+    save += line(i, "pathStates[" + row + "] = " + member(i));
+    load += line(i, member(i) + " = readPathStates(" + row + ")");
   }
   return save + "}\n" + load + "  return s;\n}\n";
 }

@@ -9,7 +9,7 @@ namespace fragtrace {
 
 /// Returns the text of emptyStack(), stepStack() and `struct Stack`, which has as many members as `vectors`:
 /// e0, e1 and so on. e0.x is the top of the stack. kStackSize is the number of entries, a multiple of four
-/// and at least eight. The tree is no deeper than that, so no entry is lost at the bottom.
+/// and at least eight. A walk of the tree needs no more than that, so no entry is lost at the bottom.
 std::string stackText(int vectors);
 
 /// Returns the text of saveStack() and loadStack(). Each vector takes a row of the buffer of path states.

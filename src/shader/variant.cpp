@@ -224,7 +224,7 @@ std::string whyNoLightPaths(const RenderOptions& options, const TraitSet& presen
 }
 
 ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& present, Surroundings surroundings,
-                            uint32_t treeDepth, BufferReads reads) {
+                            uint32_t stackNeed, BufferReads reads) {
   ShaderVariant v;
   v.stages = options.stages;
   v.traits = present;
@@ -247,9 +247,9 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
                      options.device.traversal != TraversalMethod::Literals;
   v.traversal = named ? options.device.traversal : TraversalMethod::FrontToBack;
   if (v.traversal == TraversalMethod::Iterative) drop(v.traits, {Trait::Instances});
-  v.stackSize = treeDepth <= kMaxBvhDepth ? int(kMaxBvhDepth) : int(kMaxTwoLevelDepth);
+  v.stackSize = stackNeed <= kMaxBvhDepth ? int(kMaxBvhDepth) : int(kMaxTwoLevelDepth);
   for (int size : {24, 20, 16, 12, 8}) {
-    if (treeDepth <= uint32_t(size)) v.stackSize = size;
+    if (stackNeed <= uint32_t(size)) v.stackSize = size;
   }
   if (v.traversal == TraversalMethod::Iterative) v.stackSize = 8;
 
@@ -269,11 +269,11 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
 }
 
 ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& present,
-                               Surroundings surroundings, uint32_t treeDepth, BufferReads reads, Aov aov) {
+                               Surroundings surroundings, uint32_t stackNeed, BufferReads reads, Aov aov) {
   RenderOptions wanted = options;
   wanted.output.debugView = DebugView::None;
   if (isLightPart(aov)) {
-    ShaderVariant light = chooseVariant(wanted, present, surroundings, treeDepth, reads);
+    ShaderVariant light = chooseVariant(wanted, present, surroundings, stackNeed, reads);
     light.aov = aov;
     dropLightPaths(light.traits);
     light.neighbours = false;
@@ -303,7 +303,7 @@ ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& pre
   if (aov != Aov::Albedo && !guides && !has(present, Trait::Alpha)) {
     for (Trait t : {Trait::BaseColorTexture, Trait::VertexColors}) kept.reset(size_t(t));
   }
-  ShaderVariant v = chooseVariant(wanted, kept, surroundings, treeDepth, reads);
+  ShaderVariant v = chooseVariant(wanted, kept, surroundings, stackNeed, reads);
   v.traits.reset(size_t(Trait::Environment));
   const auto keep = [&](Trait t) {
     if (has(present, t)) v.traits.set(size_t(t));
@@ -332,10 +332,10 @@ ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& pre
 }
 
 ShaderVariant choosePictureVariant(const RenderOptions& options, const TraitSet& present,
-                                   Surroundings surroundings, uint32_t treeDepth, BufferReads reads) {
+                                   Surroundings surroundings, uint32_t stackNeed, BufferReads reads) {
   const Aov aov = rowOf(options.output.debugView).aov;
-  if (aov != Aov::None) return chooseAovVariant(options, present, surroundings, treeDepth, reads, aov);
-  return chooseVariant(options, present, surroundings, treeDepth, reads);
+  if (aov != Aov::None) return chooseAovVariant(options, present, surroundings, stackNeed, reads, aov);
+  return chooseVariant(options, present, surroundings, stackNeed, reads);
 }
 
 std::optional<ShaderVariant> lightPathVariant(const ShaderVariant& variant) {

@@ -62,16 +62,16 @@ bool hasOwnLight(const Scene& scene);
 
 /// Reduces any wish to a legal variant: all implications between stages and traits stand here, once.
 ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& present, Surroundings surroundings,
-                            uint32_t treeDepth, BufferReads reads);
+                            uint32_t stackNeed, BufferReads reads);
 
 /// The variant that draws an AOV for the same samples: what radiance alone needs is left out. `wanted` are
 /// the options as for chooseVariant, which it calls.
 ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& present,
-                               Surroundings surroundings, uint32_t treeDepth, BufferReads reads, Aov aov);
+                               Surroundings surroundings, uint32_t stackNeed, BufferReads reads, Aov aov);
 
 /// The variant that draws what the picture shows: radiance, or what the options' debug view needs.
 ShaderVariant choosePictureVariant(const RenderOptions& options, const TraitSet& present,
-                                   Surroundings surroundings, uint32_t treeDepth, BufferReads reads);
+                                   Surroundings surroundings, uint32_t stackNeed, BufferReads reads);
 
 /// The variant that traces the light paths of such a picture, if it has any.
 std::optional<ShaderVariant> lightPathVariant(const ShaderVariant& variant);

@@ -78,8 +78,8 @@ class BenchTraversal(Bench):
         self.fails(3, "bench", "traversal", SCENES / "sphere-plane.gltf", *RAYS, "--rays", path, says=["spheres"])
 
     def test_wrong_hits_fail(self):
-        for name, old, new in (("traverse.glsl", "bool hita = ", "bool hita = s.slot < 0 && "),
-                               ("traverse.glsl", "bool hit1 = near1 <= far1;", "bool hit1 = near1 < 0.9f * far1;")):
+        for name, old, new in (("tree/leaf.glsl", "bool hita = ", "bool hita = s.slot < 0 && "),
+                               ("slab.glsl", "floatBitsToInt(far) + 32", "floatBitsToInt(0.9f * far)")):
             with self.subTest(new):
                 folder = self.broken(name, old, new)
                 self.fails(1, "bench", "traversal", ROOM, *RAYS, "--shader-folder", folder, says=["rays hit something else"])

@@ -11,8 +11,8 @@ MUTATIONS = {
     "an edge belongs to neither neighbour": ("intersect.glsl", ">= 0.0f && v >= 0.0f && w >= 0.0f", "> 0.0f && v > 0.0f && w > 0.0f", "rims-from-inside"),
     "rays start on the surface itself": ("intersect.glsl", "? -error : error", "? -0.0f * error : 0.0f * error", "shell white"),
     "insets of shared meshes know nothing of their instance": ("surface.glsl", "times *= offsetOutOfMesh(back, error) * back.stretchBack / error", "times = 1.0", "shell shared"),
-    "slivers lie at the depths of their vertices": ("traverse.glsl", "(word & kPrimitiveSliver) != 0u", "false", "strips"),
-    "surfaces at the distance of one that is passed through are passed, too": ("traverse.glsl", "liesBehind(t, s.tMin, slot > s.tMinSlot)", "t > s.tMin", "skins"),
+    "slivers lie at the depths of their vertices": ("tree/leaf.glsl", "(word & kPrimitiveSliver) != 0u", "false", "strips"),
+    "surfaces at the distance of one that is passed through are passed, too": ("tree/leaf.glsl", "liesBehind(t, s.tMin, slot > s.tMinSlot)", "t > s.tMin", "skins"),
 }
 
 

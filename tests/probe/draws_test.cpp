@@ -44,7 +44,7 @@ class Draws : public GlProbe {
     const bool iterative = options.device.traversal == TraversalMethod::Iterative;
     const Bvh bvh = iterative ? listLeaves(scene) : buildSceneBvh(scene);
     const Environment surroundings;
-    variant_ = chooseVariant(options, traitsOf(scene, surroundings.kind), surroundings.kind, bvh.depth,
+    variant_ = chooseVariant(options, traitsOf(scene, surroundings.kind), surroundings.kind, bvh.stackNeed,
                              BufferReads::Image);
     renderer_ = std::make_unique<Renderer>(context(), packScene(scene, bvh, surroundings, variant_),
                                            BufferReads::Image);

@@ -36,8 +36,8 @@ void loadAndDrop(const Context& context, const std::filesystem::path& path) {
   const Scene scene = loadGltf(path);
   const Bvh bvh = buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));
   const Environment surroundings;
-  const ShaderVariant variant =
-      chooseVariant({}, traitsOf(scene, surroundings.kind), surroundings.kind, bvh.depth, BufferReads::Image);
+  const ShaderVariant variant = chooseVariant({}, traitsOf(scene, surroundings.kind), surroundings.kind,
+                                              bvh.stackNeed, BufferReads::Image);
   const Renderer renderer(context, packScene(scene, bvh, surroundings, variant), BufferReads::Image);
   const Film film({64, 64});
   const GlProgram program =

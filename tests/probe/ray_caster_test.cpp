@@ -33,8 +33,8 @@ TEST_P(RayCasting, FindsWhatDoublePrecisionFinds) {
       RenderOptions options;
       options.stages = stagesUpTo(Stage::Flat);
       options.device.traversal = method;
-      ShaderVariant variant =
-          chooseVariant(options, traitsOf(scene, Surroundings::None), Surroundings::None, bvh.depth, reads);
+      ShaderVariant variant = chooseVariant(options, traitsOf(scene, Surroundings::None), Surroundings::None,
+                                            bvh.stackNeed, reads);
       variant.dispatch = dispatch;
       variant.gpu = gpu;
       RayCaster caster(context(), packScene(scene, bvh, {}, variant), variant, size);

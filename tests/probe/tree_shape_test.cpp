@@ -29,8 +29,8 @@ class TreeShapes : public GlProbe {
     RenderOptions options;
     options.stages = stagesUpTo(Stage::Flat);
     options.device.traversal = TraversalMethod::FrontToBack;
-    variant_ = chooseVariant(options, traitsOf(scene_, Surroundings::None), Surroundings::None, bvh_.depth,
-                             BufferReads::Image);
+    variant_ = chooseVariant(options, traitsOf(scene_, Surroundings::None), Surroundings::None,
+                             bvh_.stackNeed, BufferReads::Image);
     renderer_ =
         std::make_unique<Renderer>(context(), packScene(scene_, bvh_, {}, variant_), BufferReads::Image);
     view_.camera.position = {0.0, 0.0, 3.0};

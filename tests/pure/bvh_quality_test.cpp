@@ -85,7 +85,14 @@ TEST(Bvh, CostsAtMostATenthMoreThanAFullSweep) {
     const std::vector<Bounds> boxes = boxesOf(triangles);
     const Bvh bvh = buildBvh(boxes, kNoSingles);
     const double sweep = 1.0 + FullSweep(boxes).cost(0, boxes.size()) / areaInDouble(bvh.bounds);
-    EXPECT_LE(bvhQuality(bvh).sahCost, 1.1 * sweep) << boxes.size() << " triangles, sweep " << sweep;
+    double cost = areaInDouble(bvh.bounds);
+    for (const BvhNode& node : bvh.nodes) {
+      for (const Bounds& box : node.bounds) cost += areaInDouble(box);
+    }
+    cost /= areaInDouble(bvh.bounds);
+    EXPECT_LE(cost, 1.1 * sweep) << boxes.size() << " triangles, sweep " << sweep;
+    // Nodes of four children more than halve the visits of inner nodes.
+    EXPECT_LE(bvhQuality(bvh).sahCost, 0.7 * cost);
   }
 }
 
@@ -104,9 +111,9 @@ TEST(BvhQuality, CountsVisitsOfATreeWorkedOutByHand) {
   EXPECT_DOUBLE_EQ(pairs.primitivesPerLeaf, 2.0);
 
   const BvhQuality singles = bvhQuality(buildBvh(boxes, 0));
-  EXPECT_DOUBLE_EQ(singles.sahCost, 1.0 + (20.0 + 4.0 * 6.0) / 410.0);
-  EXPECT_EQ(singles.nodeCount, 3u);
-  EXPECT_EQ(singles.depth, 2u);
+  EXPECT_DOUBLE_EQ(singles.sahCost, 1.0 + 4.0 * 6.0 / 410.0);
+  EXPECT_EQ(singles.nodeCount, 1u);
+  EXPECT_EQ(singles.depth, 1u);
   EXPECT_DOUBLE_EQ(singles.primitivesPerLeaf, 1.0);
 }
 

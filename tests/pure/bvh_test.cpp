@@ -86,7 +86,9 @@ void checkTree(const std::vector<Bounds>& boxes, uint32_t firstSingle = kNoSingl
 bool equal(const Bvh& a, const Bvh& b) {
   return a.nodes.size() == b.nodes.size() && a.leaves.size() == b.leaves.size() && a.depth == b.depth &&
          std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(BvhNode)) == 0 &&
-         std::memcmp(a.leaves.data(), b.leaves.data(), a.leaves.size() * sizeof(BvhLeaf)) == 0;
+         std::memcmp(a.leaves.data(), b.leaves.data(), a.leaves.size() * sizeof(BvhLeaf)) == 0 &&
+         a.wide.size() == b.wide.size() && a.stackNeed == b.stackNeed &&
+         std::memcmp(a.wide.data(), b.wide.data(), a.wide.size() * sizeof(WideNode)) == 0;
 }
 
 TEST(Bvh, OfNothingIsEmpty) {
@@ -148,19 +150,6 @@ TEST(Bvh, StaysWithinAnyDepthThatLeavesRoom) {
   checkTree(boxes, 0, 13);
   checkTree(boxes, 8000, 13);
   for (uint32_t maxDepth : {8u, 9u, 12u}) checkTree(geometricProgression(), kNoSingles, maxDepth);
-}
-
-TEST(Bvh, IsFlattenedToTheNextStackSizeWhereThatCostsLittle) {
-  const std::vector<Bounds> mesh = boxesOf(bumpySphere(177));
-  const Bvh deep = buildBvh(mesh, kNoSingles, {});
-  const Bvh flat = buildBvh(mesh, kNoSingles);
-  EXPECT_GT(deep.depth, 16u);
-  EXPECT_EQ(flat.depth, 16u);
-  EXPECT_LE(bvhQuality(flat).sahCost, 1.03 * bvhQuality(deep).sahCost);
-
-  const std::vector<Bounds> progression = geometricProgression();
-  const Bvh kept = buildBvh(progression, kNoSingles);
-  EXPECT_LE(bvhQuality(kept).sahCost, 1.03 * bvhQuality(buildBvh(progression, kNoSingles, {})).sahCost);
 }
 
 TEST(Bvh, TakesBoxesWithoutExtentAndOfAnySize) {

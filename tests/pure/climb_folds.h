@@ -121,7 +121,7 @@ inline dvec3 besideCrease(const std::array<vec3, 3>& v, Genes& g) {
       v, g.take() < 0.5 ? glm::dvec2(along * (1.0 - near), near) : near * glm::dvec2(along, 1.0 - along));
 }
 
-/// The hit of a ray on one face, as intersectLeaf of traverse.glsl finds it.
+/// The hit of a ray on one face, as intersectLeaf of tree/leaf.glsl finds it.
 inline auto hitOn(const std::array<vec3, 3>& v, const vec3& origin, const vec3& direction) {
   return glsl_float::intersectWord(glsl_float::startTraversal(1e30f, 1), origin, direction,
                                    glsl_float::makeShear(direction), v[0], v[1], v[2], 0u, 0);

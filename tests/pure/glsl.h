@@ -100,8 +100,6 @@ using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 #include "glsl_functions.h"
-inline int floatBitsToInt(float x) { return std::bit_cast<int>(x); }
-inline float intBitsToFloat(int x) { return std::bit_cast<float>(x); }
 #include "slab.glsl"
 inline uint floatBitsToUint(float x) { return std::bit_cast<uint>(x); }
 // The rest is as for doubles.
@@ -121,8 +119,10 @@ using vec2 = glm::dvec2;
 using vec3 = glm::dvec3;
 using vec4 = glm::dvec4;
 #include "glsl_functions.h"
-inline float slabMin(float a, float b) { return min(a, b); }
-inline float slabMax(float a, float b) { return max(a, b); }
+inline vec4 slabMin(vec4 a, vec4 b) { return min(a, b); }
+inline vec4 slabMax(vec4 a, vec4 b) { return max(a, b); }
+inline bvec4 slabHits(vec4 near, vec4 far) { return lessThanEqual(near, far + 1e-14 * abs(far)); }
+inline ivec4 slabOrder(vec4 near) { return glm::floatBitsToInt(glm::vec4(near)); }
 #include "glsl_files.h"
 }  // namespace
 }  // namespace fragtrace::glsl_double

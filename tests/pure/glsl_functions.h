@@ -5,6 +5,7 @@
 
 using uint = uint32_t;
 using glm::bitfieldReverse;
+using glm::bvec4;
 using glm::ivec2;
 using glm::ivec3;
 using glm::ivec4;

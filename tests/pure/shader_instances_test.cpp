@@ -109,12 +109,12 @@ TEST(ShaderInstances, StopsAndGoesOnWithoutATrace) {
 TEST(ShaderInstances, TheStackHoldsTheWholePathThroughBothLevels) {
   const With instances(glsl_variant::kInstances, true);
   const PackedTree p = instancedScene({.scaleFrom = 0.5, .scaleTo = 1.0}, 200);
-  ASSERT_LE(p.bvh.depth, kMaxTwoLevelDepth);
+  ASSERT_LE(p.bvh.stackNeed, kMaxTwoLevelDepth);
   const With deep(glsl_variant::kStackSize, int(kMaxTwoLevelDepth));
   for (const Ray& ray : raysAtInstances(p, 1000)) {
     const Outcome expected = traceFloat(p, Method::Bvh, ray);
     for (const uint32_t size : kBvhStackSizes) {
-      if (size < p.bvh.depth) continue;
+      if (size < p.bvh.stackNeed) continue;
       const With stack(glsl_variant::kStackSize, int(size));
       ASSERT_EQ(traceFloat(p, Method::Bvh, ray), expected);
     }
@@ -281,7 +281,7 @@ TEST(ShaderInstances, TheOffsetIsThatOfACopyOrSomeTimesIt) {
 
 /// The box that the scene's tree has for its only instance.
 Bounds instanceBox(const PackedTree& p) {
-  for (const BvhNode& node : std::span(p.bvh.nodes).first(topNodeCount(p.bvh))) {
+  for (const BvhNode& node : p.bvh.nodes) {
     for (size_t side = 0; side < 2; ++side) {
       if ((node.child[side] & kBvhInstanceBit) != 0) return node.bounds[side];
     }

@@ -32,7 +32,7 @@ inline constexpr int kUnlimited = std::numeric_limits<int>::max();
 struct PackedTree {
   Scene scene;
   Bvh bvh;
-  BoxGrid grid;
+  float rounding = 0.0f;  ///< layout::Frame::treeRounding
   Words nodes;
   Words leaves;
 
@@ -44,8 +44,8 @@ inline PackedTree packTreeOf(Scene scene, const Bvh* ready = nullptr) {
   packed.scene = std::move(scene);
   packed.bvh =
       ready ? *ready : buildBvh(primitiveBounds(packed.scene), uint32_t(packed.scene.triangles.size()));
-  packed.grid = makeGrid(packed.bvh.bounds);
-  packed.nodes = packNodes(packed.bvh, packed.grid);
+  packed.rounding = treeRounding(sceneExtent(packed.bvh.bounds));
+  packed.nodes = packNodes(packed.bvh);
   packed.leaves = packLeaves(packed.scene, packed.bvh);
   return packed;
 }
@@ -68,16 +68,28 @@ inline PackedTree packTree(const std::vector<Corners>& triangles, const std::vec
   return packTreeOf(std::move(scene), ready);
 }
 
-/// The tree that needs the most stack: a chain, one triangle per leaf, every box the whole, the chain visited
-/// before the leaf. One more triangle than it is deep.
+/// The tree that needs the most stack: a chain of nodes, each with the next one, which is visited first, and
+/// with one that has two leaves. Every box is the whole. Two triangles a node, and two at the end.
 inline PackedTree packChain(const std::vector<Corners>& triangles) {
   Bvh bvh;
   for (const Bounds& box : boxesOf(triangles)) bvh.bounds.include(box);
-  bvh.depth = uint32_t(triangles.size()) - 1;
-  for (uint32_t i = 0; i < bvh.depth; ++i) {
-    const uint32_t next = i + 1 < bvh.depth ? i + 1 : (i + 1) | kBvhLeafBit;
-    bvh.nodes.push_back({{bvh.bounds, bvh.bounds}, {next, i | kBvhLeafBit}});
+  const auto length = uint32_t(triangles.size() / 2 - 1);
+  // Binary node 2 i and wide node 2 i - 1 are of the chain.
+  for (uint32_t i = 0; i <= 2 * length; ++i) {
+    const bool isLink = i % 2 == 0 && i < 2 * length;
+    const uint32_t leaf = (i % 2 == 0 ? length : i / 2) * 2;
+    bvh.nodes.push_back({{bvh.bounds, bvh.bounds}, {leaf | kBvhLeafBit, (leaf + 1) | kBvhLeafBit}});
+    if (isLink) bvh.nodes.back().child = {i + 2, i + 1};
+    WideNode wide;
+    wide.place = {2 * i, 2 * i + 1};
+    wide.firstInner = i + 1;
+    wide.innerCount = isLink ? 2 : 0;
+    wide.count = 2;
+    bvh.wide.push_back(wide);
   }
+  for (uint32_t i = 1; i + 1 < bvh.wide.size(); i += 2) std::swap(bvh.wide[i], bvh.wide[i + 1]);
+  for (uint32_t i = 0; i < length; ++i) bvh.wide[i == 0 ? 0 : 2 * i - 1].firstInner = 2 * i + 1;
+  bvh.stackNeed = length - 1;
   for (uint32_t i = 0; i < triangles.size(); ++i) bvh.leaves.push_back({{i, kMissIndex}});
   return packTree(triangles, {}, false, &bvh);
 }
@@ -166,25 +178,25 @@ enum class Method { Iterative, Bvh, FrontToBack };
 [[maybe_unused]] inline constexpr std::array kMethods = {Method::Iterative, Method::Bvh, Method::FrontToBack};
 
 /// Runs the shader's traversal, in draws of at most stepLimit steps each.
-#define DEFINE_TRACE(name, shader, Real, Vector)                                                        \
-  inline Outcome name(const PackedTree& p, Method method, const Ray& ray, double limit = kFar,          \
-                      bool anyHit = false, int stepLimit = kUnlimited, const Outcome& passed = {}) {    \
-    const With nodes(glsl_variant::nodes, std::span<const uint32_t>(p.nodes));                          \
-    const With leaves(glsl_variant::leaves, std::span<const uint32_t>(p.leaves));                       \
-    const With iterative(glsl_variant::kIterative, method == Method::Iterative);                        \
-    const With frontToBack(glsl_variant::kFrontToBack, method == Method::FrontToBack);                  \
-    const shader::TreeFrame tree{Vector(p.grid.origin), Vector(p.grid.cell), int(p.bvh.leaves.size())}; \
-    auto s = shader::startTraversal(Real(limit), tree.leafCount);                                       \
-    if (passed.slot >= 0) s.tMin = Real(passed.t);                                                      \
-    if (passed.slot >= 0) s.tMinSlot = passed.slot;                                                     \
-    while (s.node != layout::kTraversalDone) {                                                          \
-      s.steps = 0;                                                                                      \
-      s = shader::traverse(Vector(ray.origin), Vector(ray.direction), Real(limit), s, tree, stepLimit,  \
-                           anyHit);                                                                     \
-      EXPECT_GT(s.steps, 0);                                                                            \
-      if (s.steps == 0) break;                                                                          \
-    }                                                                                                   \
-    return {double(s.t), s.slot, s.visits};                                                             \
+#define DEFINE_TRACE(name, shader, Real, Vector)                                                       \
+  inline Outcome name(const PackedTree& p, Method method, const Ray& ray, double limit = kFar,         \
+                      bool anyHit = false, int stepLimit = kUnlimited, const Outcome& passed = {}) {   \
+    const With nodes(glsl_variant::nodes, std::span<const uint32_t>(p.nodes));                         \
+    const With leaves(glsl_variant::leaves, std::span<const uint32_t>(p.leaves));                      \
+    const With iterative(glsl_variant::kIterative, method == Method::Iterative);                       \
+    const With frontToBack(glsl_variant::kFrontToBack, method == Method::FrontToBack);                 \
+    const shader::TreeFrame tree{Real(p.rounding), int(p.bvh.leaves.size())};                          \
+    auto s = shader::startTraversal(Real(limit), tree.leafCount);                                      \
+    if (passed.slot >= 0) s.tMin = Real(passed.t);                                                     \
+    if (passed.slot >= 0) s.tMinSlot = passed.slot;                                                    \
+    while (!shader::isDone(s)) {                                                                       \
+      s.steps = 0;                                                                                     \
+      s = shader::traverse(Vector(ray.origin), Vector(ray.direction), Real(limit), s, tree, stepLimit, \
+                           anyHit);                                                                    \
+      EXPECT_GT(s.steps, 0);                                                                           \
+      if (s.steps == 0) break;                                                                         \
+    }                                                                                                  \
+    return {double(s.t), s.slot, s.visits};                                                            \
   }
 DEFINE_TRACE(traceFloat, glsl_float, float, vec3)
 DEFINE_TRACE(traceDouble, glsl_double, double, dvec3)

@@ -223,10 +223,68 @@ TEST(ShaderTraverse, FrontToBackMeetsTheNearestWallFirstFromEitherSide) {
   }
 }
 
-TEST(ShaderTraverse, EveryStackSizeHoldsTheWorstTreeOfThatDepth) {
+/// A ball of radius 0.1 that lies on a ground of this size, in `cells` x `cells` quads.
+PackedTree ballOnGround(float size, int cells) {
+  std::vector<Corners> triangles = bumpySphere(96);
+  for (Corners& corners : triangles) {
+    for (vec3& p : corners) p = 0.1f * p + vec3(0.0f, 0.1f, 0.0f);
+  }
+  const auto at = [&](int x, int z) {
+    const vec3 part(2.0f * float(x) / float(cells) - 1.0f, 0.0f, 2.0f * float(z) / float(cells) - 1.0f);
+    return size * part;
+  };
+  for (int x = 0; x < cells; ++x) {
+    for (int z = 0; z < cells; ++z) {
+      triangles.push_back({at(x, z), at(x, z + 1), at(x + 1, z)});
+      triangles.push_back({at(x + 1, z), at(x, z + 1), at(x + 1, z + 1)});
+    }
+  }
+  return packTree(triangles);
+}
+
+/// Steps a ray of a camera that sees the ball in half of its height and else the ground near it, and of rays
+/// from there.
+double stepsOnGround(const PackedTree& p) {
+  constexpr int kSide = 48;
+  Draw draw(29);
+  const vec3 eye(0.1f, 0.5f, 0.6f);
+  double steps = 0.0;
+  double rays = 0.0;
+  const auto trace = [&](const Ray& ray) {
+    const Outcome found = traceFloat(p, Method::FrontToBack, ray);
+    steps += found.visits;
+    rays += 1.0;
+    return found;
+  };
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const vec3 place(0.4f * (float(i % kSide) + 0.5f) / kSide - 0.2f,
+                     0.4f * (float(i / kSide) + 0.5f) / kSide - 0.1f, 0.0f);
+    Ray ray{eye, glm::normalize(place - eye)};
+    const Outcome found = trace(ray);
+    if (found.slot < 0) continue;
+    ray.origin += float(found.t * 0.999) * ray.direction;
+    ray.direction = vec3(draw.direction());
+    ray.direction.y = std::abs(ray.direction.y);
+    trace(ray);
+  }
+  return steps / rays;
+}
+
+TEST(ShaderTraverse, ABallTakesAsManyStepsOnAGroundOfAnySize) {
+  for (const int cells : {8, 64}) {
+    const double small = stepsOnGround(ballOnGround(1.0f, cells));
+    for (const float size : {100.0f, 1000.0f, 10000.0f}) {
+      const double steps = stepsOnGround(ballOnGround(size, cells));
+      EXPECT_LE(steps, 1.3 * small) << size << " m of " << cells << " x " << cells << " quads";
+    }
+  }
+}
+
+TEST(ShaderTraverse, EveryStackSizeHoldsTheWorstTreeOfThatNeed) {
   for (uint32_t size : kBvhStackSizes) {
     const With stackSize(glsl_variant::kStackSize, int(size));
-    const PackedTree p = packChain(randomTriangles(size + 1, 1.0f));
+    const PackedTree p = packChain(randomTriangles(2 * size + 4, 1.0f));
+    ASSERT_EQ(p.bvh.stackNeed, size);
     size_t hits = 0;
     for (const Ray& ray : raysAt(p.scene, 2000)) {
       const double expected = bruteForce(p.scene, ray);

@@ -14,53 +14,92 @@ TEST(ShaderStack, PushesAndPopsAsAVectorDoesAtEverySize) {
     const With stackSize(glsl_variant::kStackSize, int(size));
     Draw draw(size);
     glsl_float::Stack stack = glsl_float::emptyStack();
-    std::vector<int> expected;
+    std::vector<uint32_t> expected;
     for (int k = 0; k < 20000; ++k) {
-      ASSERT_EQ(glsl_float::topOf(stack), expected.empty() ? layout::kTraversalDone : expected.back());
+      ASSERT_EQ(glsl_float::topOf(stack), expected.empty() ? layout::kEndGroup : expected.back());
       // Mostly up, then mostly down, so that it fills and empties.
       const bool up = draw.integer(0, 9) < (k / 100 % 2 == 0 ? 7 : 3);
       const bool push = up && expected.size() < size;
       const bool pop = !up && !expected.empty();
-      stack = glsl_float::stepStack(stack, push, pop, k);
-      if (push) expected.push_back(k);
+      stack = glsl_float::stepStack(stack, push, pop, uint32_t(k));
+      if (push) expected.push_back(uint32_t(k));
       if (pop) expected.pop_back();
     }
     while (expected.size() < size) {
-      expected.push_back(int(expected.size()));
+      expected.push_back(uint32_t(expected.size()));
       stack = glsl_float::stepStack(stack, true, false, expected.back());
     }
     for (; !expected.empty(); expected.pop_back()) {
       ASSERT_EQ(glsl_float::topOf(stack), expected.back()) << "size " << size;
       stack = glsl_float::stepStack(stack, false, true, 0);
     }
-    EXPECT_EQ(glsl_float::topOf(stack), layout::kTraversalDone);
+    EXPECT_EQ(glsl_float::topOf(stack), layout::kEndGroup);
   }
+}
+
+/// Holds the box of a node's child against the exact one, along an axis.
+void checkSides(float low, float high, const Bounds& box, float origin, float cell, int axis) {
+  const double from = double(origin) + double(cell) * double(low);
+  const double to = double(origin) + double(cell) * double(high);
+  const double least = box.minimum[axis];
+  const double most = box.maximum[axis];
+  EXPECT_LE(from, least);
+  EXPECT_GE(to, most);
+  // The boxes are not too large either.
+  EXPECT_TRUE(from == least || from + double(cell) > least);
+  EXPECT_TRUE(to == most || to - double(cell) < most);
 }
 
 TEST(ShaderTree, DecodedBoxesHoldThePackedOnes) {
   for (const NamedTree& named : namedTrees()) {
+    SCOPED_TRACE(named.name);
     const PackedTree& p = named.tree;
     const With nodes(glsl_variant::nodes, std::span<const uint32_t>(p.nodes));
-    for (size_t i = 0; i < p.bvh.nodes.size(); ++i) {
-      const auto n = glsl_float::loadNode(int(i));
-      const std::array low = {n.low0, n.low1};
-      const std::array high = {n.high0, n.high1};
-      const std::array child = {n.child0, n.child1};
-      for (size_t side = 0; side < 2; ++side) {
-        const Bounds& box = p.bvh.nodes[i].bounds[side];
-        for (int axis = 0; axis < 3; ++axis) {
-          const double origin = p.grid.origin[axis];
-          const double cell = p.grid.cell[axis];
-          // An eighth of a cell is left for the rounding of the slab test (docs/design/numerics.md).
-          constexpr double kPadding = 0.125 - 1e-6;
-          EXPECT_LE(origin + cell * (low[side][axis] + kPadding), box.minimum[axis]) << named.name;
-          EXPECT_GE(origin + cell * (high[side][axis] - kPadding), box.maximum[axis]) << named.name;
-          // The boxes are not too large either: by at most two cells on each side.
-          EXPECT_GT(origin + cell * (low[side][axis] + 2.0), box.minimum[axis]) << named.name;
-          EXPECT_LT(origin + cell * (high[side][axis] - 2.0), box.maximum[axis]) << named.name;
+    ASSERT_FALSE(p.bvh.wide.empty());
+    for (size_t i = 0; i < p.bvh.wide.size(); ++i) {
+      const WideNode& wide = p.bvh.wide[i];
+      // A ray along the diagonal meets the low sides first, or the high ones.
+      for (const float sign : {1.0f, -1.0f}) {
+        const auto n = glsl_float::loadNode(int(i), vec3(sign));
+        const std::array near{n.nearX, n.nearY, n.nearZ};
+        const std::array far{n.farX, n.farY, n.farZ};
+        const auto& low = sign > 0.0f ? near : far;
+        const auto& high = sign > 0.0f ? far : near;
+        for (int k = 0; k < wide.count; ++k) {
+          for (int axis = 0; axis < 3; ++axis)
+            checkSides(low[size_t(axis)][k], high[size_t(axis)][k], boxAt(p.bvh, wide.place[size_t(k)]),
+                       n.origin[axis], n.cell[axis], axis);
         }
-        const uint32_t packed = p.bvh.nodes[i].child[side];
-        EXPECT_EQ(child[side], (packed & kBvhLeafBit) != 0 ? ~int(packed & ~kBvhLeafBit) : int(packed));
+        // Cells are no larger than the boxes need.
+        for (int axis = 0; axis < 3; ++axis) {
+          const float most = std::max(
+              {high[size_t(axis)].x, high[size_t(axis)].y, high[size_t(axis)].z, high[size_t(axis)].w});
+          EXPECT_TRUE(most >= 127.0f || n.cell[axis] < 0x1p-99f) << most;
+        }
+      }
+    }
+  }
+}
+
+TEST(ShaderTree, GroupsNameTheChildrenOfTheirNodes) {
+  for (const NamedTree& named : namedTrees()) {
+    SCOPED_TRACE(named.name);
+    const PackedTree& p = named.tree;
+    const With nodes(glsl_variant::nodes, std::span<const uint32_t>(p.nodes));
+    for (size_t i = 0; i < p.bvh.wide.size(); ++i) {
+      const WideNode& wide = p.bvh.wide[i];
+      const auto n = glsl_float::loadNode(int(i), vec3(1.0f));
+      for (uint32_t k = 0; k < WideNode::kMost; ++k) {
+        const uint32_t bit = layout::kFirstChild << k;
+        EXPECT_EQ((n.inner & bit) != 0, k < wide.innerCount);
+        EXPECT_EQ((n.leaves & bit) != 0, k >= wide.innerCount && k < wide.count);
+        if (k < wide.innerCount) {
+          EXPECT_EQ(glsl_float::baseOf(n.inner) + int(k), int(wide.firstInner + k));
+        } else if (k < wide.count) {
+          glsl_float::Traversal s = glsl_float::startTraversal(1.0f, 1);
+          s.leaves = n.leaves & (bit | layout::kBaseMask);
+          EXPECT_EQ(uint32_t(glsl_float::leafOf(s)) | kBvhLeafBit, childAt(p.bvh, wide.place[k]));
+        }
       }
     }
   }

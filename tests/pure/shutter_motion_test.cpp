@@ -200,7 +200,7 @@ TEST(MovingTree, EachSegmentHasItsOwnPrimitives) {
   EXPECT_EQ(segments.w, 27);
   for (uint32_t segment : {0, 1}) {
     std::vector<uint32_t> slots;
-    checkBelow(scene, bvh, segment * uint32_t(segments.y), slots);
+    checkBelow(scene, bvh, segment * uint32_t(bvh.nodes.size() / 2), slots);
     std::vector<bool> seen(scene.triangles.size() + 2, false);
     for (const uint32_t slot : slots) {
       EXPECT_EQ(slot / 2 / uint32_t(segments.z), segment);
@@ -212,17 +212,47 @@ TEST(MovingTree, EachSegmentHasItsOwnPrimitives) {
   }
 }
 
+TEST(MovingTree, DecodedBoxesHoldTheirsAtAnyTime) {
+  const Scene scene = movingRow();
+  const Bvh bvh = buildMovingBvh(scene);
+  const Words nodes = packNodes(bvh, true);
+  const glsl_variant::With<std::span<const uint32_t>> withNodes(glsl_variant::nodes, nodes);
+  ASSERT_GT(bvh.wide.size(), 2u);
+  for (size_t i = 0; i < bvh.wide.size(); ++i) {
+    const WideNode& wide = bvh.wide[i];
+    for (const float part : {0.0f, 0.21f, 0.5f, 0.83f, 1.0f}) {
+      const auto n = glsl_float::loadMovingNode(int(i), glm::vec3(1.0f), part);
+      const std::array low{n.nearX, n.nearY, n.nearZ};
+      const std::array high{n.farX, n.farY, n.farZ};
+      for (int k = 0; k < wide.count; ++k) {
+        const uint32_t place = wide.place[size_t(k)];
+        const Bounds& begins = boxAt(bvh, place);
+        const Bounds& ends = bvh.endBounds[place / 2][place % 2];
+        for (int axis = 0; axis < 3; ++axis) {
+          const double origin = n.origin[axis];
+          const double cell = n.cell[axis];
+          const double least = std::lerp(double(begins.minimum[axis]), double(ends.minimum[axis]), part);
+          const double most = std::lerp(double(begins.maximum[axis]), double(ends.maximum[axis]), part);
+          EXPECT_LE(origin + cell * double(low[size_t(axis)][k]), least);
+          EXPECT_GE(origin + cell * double(high[size_t(axis)][k]), most);
+          EXPECT_GE(origin + cell * double(low[size_t(axis)][k]), least - 1.02 * cell - 1e-5);
+          EXPECT_LE(origin + cell * double(high[size_t(axis)][k]), most + 1.02 * cell + 1e-5);
+        }
+      }
+    }
+  }
+}
+
 TEST(MovingTree, TheShaderFindsATriangleOnItsWay) {
   const Scene scene = movingRow();
   const Bvh bvh = buildMovingBvh(scene);
-  const BoxGrid grid = makeGrid(bvh.bounds);
   const glm::ivec4 segments = segmentsOf(scene, bvh);
-  const Words nodes = packNodes(bvh, grid, true);
+  const Words nodes = packNodes(bvh, true);
   const Words leaves = packLeaves(scene, bvh, true);
   const glsl_variant::With<bool> moving(glsl_variant::kMoving, true);
   const glsl_variant::With<std::span<const uint32_t>> withNodes(glsl_variant::nodes, nodes);
   const glsl_variant::With<std::span<const uint32_t>> withLeaves(glsl_variant::leaves, leaves);
-  const glsl_float::TreeFrame frame{grid.origin, grid.cell, int(bvh.leaves.size())};
+  const glsl_float::TreeFrame frame{0.0f, int(bvh.leaves.size())};
   for (const float time : {0.0f, 0.2f, 0.5f, 0.75f, 0.999f}) {
     const auto moment = glsl_float::momentAt(time, segments.x);
     EXPECT_EQ(moment.segment, time < 0.5f ? 0 : 1);

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "base/errors.h"
+#include "pack/pack_tree.h"
 
 namespace fragtrace {
 
@@ -24,8 +25,8 @@ GLuint makeFramebuffer(glm::ivec2 size) {
 
 layout::Frame frameOf(const GpuScene& scene, glm::ivec2 size) {
   layout::Frame frame{};
-  frame.gridOrigin = glm::vec4(scene.grid.origin, 0.0f);
-  frame.gridCell = glm::vec4(scene.grid.cell, 0.0f);
+  frame.sceneExtent = scene.extent;
+  frame.treeRounding = treeRounding(scene.extent);
   frame.pictureSize = size;
   frame.samplesWanted = 1;
   frame.stepBudget = kStepLimit;

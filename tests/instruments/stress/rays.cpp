@@ -44,13 +44,13 @@ std::vector<Way> waysOf(const StressSetting& setting, const Scene& scene) {
   std::vector<Way> ways;
   for (const auto& [name, method] :
        {std::pair{"bvh", TraversalMethod::Bvh}, std::pair{"front-to-back", TraversalMethod::FrontToBack}})
-    ways.push_back({name, bvh, variantOf(setting, scene, method, bvh.depth)});
+    ways.push_back({name, bvh, variantOf(setting, scene, method, bvh.stackNeed)});
   if (bounds.size() <= kMostIterative)
     ways.push_back(
         {"iterative", listLeaves(scene), variantOf(setting, scene, TraversalMethod::Iterative, 0)});
   // Literals have a test of their own, which the fast one does not replace.
   if (!setting.watertight) return ways;
-  ShaderVariant literal = variantOf(setting, scene, TraversalMethod::FrontToBack, bvh.depth);
+  ShaderVariant literal = variantOf(setting, scene, TraversalMethod::FrontToBack, bvh.stackNeed);
   const GpuScene packed = packScene(scene, bvh, {}, literal);
   if (whyNoLiterals(scene, packed).empty()) {
     literal.traversal = TraversalMethod::Literals;

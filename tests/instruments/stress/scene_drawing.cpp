@@ -28,9 +28,9 @@ SceneDrawing::SceneDrawing(const Context& context, const Scene& scene, const Ren
   const TraitSet present = traitsOf(scene, environment.kind);
   const bool iterative = options.device.traversal == TraversalMethod::Iterative;
   const Bvh bvh = iterative ? listLeaves(scene) : buildSceneBvh(scene);
-  picture_ = chooseVariant(options, present, environment.kind, bvh.depth, options.device.bufferReads);
-  depth_ =
-      chooseAovVariant(options, present, environment.kind, bvh.depth, options.device.bufferReads, Aov::Depth);
+  picture_ = chooseVariant(options, present, environment.kind, bvh.stackNeed, options.device.bufferReads);
+  depth_ = chooseAovVariant(options, present, environment.kind, bvh.stackNeed, options.device.bufferReads,
+                            Aov::Depth);
   ShaderVariant everything = picture_;
   everything.traits |= depth_.traits;
   GpuScene packed = packScene(scene, bvh, environment, everything);

@@ -88,7 +88,7 @@ StressOutcome castAtShrinking(const StressSetting& setting) {
   const Bvh bvh = buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));
   const RenderOptions options = flatOptions(setting, size, 1);
   ShaderVariant variant = chooseVariant(options, traitsOf(scene, Surroundings::None), Surroundings::None,
-                                        bvh.depth, BufferReads::Auto);
+                                        bvh.stackNeed, BufferReads::Auto);
   GpuScene packed = packScene(scene, bvh, {}, variant);
   variant.reads = chooseReads(BufferReads::Auto, setting.context.software, packed, readLimits()).reads;
   RayCaster caster(setting.context, std::move(packed), variant, size, setting.shaderFolder);

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// What a ray hits in a leaf.
+
+/// Returns true if a hit at distance t is nearer than the traversal's. Where a ray passes through surfaces, all hits
+/// along it have one order, by distance and slot, so that it meets each once, however close they lie.
+bool isNearer(Traversal s, float t, int slot) {
+  if (!kPassing) return t > 0.0f && t < s.t;
+  return liesBehind(t, s.tMin, slot > s.tMinSlot) && (t < s.t || (t == s.t && slot < s.slot));
+}
+
+/// A hit on one primitive of a leaf; t is not above 0 for a miss.
+struct PrimitiveHit {
+  float t;
+  vec2 weights;
+};
+
+/// The distance of a hit, less what puts it before surfaces that coincide with it: lamps before all others, and fronts
+/// before backs. The reach covers rounding of the triangles, and 2^-19 of the distance that of the ray.
+float beforeCoincident(float t, bool front, uint word) {
+  float reach = uintBitsToFloat((word & kPrimitiveReachMask) << 23);
+  float rank = ((word & kPrimitiveEmits) != 0u ? 2.0f : 0.0f) + (front ? 1.0f : 0.0f);
+  return reach > 0.0f ? max(t - rank * (reach + 1.9073486328125e-6f * t), 0.5f * t) : t;
+}
+
+PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear shear, vec3 v0, vec3 v1, vec3 v2,
+                           uint word, int slot) {
+  if (kCountWork) countWork(kWorkPrimitives, uint(word != kPrimitiveNone));
+  PrimitiveHit r;
+  r.t = -1.0f;
+  r.weights = vec2(0.0f);
+  if (kTriangles) {
+    TriangleHit h;
+    if (kWatertight) h = intersectTriangle(origin, shear, v0, v1, v2);
+    if (!kWatertight) h = intersectTriangleFast(origin, direction, v0, v1, v2);
+    if (kSlivers && !kMoving && h.hit && (word & kPrimitiveSliver) != 0u) {
+      int row = slot * int(kFaceRows);
+      h.t = distanceToPlane(origin, direction, shear, v0, v1, v2, vec3(uintBitsToFloat(readFaces(row))),
+                            uintBitsToFloat(readFaces(row + 1).x), h.t);
+    }
+    if (kSlivers && kMoving && h.hit && (word & kPrimitiveSliver) != 0u) {
+      vec4 plane = planeThrough(v0, v1, v2);
+      h.t = distanceToPlane(origin, direction, shear, v0, v1, v2, vec3(plane), plane.w, h.t);
+    }
+    bool there = !kCulling || h.front || (kLightPaths && s.both) || (word & kPrimitiveCull) == 0u;
+    r.t = h.hit && there ? h.t : -1.0f;
+    if (kCoincident && s.extends && r.t > 0.0f) r.t = beforeCoincident(r.t, h.front, word);
+    if (kCreases) r.t -= r.t * (h.front ? s.tie : -s.tie);
+    if (kWeights) r.weights = vec2(h.weight1, h.weight2);
+  }
+  if (kSpheres) {
+    bool inside = !kCulling || (kLightPaths && s.both) || (word & kPrimitiveCull) == 0u;
+    float tMin = kPassing ? s.tMin : 0.0f;
+    float t = intersectSphere(origin, direction, v0, v1.x, inside, tMin, kPassing && slot > s.tMinSlot);
+    bool isSphere = (word & kPrimitiveSphere) != 0u && word != kPrimitiveNone;
+    r.t = isSphere ? t : (kTriangles ? r.t : -1.0f);
+  }
+  return r;
+}
+
+/// The nearest of what the traversal has and the two primitives of a leaf. The origin lies at distance `start` along
+/// the ray (kInstances).
+Traversal intersectLeaf(Traversal s, int leaf, vec3 origin, vec3 direction, RayShear shear, float start) {
+  LeafPair l;
+  if (kMoving) l = loadMovingLeaf(leaf, s.part);
+  if (!kMoving) l = loadLeaf(leaf);
+  PrimitiveHit a = intersectWord(s, origin, direction, shear, l.v0a, l.v1a, l.v2a, l.worda, 2 * leaf);
+  PrimitiveHit b = intersectWord(s, origin, direction, shear, l.v0b, l.v1b, l.v2b, l.wordb, 2 * leaf + 1);
+  if (kInstances) {
+    a.t += a.t > 0.0f ? start : 0.0f;
+    b.t += b.t > 0.0f ? start : 0.0f;
+  }
+  bool hita = isNearer(s, a.t, 2 * leaf);
+  s.t = hita ? a.t : s.t;
+  s.slot = hita ? 2 * leaf : s.slot;
+  if (kWeights) s.weights = hita ? a.weights : s.weights;
+  bool hitb = isNearer(s, b.t, 2 * leaf + 1);
+  s.t = hitb ? b.t : s.t;
+  s.slot = hitb ? 2 * leaf + 1 : s.slot;
+  if (kWeights) s.weights = hitb ? b.weights : s.weights;
+  if (kInstances) s.hitInstance = hita || hitb ? s.instance : s.hitInstance;
+  return s;
+}
