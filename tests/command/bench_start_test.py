@@ -11,7 +11,7 @@ from support import FRAGTRACE, SCENES, SMALL, Case, main, run
 
 BOX = SCENES / "cornell-box.gltf"
 TINY = ["--resolution", "8,8", "--spp", "1"]
-PHASES = ["process", "scene", "tree", "context", "program", "pack", "upload", "first draw", "draw", "write"]
+PHASES = ["process", "scene", "light", "tree", "context", "program", "pack", "upload", "first draw", "draw", "write"]
 
 
 class BenchStart(Case):
