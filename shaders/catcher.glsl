@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The shadow catcher (kShadowCatcher): a horizontal plane that only camera rays meet, from above. It shows the share of
 // the light that the scene hides from it. While a path is caught, its radiance is that share so far, and its throughput
-// is the radiance that the camera sees behind the plane.
+// is the radiance that the camera sees behind the plane. Camera rays may come through glass (kTransparentGlass).
 
 /// The plane wins against a surface only if it is nearer by this much, relative to the distance. So a surface that lies
 /// on it is seen.
@@ -15,7 +15,8 @@ float catcherDistance(vec3 origin, vec3 direction) {
 
 /// Returns true if the path's ray meets the catcher before anything else; t is the distance of what it has hit.
 bool meetsCatcher(Path p, float t) {
-  if (!p.cameraRay) return p.caught;
+  if (p.caught) return true;
+  if (!p.cameraRay && !(kTransparentGlass && p.clear)) return false;
   float there = catcherDistance(p.origin, p.direction);
   return there > 0.0 && there < t * (1.0 - kCatcherMargin);
 }
@@ -42,6 +43,12 @@ vec3 shareOfLight(vec3 part, vec3 all) {
 /// hidden.
 Path beginShadow(Path p) {
   float t = catcherDistance(p.origin, p.direction);
+  if (kTransparentGlass) {
+    float passed = passedByGlass(p);
+    p.throughput *= p.etaScale;
+    p.etaScale = passed;
+    p.before = p.radiance;
+  }
   p.throughput *= seenBehind(p.direction);
   p.radiance = vec3(0.0);
   p.cameraRay = false;
@@ -108,6 +115,7 @@ Path endShadow(Path p) {
 Path guideAtCatcher(Path p) {
   float t = catcherDistance(p.origin, p.direction);
   p = takeGuide(p, depthAlong(p.direction, t, p.time), vec3(0.0, 1.0, 0.0));
+  p.caught = true;
   return guideStop(p, vec3(1.0));
 }
 
@@ -117,17 +125,29 @@ Path meetCatcher(Path p) {
   return beginShadow(p);
 }
 
-/// The share of a shadow that a pixel of the whole picture keeps, since it ends before the edge.
+/// The share of a shadow that a pixel of the whole picture keeps, since it ends before the edge. The outermost pixels
+/// have none.
 float shadowLeft(ivec2 pixel) {
   vec2 size = vec2(frame.pictureSize);
-  vec2 place = vec2(pixel) + 0.5;
-  vec2 toEdge = min(place, size - place);
+  vec2 place = vec2(pixel);
+  vec2 toEdge = min(place, size - 1.0 - place);
   return smoothstep(0.0, frame.shadowFade * min(size.x, size.y), min(toEdge.x, toEdge.y));
+}
+
+/// The guide of the catcher at a pixel. Where the shadow has ended, there is nothing to be filtered.
+Path guideOfShadow(Path p, ivec2 pixel) {
+  p.caught = false;
+  if (frame.shadowFade > 0.0 && shadowLeft(pixel) <= 0.0) p.covered = false;
+  return p;
 }
 
 /// The alpha of the finished sample. For a shadow on the catcher it is the luminance of the hidden share.
 float coverageOf(Path p) {
-  if (kShadowCatcher && p.caught) return luminance(p.radiance);
+  if (kShadowCatcher && p.caught) {
+    float shadow = luminance(p.radiance);
+    return kTransparentGlass ? 1.0 - p.etaScale * (1.0 - shadow) : shadow;
+  }
+  if (kTransparentGlass && !p.covered) return 1.0 - p.etaScale;
   if (kAov == kAovGuides && kAlpha && !p.covered) return p.guide.share;
   return float(coveredRays(p)) / float(kCameraRays);
 }
@@ -136,6 +156,7 @@ float coverageOf(Path p) {
 Path showShadow(Path p) {
   if (!p.caught) return p;
   p.radiance = p.throughput * (vec3(1.0) - p.radiance);
+  if (kTransparentGlass) p.radiance += p.before;
   // The camera sees the background directly, with or without a shadow on it. So it is emission.
   if (kAov == kAovDiffuse || kAov == kAovSpecular) p.radiance = vec3(0.0);
   return p;

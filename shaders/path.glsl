@@ -224,12 +224,24 @@ vec3 seenBehind(vec3 direction) {
   return environmentAlong(direction).rgb;
 }
 
+/// The part of the page's light that reaches the camera through the glass on the way of a clear path.
+float passedByGlass(Path p) { return dot(p.throughput, vec3(1.0 / 3.0)) * p.etaScale; }
+
+/// A clear path has met nothing: it shows the page. From here on `etaScale` is the part of it that is seen.
+Path seePage(Path p) {
+  p = addLight(p, p.throughput * p.etaScale * seenBehind(p.direction));
+  p.etaScale = passedByGlass(p);
+  p.covered = false;
+  return p;
+}
+
 /// The path's ray has met nothing.
 Path meetSurroundings(Path p) {
   p.phase = kPhaseEnd;
   if (!kDrawsLight || kLightPaths) return p;
   if (kFisheye && p.cameraRay && p.origin.y == kAboveAll) return p;
   if (p.cameraRay) return addLight(p, p.throughput * seenBehind(p.direction));
+  if (kTransparentGlass && p.clear) return seePage(p);
   if (!kEnvironment) return p;
   // Surroundings are outside of everything: who has left less than was entered has missed a face that touches another.
   if (kPassesLight) p.throughput *= p.etaScale;
@@ -315,6 +327,7 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
   if (roulette && drawFloat(p.sampler, rouletteDimension) >= survival) ends = true;
   if (roulette) p.throughput /= survival;
   p.cameraRay = false;
+  if (kTransparentGlass) p.clear = p.clear && transmitted && m.transmission > 0.0;
   if (kCaustics && kLightPaths) p.prefix = lightPrefix(p.prefix, pdf == 0.0, straight);
   if (kCaustics && !kLightPaths) {
     bool caster = isCaster(materialFlags(s.material), pdf == 0.0);

@@ -24,13 +24,14 @@ const int kRowCrossings = 11;
 const int kRowSuspended = 12;       // node of the traversal, light sample, more flags, visits
 const int kRowStack = 13;
 const int kRowAov = kRowStack + kStackSize / 4;  // kLightPart: aovWeight
+const int kRowBefore = kRowAov + (kLightPart ? 1 : 0);  // kTransparentGlass: before
 const int kRowLight = kRowStack + kStackSize / 4;  // kLightPaths: flux, waiting; splatPixel, range, travelled
 
 const bool kShadowRows = kShadows || kPassesLight || kInstances || kResumable;
 const bool kPassingRows = kPassing || kResumable || kMedia;
 
 /// Rows of a path of the megakernel.
-const int kSuspendedRows = kRowAov + (kLightPart ? 1 : 0) + (kLightPaths ? 2 : 0);
+const int kSuspendedRows = kRowBefore + (kTransparentGlass ? 1 : 0) + (kLightPaths ? 2 : 0);
 
 /// The count of scatterings and, above it, the prefix.
 uint scatteringsOf(Path p) { return uint(p.bounce) | (kCaustics ? uint(p.prefix) << 29 : 0u); }
@@ -155,12 +156,14 @@ void suspendPath(Path p, int row) {
   p = packOwnState(p);
   savePath(p, row, false);
   Traversal t = p.traversal;
-  uint flags = uint(p.after) | (p.caught ? 16u : 0u) | (kLightPaths && p.fromLight.glassFirst ? 32u : 0u);
+  uint flags = uint(p.after) | (p.caught ? 16u : 0u) | (kLightPaths && p.fromLight.glassFirst ? 32u : 0u) |
+               (p.clear ? 64u : 0u);
   pathStates[row + kRowShadowHit] = metBy(t);
   pathStates[row + kRowTMin].zw = uvec2(t.group, t.leaves);
   pathStates[row + kRowSuspended] = uvec4(uint(t.node), uint(p.lightSampleIndex), flags, uint(t.visits));
   if (!kIterative && !kLiterals) saveStack(t.stack, row + kRowStack);
   if (kLightPart) pathStates[row + kRowAov] = uvec4(floatBitsToUint(p.aovWeight), 0u);
+  if (kTransparentGlass) pathStates[row + kRowBefore] = uvec4(floatBitsToUint(p.before), 0u);
   if (kLightPaths) {
     LightPath l = p.fromLight;
     pathStates[row + kRowLight] = floatBitsToUint(vec4(l.flux, l.waiting));
@@ -175,12 +178,14 @@ Path resumePath(int row, uint key) {
   p.lightSampleIndex = int(a.y);
   p.after = int(a.z & 15u);
   p.caught = (a.z & 16u) != 0u;
+  p.clear = (a.z & 64u) != 0u;
   if (kLightPaths) {
     vec4 l = uintBitsToFloat(readPathStates(row + kRowLight));
     vec4 m = uintBitsToFloat(readPathStates(row + kRowLight + 1));
     p.fromLight = LightPath(l.xyz, m.z, m.w, (a.z & 32u) != 0u, m.xy, l.w, floatBitsToUint(p.radiance.x));
     p.radiance = vec3(0.0);
   }
+  if (kTransparentGlass) p.before = uintBitsToFloat(readPathStates(row + kRowBefore).xyz);
   if (kLightPart) p.aovWeight = uintBitsToFloat(readPathStates(row + kRowAov).xyz);
   if (kMoving) p.traversal.part = momentAt(p.time, frame.segments.x).part;
   p.traversal.node = int(a.x);

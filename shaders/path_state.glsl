@@ -65,7 +65,9 @@ struct Path {
   float time;      // 0..1 while the shutter is open (kTimed)
   bool oneChannel; // dispersion has left one of red, green and blue (kDispersion)
   bool cameraRay;  // nothing but alpha has touched the path yet
+  bool clear;      // nothing but alpha and light's way through glass has touched the path yet (kTransparentGlass)
   bool caught;     // the path has met the shadow catcher (kShadowCatcher)
+  vec3 before;     // its radiance when it met the catcher behind glass (kTransparentGlass)
   bool throughGlass;  // the shadow ray passes glass that does not bend it (kThroughGlass)
   int prefix;         // kPrefix* of caustics/form.glsl (kCaustics)
   bool covered;    // a camera ray has hit a surface
@@ -108,7 +110,9 @@ Path newPath() {
   p.time = 0.0;
   p.oneChannel = false;
   p.cameraRay = true;
+  p.clear = true;
   p.caught = false;
+  p.before = vec3(0.0);
   p.throughGlass = false;
   p.prefix = kPrefixNone;
   p.covered = false;

@@ -110,6 +110,9 @@ Path sampleLd(Path p, Surface s, SurfaceMaterial m, Scattering at) {
   LightSample light = lightAt(p, s, m);
   if (kCaustics) light.irradiance = irradianceLeft(p, s, light);
   vec3 wi = toFrame(at.around, light.direction);
+  // Behind glass, a clear path sees the page instead of the surroundings.
+  bool hidden = kTransparentGlass && p.clear && m.transmission > 0.0 && wi.z * at.wo.z < 0.0;
+  if (hidden && light.pdf > 0.0 && light.distance == kFarAway) light.irradiance = vec3(0.0);
   bool sameSide = (dot(light.direction, s.geometricNormal) > 0.0) == (wi.z > 0.0);
   BsdfValue value = evaluateBsdf(at.b, at.wo, wi);
   float weight = lightWeight(light, value.pdf / lightSamplesAt(countedScatterings(p)));

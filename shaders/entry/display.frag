@@ -8,6 +8,7 @@ layout(binding = 0) uniform sampler2D traced;
 layout(location = 0) uniform float factor;  // 2^EV
 layout(location = 1) uniform int toneMap;   // index of the curve in ToneMap
 layout(location = 2) uniform bool dithers;
+layout(location = 3) uniform vec4 page;     // the colour behind the surfaces; alpha 0: there is none
 
 layout(location = 0) out vec4 displayed;
 
@@ -60,7 +61,15 @@ void main() {
   vec4 texel = texelFetch(traced, ivec2(gl_FragCoord.xy), 0);
   float coverage = clamp(texel.a, 0.0, 1.0);
   vec3 color = coverage > 0.0 ? texel.rgb / coverage : vec3(0.0);
-  vec3 value = encoded(mapped(color * factor, toneMap));
+  vec3 light = mapped(color * factor, toneMap);
+  if (page.a > 0.0) {
+    // The same as shownOver() of src/image/display/tone_map.h.
+    vec3 own = texel.rgb - (1.0 - coverage) * page.rgb;
+    light = coverage > 0.0 ? coverage * mapped(own * (factor / coverage), toneMap) + min(own, vec3(0.0)) : vec3(0.0);
+    light = clamp(light + (1.0 - coverage) * page.rgb, 0.0, 1.0);
+    coverage = 1.0;
+  }
+  vec3 value = encoded(light);
   if (dithers) {
     uvec2 place = uvec2(gl_FragCoord.xy);
     for (uint c = 0u; c < 3u; ++c) value[c] = dithered(value[c], place.x, place.y, c);

@@ -67,6 +67,7 @@ Path scatterInMedium(Path p) {
   p.normal = kNoNormal;
   p.tie = 0.0;
   p.cameraRay = false;
+  p.clear = false;
   p.bounce += 1;
   p.freeBounces += 1;
   p = decideInMedium(p);

@@ -35,6 +35,7 @@ std::string whyMegakernel(const ShaderVariant& variant, const RenderOptions& opt
   if (variant.countsVisits) return "the heat map";
   if (!has(variant.stages, Stage::Gi)) return "a stage before global illumination";
   if (variant.shadowCatcher) return "--shadow-catcher";
+  if (variant.transparentGlass) return "--transparent-glass";
   if (variant.traversal == TraversalMethod::Literals) return "the scene is shader text";
   if (variant.traversal != TraversalMethod::FrontToBack) return "the tree is not walked front to back";
   if (has(variant.traits, Trait::MovingSurfaces)) return "surfaces move: its rays have no time";

@@ -2,6 +2,7 @@
 #include "image/over_white.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/glm.hpp>
 
 #include "base/vectors.h"
@@ -14,6 +15,10 @@ namespace {
 constexpr float kRounding = 1e-6f;  // smaller changes of alpha are rounding
 
 }  // namespace
+
+bool hasNoisyAlpha(const Image& picture) {
+  return picture.attributes.contains(kNoisyAlphaAttribute) && findChannel(picture, "A");
+}
 
 bool isOverWhite(const Image& picture) {
   return picture.attributes.contains(kOverWhiteAttribute) && findChannel(picture, "A");
@@ -43,6 +48,33 @@ Image liftedFromWhite(const Image& picture, const Image& seen) {
     }
   }
   return lifted;
+}
+
+Image seenOverPage(const Image& picture, const Image& seen, const glm::vec3& page) {
+  Image result = onlyChannels(picture, {"R", "G", "B", "A"});
+  const double light = luminance(glm::dvec3(page));
+  for (size_t i = 0; i < result.values.size() / 4; ++i) {
+    float* pixel = &result.values[i * 4];
+    const float* over = &seen.values[i * seen.channelCount()];
+    const double surfaces = luminance({pixel[0], pixel[1], pixel[2]}) - (1.0 - double(pixel[3])) * light;
+    if (light > 0.0 && std::abs(surfaces) <= double(kRounding) * light) {
+      const auto alpha = float(1.0 - luminance({over[0], over[1], over[2]}) / light);
+      pixel[3] = alpha > kRounding ? alpha : 0.0f;
+    }
+    std::copy_n(over, 3, pixel);
+  }
+  return result;
+}
+
+Image withAlpha(Image picture, const Image& alpha) {
+  const size_t channel = findChannel(picture, "A").value();
+  const auto covered = findChannel(picture, kGuideChannels[3]);
+  for (size_t i = 0; i < alpha.values.size() / alpha.channelCount(); ++i) {
+    float* const pixel = &picture.values[i * picture.channelCount()];
+    const bool isFilled = covered && pixel[*covered] >= 1.0f - kRounding && pixel[channel] >= 1.0f;
+    if (!isFilled) pixel[channel] = std::clamp(alpha.values[i * alpha.channelCount()], 0.0f, 1.0f);
+  }
+  return picture;
 }
 
 }  // namespace fragtrace

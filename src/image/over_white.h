@@ -3,12 +3,20 @@
 // them as laid over white: linear R, G and B, each + 1 - A.
 #pragma once
 
+#include <glm/vec3.hpp>
+
 #include "image/image.h"
 
 namespace fragtrace {
 
 /// An attribute that such a picture has: its variances are of that luminance.
 inline constexpr const char* kOverWhiteAttribute = "fragtrace:over-white";
+
+/// An attribute of a picture whose alpha is drawn by chance within surfaces: they blend, or are shadows.
+inline constexpr const char* kNoisyAlphaAttribute = "fragtrace:noisy-alpha";
+
+/// Returns true if the picture has such an alpha.
+bool hasNoisyAlpha(const Image& picture);
 
 /// Returns true if the picture is one, and has its alpha.
 bool isOverWhite(const Image& picture);
@@ -19,5 +27,13 @@ Image laidOverWhite(const Image& picture);
 /// R, G, B and A of a picture whose colours, laid over white, are those of `seen`. Where the picture is
 /// black, alpha takes the difference; elsewhere the colour does, as far as it stays positive.
 Image liftedFromWhite(const Image& picture, const Image& seen);
+
+/// Does the same for a picture that is laid over a page of one colour already: returns R, G and B of `seen`,
+/// and A. Where the picture shows the page and a shadow on it alone, A is that of `seen`.
+Image seenOverPage(const Image& picture, const Image& seen, const glm::vec3& page);
+
+/// The picture with another alpha, that of the first channel of `alpha`, in 0..1. Where surfaces fill a
+/// pixel, as its guides say, and all its samples have met them, alpha stays 1.
+Image withAlpha(Image picture, const Image& alpha);
 
 }  // namespace fragtrace

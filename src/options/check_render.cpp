@@ -37,13 +37,39 @@ struct QualityGoal {
 /// most of what noise is left.
 constexpr std::array<QualityGoal, 4> kGoals{{{}, {0.2, 16}, {0.1, 512}, {0.03, 4096}}};
 
+/// Options that say how a picture is sampled or filtered.
+constexpr std::initializer_list<const char*> kOwnQuality{
+    "--quality", "--spp",           "--noise",      "--time",       "--denoise",
+    "--region",  "--sample-offset", "--debug-view", "--count-work", "--tree-level"};
+
 /// Returns true if the picture is for the eye, and no option says how it is sampled or filtered.
 bool hasGoodQuality(const RawRender& raw, const RenderOptions& o) {
-  constexpr std::array kOwn{"--quality", "--spp",           "--noise",      "--time",       "--denoise",
-                            "--region",  "--sample-offset", "--debug-view", "--count-work", "--tree-level"};
-  const bool isOwn = std::ranges::any_of(kOwn, [&](const char* name) { return raw.given.contains(name); });
+  const bool isOwn =
+      std::ranges::any_of(kOwnQuality, [&](const char* name) { return raw.given.contains(name); });
   const bool isForTheEye = holdsDisplay(o.output.file) && has(o.stages, Stage::Gi);
   return raw.hasQuality && isForTheEye && !isOwn && o.light.reuse != LightReuse::Spatial;
+}
+
+/// Settles --shop: it says what no other option of the same subject has said.
+void settleShop(const RawRender& raw, RenderOptions& o) {
+  if (!raw.shop) return;
+  const auto none = [&](std::initializer_list<const char*> names) {
+    return std::ranges::none_of(names, [&](const char* name) { return raw.given.contains(name); });
+  };
+  if (none({"--hdri-file", "--sky", "--default-light", "--no-default-light"})) o.light.studio = true;
+  if (none({"--background-color", "--no-background", "--background-blur"}))
+    o.light.backgroundColor = glm::vec3(1.0f);
+  const bool isInAir = none({"--fog-density", "--volume"}) && o.output.lightGroups.empty();
+  if (isInAir && none({"--shadow-catcher", "--ground"}) && o.light.caustics != Caustics::On)
+    o.light.shadowCatcher = true;
+  const bool isFramed = !isRectilinear(o.camera.overrides.type.value_or(CameraType::Perspective)) ||
+                        !none({"--fill", "--camera", "--camera-index", "--camera-position",
+                               "--camera-parallel-scale", "--lens-shift"});
+  if (!isFramed) o.camera.overrides.fill = 0.85;
+  if (none({"--alpha"}) && !o.light.background) o.output.alpha = AlphaOf::Display;
+  if (raw.hasQuality && none(kOwnQuality) && o.light.reuse != LightReuse::Spatial)
+    o.sampling.quality = Quality::Good;
+  o.light.transparentGlass = true;
 }
 
 /// Settles --quality: what other options say stays as they say it. Returns the largest number of samples, or
@@ -185,6 +211,11 @@ void checkVolume(const RenderOptions& o) {
     throw UsageError("--volume: cannot be combined with --shadow-catcher, whose plane stands in clear air");
 }
 
+void checkGround(const RenderOptions& o) {
+  if (o.light.ground && o.light.shadowCatcher)
+    throw UsageError("--ground: there is --shadow-catcher, too, whose plane is not seen");
+}
+
 void checkStudio(const LightOptions& o) {
   if (o.studio && !o.hdriFile.empty()) throw UsageError("--studio: there is an --hdri-file, too");
   if (o.studio && o.backgroundBlur > 0.0)
@@ -250,12 +281,15 @@ RenderOptions finishRender(const RawRender& raw) {
   chooseStandardOutput(o.output);
   o.stages = stagesOf(raw);
   if (raw.noDefaultLight) o.light.defaultLight = DefaultLight::None;
+  settleShop(raw, o);
+  if (raw.given.contains("--studio-look")) o.light.studio = true;
   const std::optional<int> most = settleQuality(raw, o);
   o.sampling.spp = samplesOf(o, most);
   checkLens(o.camera.lens);
   checkCamera(o);
   checkShutter(o);
   checkStudio(o.light);
+  checkGround(o);
   checkSky(o);
   checkFog(o);
   checkVolume(o);

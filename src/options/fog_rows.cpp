@@ -47,14 +47,6 @@ OptionRow heightRow() {
 
 }  // namespace
 
-glm::vec3 albedoOf(const char* option, const std::vector<double>& values) {
-  for (const double value : values) {
-    if (!(value >= 0.0 && value <= 1.0))
-      throw UsageError(std::string(option) + ": a colour is in the range 0 to 1");
-  }
-  return {values[0], values[1], values[2]};
-}
-
 std::vector<OptionRow> fogRows() {
   constexpr OptionTraits kDrawn{.effect = Effect::Picture};
   return {
@@ -63,12 +55,8 @@ std::vector<OptionRow> fogRows() {
                      "coefficient, in 1/m; only stage gi has it",
                      FRAGTRACE_MEMBER(fog.density), {0.0, kMostExtinction},
                      {.effect = Effect::Picture, .renewal = Renewal::Program, .attribute = "fog_density"}),
-      numbers<double>(
-          "--fog-color", "linear R,G,B: the part of the light that the fog scatters (albedo)",
-          FRAGTRACE_MEMBER(fog.color), 3,
-          [](const std::vector<double>& v) { return albedoOf("--fog-color", v); },
-          [](const glm::vec3& c) { return numbersText(double(c.r), double(c.g), double(c.b)); },
-          {"0.8999999761581421,0.5,1"}, kDrawn, std::nullopt, kColorForm),
+      color("--fog-color", "the part of the light that the fog scatters (albedo)",
+            FRAGTRACE_MEMBER(fog.color), 1.0, kDrawn),
       number<double>("--fog-anisotropy",
                      "mean cosine of the angle by which the fog scatters light: above 0 it goes on forward",
                      FRAGTRACE_MEMBER(fog.anisotropy), {-kMostAnisotropy, kMostAnisotropy}, kDrawn),

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 
 #include "base/errors.h"
@@ -42,6 +43,54 @@ OptionRow catcherRow() {
   return row;
 }
 
+/// COLOR[,ROUGHNESS]
+GroundOptions groundIn(const std::string& text) {
+  const std::string option = "--ground";
+  const auto commas = std::ranges::count(text, ',');
+  const bool hasRoughness = commas == 1 || commas == 3;
+  const size_t end = hasRoughness ? text.rfind(',') : text.size();
+  GroundOptions ground;
+  ground.color = colorIn(option, text.substr(0, end), 1.0);
+  if (!hasRoughness) return ground;
+  const std::optional<double> roughness = numberIn(CLI::detail::trim_copy(text.substr(end + 1)));
+  if (!roughness || !(*roughness >= 0.0 && *roughness <= 1.0))
+    throw UsageError(option + ": '" + text.substr(end + 1) + "' is no roughness from 0 to 1");
+  ground.roughness = *roughness;
+  return ground;
+}
+
+OptionRow groundRow() {
+  OptionRow row = memberRow(
+      "--ground",
+      "put the scene on a level ground of that colour (a name, #rrggbb or linear R,G,B) and roughness, by "
+      "default 0.6; it is as high as --shadow-catcher bottom, and reaches to the horizon",
+      FRAGTRACE_MEMBER(light.ground), {.effect = Effect::Picture, .renewal = Renewal::Scene});
+  row.examples = {"white", "#333,0.2", "0.5,0.25,1,0.125"};
+  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
+    addWord(app, r, raw, [](RenderOptions& o, const std::string& text) { o.light.ground = groundIn(text); });
+  };
+  row.words = [](const RenderOptions& o) {
+    const GroundOptions& ground = *o.light.ground;
+    const glm::vec3& c = ground.color;
+    return std::vector{numbersText(double(c.r), double(c.g), double(c.b), ground.roughness)};
+  };
+  return row;
+}
+
+/// Stands for other options, as settleShop() says.
+OptionRow shopRow() {
+  OptionRow row{.name = "--shop",
+                .help =
+                    "a picture for a shop's page: short for --studio --background-color white --fill 0.85 "
+                    "--shadow-catcher bottom --transparent-glass --alpha display --quality good, as far "
+                    "as no option of yours says otherwise"};
+  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) { app.add_flag(r.name, raw.shop, r.help); };
+  row.isDefault = [](const RenderOptions&) { return true; };
+  row.words = [](const RenderOptions&) { return std::vector<std::string>(); };
+  row.copy = [](RenderOptions&, const RenderOptions&) {};
+  return row;
+}
+
 /// Has no default light, however --default-light stands.
 OptionRow noDefaultLightRow() {
   OptionRow row{.name = "--no-default-light", .help = "short for --default-light none"};
@@ -58,14 +107,6 @@ OptionRow noDefaultLightRow() {
 OptionRow catcherHeightRow() {
   return memberRow("--shadow-catcher HEIGHT", "", FRAGTRACE_MEMBER(light.catcherHeight),
                    {.effect = Effect::Picture, .copied = false, .group = OptionGroup::None});
-}
-
-glm::vec3 colorOf(const std::vector<double>& values) {
-  for (const double value : values) {
-    if (value < 0.0) throw UsageError("--background-color: below 0");
-    if (value > kMostIntensity) throw UsageError("--background-color: above " + numberText(kMostIntensity));
-  }
-  return {values[0], values[1], values[2]};
 }
 
 }  // namespace
@@ -113,8 +154,15 @@ std::vector<OptionRow> lightRows() {
            "the camera does not see, in front of a grey backdrop",
            FRAGTRACE_MEMBER(light.studio),
            {.effect = Effect::Picture, .renewal = Renewal::Scene, .attribute = "studio"}),
+      choice("--studio-look",
+             "look of the studio, which this turns on: {}; white is a bright room for dark and shiny things, "
+             "dark shows edges",
+             FRAGTRACE_MEMBER(light.studioLook), kStudioLookNames,
+             {.effect = Effect::Picture, .renewal = Renewal::Scene}),
+      shopRow(),
       catcherRow(),
       catcherHeightRow(),
+      groundRow(),
       limit<double>(
           "--shadow-fade",
           "let the shadow on --shadow-catcher fade out before the edge of the picture, over this part "
@@ -122,13 +170,16 @@ std::vector<OptionRow> lightRows() {
           FRAGTRACE_MEMBER(light.shadowFade), {0.0, 0.5}, {.effect = Effect::Picture}),
       offFlag("--no-background", "hide the environment map from the camera, and write alpha",
               FRAGTRACE_MEMBER(light.background), {.effect = Effect::Picture, .attribute = "background"}),
-      numbers<double>(
-          "--background-color",
-          "linear R,G,B that the camera sees where there is no surface, instead of the "
-          "environment map; it lights nothing",
-          FRAGTRACE_MEMBER(light.backgroundColor), 3, colorOf,
-          [](const glm::vec3& c) { return numbersText(double(c.r), double(c.g), double(c.b)); },
-          {"0.10000000149011612,0.2,1"}, {.effect = Effect::Picture}, std::nullopt, kColorForm),
+      flag(
+          "--transparent-glass",
+          "with --no-background or --background-color: let the camera see the page through glass; alpha is 1 "
+          "less the mean of what the glass lets pass of red, green and blue",
+          FRAGTRACE_MEMBER(light.transparentGlass),
+          {.effect = Effect::Picture, .renewal = Renewal::Program, .attribute = "transparent_glass"}),
+      color("--background-color",
+            "what the camera sees where there is no surface, instead of the environment map; it lights "
+            "nothing; a .png or .jpg shows this very colour, whatever --exposure and --tone-map are",
+            FRAGTRACE_MEMBER(light.backgroundColor), kMostIntensity, {.effect = Effect::Picture}),
       choice("--default-light",
              "what lights a scene that has no light of its own: {}; white comes from all sides, and studio "
              "is the environment of --studio",

@@ -61,8 +61,7 @@ void take(const std::string& name, const std::string& text, AddedLight& light) {
     const std::vector<double> v = valuesOf(name, text, 1, 2, kMostMetres);
     light.size = {positive(name, v.front()), positive(name, v.back())};
   } else if (name == "color") {
-    light.color = vector(kMostStrength);
-    if (std::min({light.color.x, light.color.y, light.color.z}) < 0.0) refuse("color: below 0");
+    light.color = colorIn("--add-light: color", text, kMostStrength);
     if (light.color == glm::dvec3(0.0)) refuse("color: is black");
   } else {
     light.strength = positive(name, values(1, kMostStrength)[0]);

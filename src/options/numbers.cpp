@@ -5,9 +5,13 @@
 #include <cmath>
 #include <utility>
 
+#include "base/errors.h"
+#include "base/near_name.h"
 #include "base/text.h"
+#include "image/display/page_color.h"
 #include "options/choose.h"
 #include "options/library/option_facts.h"
+#include "options/option_text.h"
 
 namespace fragtrace {
 
@@ -35,6 +39,27 @@ std::string whyNoNumber(const std::string& text) {
 std::optional<double> numberIn(const std::string& text) {
   double value = 0.0;
   return CLI::detail::lexical_cast(text, value) ? std::optional(value) : std::nullopt;
+}
+
+glm::vec3 colorIn(const std::string& what, const std::string& text, double most) {
+  if (const std::optional<glm::vec3> named = pageColor(text)) return *named;
+  const auto refuse = [&](const std::string& why) { throw UsageError(what + ": " + why); };
+  if (text.starts_with('#')) refuse("'" + text + "' is no colour such as #ff8000 or #f80");
+  const std::vector<std::string> parts = CLI::detail::split(text, ',');
+  const std::optional<double> first = numberIn(CLI::detail::trim_copy(parts.front()));
+  if (parts.size() == 1 && !first)
+    refuse("'" + text + "' is no name of a colour, #rrggbb or linear R,G,B" +
+           didYouMean(text, pageColorNames()));
+  if (parts.size() != 3) refuse("takes a name, #rrggbb or three numbers, as in 1,1,1 for white");
+  glm::vec3 color;
+  for (size_t c = 0; c < 3; ++c) {
+    const std::string part = CLI::detail::trim_copy(parts[c]);
+    if (const std::string why = whyNoNumber(part); !why.empty()) refuse(why + ", as in 1,1,1 for white");
+    const double value = *numberIn(part);
+    if (!(value >= 0.0 && value <= most)) refuse("a colour is in the range 0 to " + exactText(most));
+    color[int(c)] = float(value);
+  }
+  return color;
 }
 
 CLI::Validator wholeNumber(int64_t least, int64_t most, const std::string& form) {

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,10 @@ namespace fragtrace {
 
 /// The number that a text is, as the command line reads it; none where it is no number.
 std::optional<double> numberIn(const std::string& text);
+
+/// The linear colour that a word is: R,G,B, each from 0 to `most`, or a name or digits of pageColor(). Throws
+/// UsageError, whose message begins with `what`.
+glm::vec3 colorIn(const std::string& what, const std::string& text, double most);
 
 /// A whole number within these bounds. A message about it names the `form` that the word has, if it is given.
 CLI::Validator wholeNumber(int64_t least, int64_t most, const std::string& form = "");

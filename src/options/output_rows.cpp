@@ -252,7 +252,7 @@ std::vector<OptionRow> outputRows() {  // NOLINT(readability-function-size): a t
       choice("--alpha",
              "for which programs a .png is: those that blend light (linear), or those that blend sRGB "
              "values, as browsers do (display); then shadows look right over white, and are weaker over dark "
-             "pages",
+             "pages; auto is display with --shadow-catcher or --transparent-glass, and else linear",
              FRAGTRACE_MEMBER(output.alpha), kAlphaNames,
              {.effect = Effect::Display, .group = OptionGroup::Encoding}),
       limit<double>(

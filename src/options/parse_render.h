@@ -34,6 +34,7 @@ struct RawRender {
   std::vector<std::string> fileEnable{};
   std::vector<std::string> fileDisable{};
   bool noDefaultLight = false;
+  bool shop = false;
   std::set<std::string> given{};  ///< names of options, with dashes, of the command line or of --config
   bool hasQuality = false;        ///< pictures for the eye have a quality by default
   bool anyOutput = false;  ///< pictures get their names later, so what any format holds may be asked for

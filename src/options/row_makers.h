@@ -191,8 +191,23 @@ OptionRow word(const char* name, std::string help, Member member, OptionTraits t
   return row;
 }
 
-/// The form of a colour, for messages.
-inline constexpr const char* kColorForm = "1,1,1 for white";
+/// A colour in one word, as colorIn() reads it.
+template <typename Member>
+OptionRow color(const char* name, std::string help, Member member, double most, OptionTraits traits) {
+  OptionRow row =
+      memberRow(name, std::move(help) + "; a colour's name or #rrggbb, or linear R,G,B", member, traits);
+  row.examples = {"0.8999999761581421,0.5,1", "white", "#1e90ff"};
+  row.add = [=](CLI::App& app, const OptionRow& r, RawRender& raw) {
+    addWord(app, r, raw, [=, option = r.name](RenderOptions& o, const std::string& text) {
+      member(o) = colorIn(option, text, most);
+    });
+  };
+  row.words = [member](const RenderOptions& o) {
+    const glm::vec3& c = *member(o);
+    return std::vector{numbersText(double(c.r), double(c.g), double(c.b))};
+  };
+  return row;
+}
 
 /// Numbers in one word, separated by commas, which `take` puts into the options; it throws UsageError. `form`
 /// is how the word may be written, for messages.
@@ -216,8 +231,5 @@ OptionRow numbers(const char* name, std::string help, Member member, int count, 
   row.words = [member, write](const RenderOptions& o) { return std::vector<std::string>{write(*member(o))}; };
   return row;
 }
-
-/// The albedo of one scattering. Throws UsageError.
-glm::vec3 albedoOf(const char* option, const std::vector<double>& values);
 
 }  // namespace fragtrace

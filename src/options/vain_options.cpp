@@ -59,6 +59,8 @@ constexpr VainRow kRows[] = {
     {"--background-color", [](const Options& o) { return !o.light.background; }, "--no-background hides it"},
     {"--background-color", [](const Options& o) { return glm::compMax(*o.light.backgroundColor) > 1.0f; },
      "values above 1 are brighter than white; divide values from 0 to 255 by 255"},
+    {"--transparent-glass", [](const Options& o) { return o.light.background && !o.light.backgroundColor; },
+     "goes with --no-background or --background-color: glass shows the environment else"},
     {"--alpha", [](const Options& o) { return o.light.background || !holdsDisplayAlpha(o.output.file); },
      "changes a .png with --no-background only"},
     {"--no-dither",

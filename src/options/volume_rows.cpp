@@ -53,14 +53,9 @@ std::vector<OptionRow> volumeRows() {
                     FRAGTRACE_MEMBER(volume.scale), {kLeastVolumeScale, kMostVolumeScale}, kPlaced),
       limit<double>("--volume-density", "extinction coefficient of a density of 1, in 1/m; by default 1",
                     FRAGTRACE_MEMBER(volume.density), {0.0, kMostVolumeFactor}, kPlaced),
-      numbers<double>(
-          "--volume-color",
-          "linear R,G,B: the part of the light that the grid scatters (albedo), and does not absorb; by "
-          "default 1,1,1",
-          FRAGTRACE_MEMBER(volume.color), 3,
-          [](const std::vector<double>& v) { return albedoOf("--volume-color", v); },
-          [](const glm::vec3& c) { return numbersText(double(c.r), double(c.g), double(c.b)); },
-          {"0.8999999761581421,0.5,1"}, kPlaced, std::nullopt, kColorForm),
+      color("--volume-color",
+            "the part of the light that the grid scatters (albedo), and does not absorb; by default 1,1,1",
+            FRAGTRACE_MEMBER(volume.color), 1.0, kPlaced),
       limit<double>("--volume-anisotropy",
                     "mean cosine of the angle by which the grid scatters light: above 0 it goes on forward; "
                     "by default 0",

@@ -117,18 +117,9 @@ class StrokeBuilder {
                         uint32_t(triangles_.size() - before), strokes.nodeIndex});
   }
 
-  /// Puts the solids after the other triangles in local space, before those of shared meshes.
   void finish() {
-    const uint32_t flat = flatTriangleCount(scene_);
-    const auto count = uint32_t(triangles_.size());
-    const auto after = std::ranges::lower_bound(scene_.origins, flat, {}, &PrimitiveOrigin::firstTriangle) -
-                       scene_.origins.begin();
-    for (size_t i = size_t(after); i < scene_.origins.size(); ++i) scene_.origins[i].firstTriangle += count;
-    scene_.origins.insert(scene_.origins.begin() + after, origins_.begin(), origins_.end());
-    scene_.strokeTriangles = count;
-    for (SharedMesh& mesh : scene_.sharedMeshes) mesh.firstTriangle += count;
-    scene_.triangles.insert(scene_.triangles.begin() + std::ptrdiff_t(flat), triangles_.begin(),
-                            triangles_.end());
+    scene_.strokeTriangles = uint32_t(triangles_.size());
+    insertFlatTriangles(scene_, triangles_, origins_);
   }
 
  private:
@@ -236,6 +227,18 @@ class StrokeBuilder {
 };
 
 }  // namespace
+
+void insertFlatTriangles(Scene& scene, const std::vector<Triangle>& triangles,
+                         const std::vector<PrimitiveOrigin>& origins) {
+  const uint32_t flat = flatTriangleCount(scene);
+  const auto count = uint32_t(triangles.size());
+  const auto after = std::ranges::lower_bound(scene.origins, flat, {}, &PrimitiveOrigin::firstTriangle) -
+                     scene.origins.begin();
+  for (size_t i = size_t(after); i < scene.origins.size(); ++i) scene.origins[i].firstTriangle += count;
+  scene.origins.insert(scene.origins.begin() + after, origins.begin(), origins.end());
+  for (SharedMesh& mesh : scene.sharedMeshes) mesh.firstTriangle += count;
+  scene.triangles.insert(scene.triangles.begin() + std::ptrdiff_t(flat), triangles.begin(), triangles.end());
+}
 
 size_t trianglesOf(const Strokes& strokes) {
   size_t count = 0;

@@ -12,6 +12,11 @@ inline constexpr size_t kTrianglesOfALine = 24;
 /// Vertices of the larger of them.
 inline constexpr size_t kMostStrokeVertices = 14;
 
+/// Puts triangles after the others in local space, before those of shared meshes. Each of them is of one of
+/// the origins, which begin at flatTriangleCount().
+void insertFlatTriangles(Scene& scene, const std::vector<Triangle>& triangles,
+                         const std::vector<PrimitiveOrigin>& origins);
+
 /// The number of triangles of the solids of a list; a line that passes the camera takes twice as many.
 size_t trianglesOf(const Strokes& strokes);
 

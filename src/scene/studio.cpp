@@ -27,10 +27,50 @@ struct SoftBox {
   double radiance;
 };
 
-/// Key, fill and rim. They are large and not much brighter than white, so that their mirror images stay below
-/// the shoulder of the tone curve over most of their area.
-constexpr std::array<SoftBox, 3> kBoxes{
-    {{-42.0, 38.0, {0.55, 0.55}, 3.8}, {62.0, 12.0, {0.55, 0.75}, 0.8}, {152.0, 42.0, {0.34, 0.60}, 4.2}}};
+/// A look of the studio.
+struct Look {
+  std::array<SoftBox, 5> boxes;
+  double horizon;  ///< radiance of the backdrop at the horizon, where it is lightest
+  double above;    ///< straight up
+  double below;    ///< straight down
+  double shown;    ///< factor of the backdrop where the camera sees it
+};
+
+constexpr SoftBox kNoBox{0.0, 0.0, {0.1, 0.1}, 0.0};
+
+/// By StudioLook. Soft has key, fill and rim. They are large and not much brighter than white, so that their
+/// mirror images stay below the shoulder of the tone curve over most of their area. White has a key and
+/// panels that take light away: without them glass and metal had no edges. Dark has a dim key and strips on
+/// both sides.
+constexpr std::array<Look, 3> kLooks{{
+    {{{{-42.0, 38.0, {0.55, 0.55}, 3.8},
+       {62.0, 12.0, {0.55, 0.75}, 0.8},
+       {152.0, 42.0, {0.34, 0.60}, 4.2},
+       kNoBox,
+       kNoBox}},
+     0.34,
+     0.14,
+     0.22,
+     1.0},
+    {{{{-42.0, 42.0, {0.60, 0.60}, 2.2},
+       {152.0, 48.0, {0.40, 0.60}, 1.4},
+       {-96.0, 6.0, {0.26, 1.20}, -0.5},
+       {96.0, 6.0, {0.26, 1.20}, -0.5},
+       kNoBox}},
+     0.56,
+     0.50,
+     0.56,
+     3.0},
+    {{{{-48.0, 46.0, {0.40, 0.40}, 3.4},
+       {-128.0, 14.0, {0.24, 1.00}, 5.0},
+       {128.0, 14.0, {0.24, 1.00}, 5.0},
+       {180.0, 62.0, {0.60, 0.30}, 3.0},
+       kNoBox}},
+     0.035,
+     0.010,
+     0.012,
+     1.0},
+}};
 constexpr double kSoftPart = 0.5;  ///< the edge fades over this share of the shorter half
 
 /// 1 in the middle of the box, 0 outside; round corners.
@@ -48,12 +88,10 @@ double shareOf(const SoftBox& box, const glm::dvec3& direction) {
   return 1.0 - smoothStep(glm::length(beyond) / soft);
 }
 
-/// The radiance of the backdrop at a height (the direction's Y): lightest at the horizon, darker above than
-/// below.
-double gradientAt(double height) {
-  constexpr double kHorizon = 0.34;
-  const double far = height > 0.0 ? 0.14 : 0.22;
-  return kHorizon + (far - kHorizon) * smoothStep(std::abs(height));
+/// The radiance of the backdrop at a height (the direction's Y).
+double gradientAt(const Look& look, double height) {
+  const double far = height > 0.0 ? look.above : look.below;
+  return look.horizon + (far - look.horizon) * smoothStep(std::abs(height));
 }
 
 double polarAngle(int y) { return glm::pi<double>() * (y + 0.5) / kHeight; }
@@ -68,7 +106,8 @@ Image emptyMap(int width) {
 
 }  // namespace
 
-Image studioLight() {
+Image studioLight(StudioLook look) {
+  const Look& made = kLooks[size_t(look)];
   Image image = emptyMap(kWidth);
   for (int y = 0; y < kHeight; ++y) {
     const double polar = polarAngle(y);
@@ -77,17 +116,19 @@ Image studioLight() {
       const double around = 2.0 * glm::pi<double>() * ((x + 0.5) / kWidth - 0.5);
       const glm::dvec3 direction(std::sin(polar) * std::cos(around), height,
                                  std::sin(polar) * std::sin(around));
-      double radiance = gradientAt(height);
-      for (const SoftBox& box : kBoxes) radiance += box.radiance * shareOf(box, direction);
+      double radiance = gradientAt(made, height);
+      for (const SoftBox& box : made.boxes) radiance += box.radiance * shareOf(box, direction);
       setGrey(image, x, y, radiance);
     }
   }
   return image;
 }
 
-Image studioBackdrop() {
+Image studioBackdrop(StudioLook look) {
+  const Look& made = kLooks[size_t(look)];
   Image image = emptyMap(1);
-  for (int y = 0; y < kHeight; ++y) setGrey(image, 0, y, gradientAt(std::cos(polarAngle(y))));
+  for (int y = 0; y < kHeight; ++y)
+    setGrey(image, 0, y, made.shown * gradientAt(made, std::cos(polarAngle(y))));
   return image;
 }
 

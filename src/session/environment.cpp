@@ -101,7 +101,8 @@ Environment makeEnvironment(const RenderOptions& options, std::future<LinearImag
     environment = skyOf(options, warnings);
   } else if (options.light.studio ||
              (light != OwnLight::Enough && options.light.defaultLight == DefaultLight::Studio)) {
-    environment = {Surroundings::Map, studioLight(), studioBackdrop()};
+    environment = {Surroundings::Map, studioLight(options.light.studioLook),
+                   studioBackdrop(options.light.studioLook)};
   } else if (light != OwnLight::Enough && options.light.defaultLight == DefaultLight::White) {
     environment.kind = Surroundings::DefaultLight;
     environment.image = {1, 1, {"R", "G", "B"}, {1.0f, 1.0f, 1.0f}, {}};

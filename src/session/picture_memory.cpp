@@ -51,7 +51,7 @@ uint64_t pixelsOf(glm::ivec2 size) { return uint64_t(size.x) * uint64_t(size.y);
 }  // namespace
 
 size_t channelsOf(const RenderOptions& options) {
-  size_t channels = 3 + size_t(!options.light.background) + size_t(options.output.aovSamples) +
+  size_t channels = 3 + size_t(keepsAlpha(options)) + size_t(options.output.aovSamples) +
                     size_t(options.output.aovVariance);
   for (const Aov aov : options.output.aovs)
     channels += aov == Aov::Guides ? kGuideChannels.size() + 1

@@ -29,6 +29,7 @@
 #include "session/caught_light.h"
 #include "session/environment.h"
 #include "session/file_light.h"
+#include "session/ground.h"
 #include "session/outputs.h"
 #include "session/picture_memory.h"
 #include "session/shutter.h"
@@ -371,7 +372,8 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   // The tree is built while the map is decoded, unless the camera depends on the map. It serves the decision
   // about the light, too, where it holds the file's surfaces alone.
   const bool early = fitsShadow(options, settledOverrides(options.camera.overrides, scene));
-  const bool apart = early || !scene.strokes.empty() || shutterSeconds(options) > 0.0;
+  const bool apart =
+      early || options.light.ground || !scene.strokes.empty() || shutterSeconds(options) > 0.0;
   if (apart) settleLight(nullptr);
   if (early) settleEnvironment();
   aim(loaded, options, film);
@@ -379,6 +381,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
     loaded.scene.warnings.push_back(
         "the default view leaves out " + countText(loaded.strays, "point") +
         " of the scene, far away from all others; --fit moves the camera until all are in the picture");
+  addGround(loaded.scene, options, loaded.scene.bounds);
   addStrokes(loaded.scene, loaded.camera, loaded.size, options.camera.lineWidth);
   checkCatcherPlace(options, loaded.scene);
   checkFogDepth(options, loaded.scene);

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "scene/camera.h"
 #include "scene/strokes.h"
+#include "session/ground.h"
 #include "session/motion_error.h"
 #include "shader/layout.h"
 
@@ -38,6 +39,7 @@ class MomentReader {
     if (!keys_.empty()) loading.shutter = {*options_.selection.animationTime, keys_.front(), keys_.back()};
     loading.readsVolume = false;
     Scene scene = loadGltf(options_.scene, loading, &document_);
+    addGround(scene, options_, loaded_.scene.bounds);
     addStrokes(scene, loaded_.camera, loaded_.size, options_.camera.lineWidth);
     const bool sameCount = scene.triangles.size() == loaded_.scene.triangles.size();
     Pose pose = poseOf(std::move(scene), loaded_.scene.space);

@@ -162,6 +162,7 @@ void appendConstants(std::string& text, const ShaderVariant& variant) {
   constant("kNeighbours", variant.neighbours);
   constant("kClampIndirect", variant.clampIndirect);
   constant("kShadowCatcher", variant.shadowCatcher);
+  constant("kTransparentGlass", variant.transparentGlass);
   constant("kLens", variant.lens);
   constant("kLensShift", variant.lensShift);
   constant("kPanorama", variant.camera == CameraType::Panorama);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "image/display/tone_map.h"
+#include "image/files/video_format.h"
 #include "image/format.h"
 #include "image/limits.h"
 #include "image/region.h"
@@ -20,6 +21,7 @@
 #include "scene/scene.h"
 #include "scene/selection.h"
 #include "scene/sky/sun_place.h"
+#include "scene/studio.h"
 #include "shader/aov.h"
 #include "shader/stage.h"
 
@@ -81,9 +83,9 @@ inline constexpr std::array<std::string_view, 4> kDenoiseNames{"none", "variance
 enum class ProgressForm : uint8_t { Auto, Json, None };
 inline constexpr std::array<std::string_view, 3> kProgressNames{"auto", "json", "none"};
 /// The way in which programs are expected to lay a .png with alpha over something: by its light, or by its
-/// sRGB values.
-enum class AlphaOf : uint8_t { Linear, Display };
-inline constexpr std::array<std::string_view, 2> kAlphaNames{"linear", "display"};
+/// sRGB values. Auto: by these, where the picture has a shadow or glass that the page shows through.
+enum class AlphaOf : uint8_t { Linear, Display, Auto };
+inline constexpr std::array<std::string_view, 3> kAlphaNames{"linear", "display", "auto"};
 /// The distribution of camera samples about the middle of their pixel (shaders/pixel_filter.glsl).
 enum class PixelFilter : uint8_t { Box, Gaussian, BlackmanHarris };
 inline constexpr std::array<std::string_view, 3> kPixelFilterNames{"box", "gaussian", "blackman-harris"};
@@ -167,6 +169,14 @@ struct SkyOptions {
   bool operator==(const SkyOptions&) const = default;
 };
 
+/// A level plane under the scene that is seen.
+struct GroundOptions {
+  glm::vec3 color{0.5f};
+  double roughness = 0.6;
+
+  bool operator==(const GroundOptions&) const = default;
+};
+
 /// The light of a scene, its sampling, and the surroundings.
 struct LightOptions {
   LightSelection selection = LightSelection::Auto;
@@ -181,7 +191,10 @@ struct LightOptions {
   DefaultLight defaultLight = DefaultLight::Studio;
   LampUnits lampUnits = LampUnits::Auto;
   SkyOptions sky;
-  bool studio = false;                  ///< the built-in environment (scene/studio.h)
+  bool studio = false;  ///< the built-in environment (scene/studio.h)
+  StudioLook studioLook = StudioLook::Soft;
+  std::optional<GroundOptions> ground;
+  bool transparentGlass = false;        ///< the camera sees the page through glass, and alpha says how much
   bool shadowCatcher = false;           ///< a plane that shows nothing but shadows
   std::optional<double> catcherHeight;  ///< its Y in world space, metres; none: the bottom of the scene
   /// The part of the picture's smaller side over which the shadow ends before the edge; none: as
@@ -218,7 +231,7 @@ struct OutputOptions {
   ToneMap toneMap = ToneMap::Neutral;
   Encoding encoding;
   std::optional<int> treeLevel;  ///< its boxes are drawn over the picture
-  AlphaOf alpha = AlphaOf::Linear;
+  AlphaOf alpha = AlphaOf::Auto;
   DebugView debugView = DebugView::None;
   Denoise denoise = Denoise::None;
   ProgressForm progress = ProgressForm::Auto;
@@ -286,6 +299,16 @@ inline bool isAdaptive(const RenderOptions& o) { return o.sampling.noise > 0.0 |
 inline bool isSequence(const RenderOptions& o) {
   return o.output.sequence.frames || o.output.sequence.turntable > 0;
 }
+
+/// The colour that stands behind the surfaces of a .png, .jpg or video as a page does, past exposure and tone
+/// curve; none: there is no such page.
+inline std::optional<glm::vec3> pageOf(const RenderOptions& o) {
+  const bool isShown = o.light.background && o.output.debugView == DebugView::None;
+  return isShown && holdsDisplay(o.output.file) ? o.light.backgroundColor : std::nullopt;
+}
+
+/// Returns true if the picture keeps how much of each pixel surfaces and shadows cover.
+inline bool keepsAlpha(const RenderOptions& o) { return !o.light.background || pageOf(o); }
 
 /// Width / height of the picture that a scene without a camera is framed for; without --resolution it is
 /// wide, as good as square.

@@ -108,11 +108,11 @@ void dropIdle(ShaderVariant& v) {
   if (!stage(Stage::Watertight)) drop(v.traits, {Trait::Slivers});
 }
 
-/// A catcher and the neighbours' light samples know one camera ray per sample, and media may scatter before
-/// any surface.
+/// A catcher, alpha of glass and the neighbours' light samples know one camera ray per sample, and media may
+/// scatter before any surface.
 int cameraRaysOf(const ShaderVariant& v, int wanted) {
-  const bool one = !has(v.stages, Stage::Gi) || v.countsVisits || v.shadowCatcher || v.lightCandidates ||
-                   v.neighbours || hasMedia(v.traits);
+  const bool one = !has(v.stages, Stage::Gi) || v.countsVisits || v.shadowCatcher || v.transparentGlass ||
+                   v.lightCandidates || v.neighbours || hasMedia(v.traits);
   return one || wanted == 0 ? 1 : wanted;
 }
 
@@ -264,6 +264,9 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   if (!isRectilinear(type)) v.camera = type;
   v.clampIndirect = has(v.stages, Stage::Gi) && options.sampling.clampIndirect > 0.0;
   v.shadowCatcher = has(v.stages, Stage::Gi) && options.light.shadowCatcher;
+  const bool hasPage = !options.light.background || options.light.backgroundColor;
+  v.transparentGlass = has(v.stages, Stage::Gi) && options.light.transparentGlass && hasPage &&
+                       has(v.traits, Trait::Transmission) && !v.countsVisits;
   v.cameraRays = cameraRaysOf(v, options.sampling.cameraRays);
   return v;
 }
@@ -342,6 +345,7 @@ std::optional<ShaderVariant> lightPathVariant(const ShaderVariant& variant) {
   if (!has(variant.traits, Trait::Caustics)) return std::nullopt;
   ShaderVariant light = variant;
   light.lightPaths = true;
+  light.transparentGlass = false;
   light.cameraRays = 1;
   light.neighbours = false;
   light.wavefront = false;
@@ -406,6 +410,7 @@ std::string variantName(const ShaderVariant& variant) {
   if (variant.neighbours) append("neighbours");
   if (variant.clampIndirect) append("clamp-indirect");
   if (variant.shadowCatcher) append("shadow-catcher");
+  if (variant.transparentGlass) append("transparent-glass");
   if (variant.lens) append("lens");
   if (variant.lensShift) append("lens-shift");
   if (variant.camera != CameraType::Perspective) append(kCameraTypeNames[size_t(variant.camera)].data());

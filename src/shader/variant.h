@@ -31,7 +31,8 @@ struct ShaderVariant {
   bool neighbours = false;        ///< pixels take such light samples of others near them
   bool clampIndirect = false;
   bool shadowCatcher = false;
-  bool lens = false;  ///< else a pinhole
+  bool transparentGlass = false;  ///< the camera sees the background through glass
+  bool lens = false;              ///< else a pinhole
   bool lensShift = false;
   CameraType camera = CameraType::Perspective;  ///< Perspective stands for orthographic cameras, too
   bool lightPaths = false;  ///< light paths are traced in place of camera paths (shaders/caustics/)

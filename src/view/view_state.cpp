@@ -60,6 +60,8 @@ void takeScene(RenderOptions& side, const RenderOptions& from) {
   side.selection = from.selection;
   side.light.hdriFile = from.light.hdriFile;
   side.light.studio = from.light.studio;
+  side.light.studioLook = from.light.studioLook;
+  side.light.ground = from.light.ground;
   side.light.sky.on = from.light.sky.on;
   side.light.backgroundBlur = from.light.backgroundBlur;
   side.light.defaultLight = from.light.defaultLight;
@@ -135,7 +137,8 @@ void takeOptions(ViewState& state, const RenderOptions& options) {
 
 bool sameScene(const RenderOptions& a, const RenderOptions& b) {
   return a.scene == b.scene && a.selection == b.selection && a.light.hdriFile == b.light.hdriFile &&
-         a.light.studio == b.light.studio && a.light.sky.on == b.light.sky.on &&
+         a.light.studio == b.light.studio && a.light.studioLook == b.light.studioLook &&
+         a.light.ground == b.light.ground && a.light.sky.on == b.light.sky.on &&
          a.light.backgroundBlur == b.light.backgroundBlur && a.light.defaultLight == b.light.defaultLight &&
          a.light.lampUnits == b.light.lampUnits && a.device.instancing == b.device.instancing &&
          a.limits == b.limits;

@@ -23,7 +23,8 @@ inline std::string probePrelude() {
   std::string text =
       "#version 450 core\nconst bool kAnisotropy = false;\nconst bool kSobol = true;\nconst bool kWatertight "
       "= true;\nconst bool kIterative = "
-      "true;\nconst bool kShadowCatcher = false;\nconst uint kPixelOverWhite = 4u;\n";
+      "true;\nconst bool kShadowCatcher = false;\nconst bool kTransparentGlass = false;\nconst uint "
+      "kPixelOverWhite = 4u;\n";
   for (const char* file : {"mix_bits.glsl", "random.glsl", "sampling.glsl", "luminance.glsl",
                            "intersect.glsl", "perlin.glsl", "fresnel.glsl", "ggx.glsl", "film_pixel.glsl"}) {
     text += shaderText(file);

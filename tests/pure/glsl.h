@@ -52,6 +52,7 @@ inline bool kCaustics = false;
 inline bool kLightPaths = false;
 inline bool kRoughGlass = true;
 inline bool kShadowCatcher = false;
+inline bool kTransparentGlass = false;
 inline bool kMoving = false;
 inline int kStackSize = 32;
 

@@ -193,6 +193,7 @@ TEST(OptionTable, GoesRoundAsAWhole) {
                    "--tree-level",
                    "--background-blur",
                    "--studio",
+                   "--studio-look",
                    "--sun-elevation",
                    "--sun-azimuth"};
   Words words{"a.gltf"};

@@ -155,6 +155,35 @@ Image toDisplay(const Image& linear, double exposureEv, ToneMap toneMap) {
   return display;
 }
 
+glm::dvec3 shownOver(const glm::dvec3& page, const glm::dvec4& color, double factor, ToneMap toneMap) {
+  const double alpha = color.a > 0.0 ? std::min(color.a, 1.0) : 0.0;  // NaN compares false
+  glm::dvec3 shown = page;
+  if (alpha > 0.0) {
+    const glm::dvec3 own = glm::dvec3(color) - (1.0 - alpha) * page;
+    // Less than nothing is what tinted glass and coloured shadows take from the page.
+    shown = alpha * applyToneMap(toneMap, factor / alpha * own) + (1.0 - alpha) * page +
+            glm::min(own, glm::dvec3(0.0));
+  }
+  for (int c = 0; c < 3; ++c) shown[c] = shown[c] > 0.0 ? std::min(shown[c], 1.0) : 0.0;
+  return shown;
+}
+
+Image toDisplayOver(const glm::vec3& page, const Image& linear, double exposureEv, ToneMap toneMap) {
+  const auto channels = findColorChannels(linear);
+  if (!channels) throw RenderError("cannot tone-map a picture without colour channels");
+  const size_t alpha = findChannel(linear, "A").value();
+  const double factor = std::exp2(exposureEv);
+  Image display{linear.width, linear.height, {"R", "G", "B"}, {}, linear.attributes};
+  display.values.reserve(linear.values.size() / linear.channelCount() * 3);
+  for (size_t first = 0; first < linear.values.size(); first += linear.channelCount()) {
+    const float* pixel = linear.values.data() + first;
+    const glm::dvec4 color(pixel[(*channels)[0]], pixel[(*channels)[1]], pixel[(*channels)[2]], pixel[alpha]);
+    const glm::dvec3 shown = shownOver(glm::dvec3(page), color, factor, toneMap);
+    for (int c = 0; c < 3; ++c) display.values.push_back(float(encodeSrgb(shown[c])));
+  }
+  return display;
+}
+
 Image forBlendedValues(Image display) {
   const auto alphaChannel = findChannel(display, "A");
   if (!alphaChannel) return display;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -31,6 +32,15 @@ double decodeSrgb(double encoded);
 /// dropped. For a format without alpha pass withoutAlpha(linear), which puts it over black. Throws
 /// RenderError without colour.
 Image toDisplay(const Image& linear, double exposureEv, ToneMap toneMap);
+
+/// Linear display values in 0..1 of a colour with coverage that lies over a page, after this factor and
+/// curve: a pixel of toDisplayOver().
+glm::dvec3 shownOver(const glm::dvec3& page, const glm::dvec4& color, double factor, ToneMap toneMap);
+
+/// The opaque picture of a linear one whose colour lies over a page of one colour, as far as its channel A
+/// lets it through. The page has that very colour: neither exposure nor curve changes it. So a page of 1 is
+/// exactly white. Throws as toDisplay does.
+Image toDisplayOver(const glm::vec3& page, const Image& linear, double exposureEv, ToneMap toneMap);
 
 /// The picture of toDisplay() for programs that blend sRGB values, as browsers do: over white they show what
 /// blending light shows. Unchanged where it has no channel A.

@@ -27,7 +27,30 @@ constexpr const char* kNoisy = "noisy.";
 /// The channels of a picture that a filter changes.
 Image seenChannels(const Image& picture) {
   std::vector<std::string> channels{"R", "G", "B"};
-  if (isOverWhite(picture)) channels.emplace_back("A");
+  if (isOverWhite(picture) || hasNoisyAlpha(picture)) channels.emplace_back("A");
+  return onlyChannels(picture, channels);
+}
+
+/// The alpha of a picture as a picture to be filtered: white surfaces whose light is alpha. By chance a
+/// sample meets a surface or not. The share that surfaces take without chance, which the guides hold, is
+/// their albedo.
+Image ofAlpha(Image picture) {
+  const size_t alpha = findChannel(picture, "A").value();
+  const size_t covered = findChannel(picture, kGuideChannels[3]).value();
+  const auto variance = findChannel(picture, "variance.Y");
+  const auto samples = findChannel(picture, "samples.Y");
+  const std::array<size_t, 3> albedo{*findChannel(picture, kGuideChannels[0]),
+                                     *findChannel(picture, kGuideChannels[1]),
+                                     *findChannel(picture, kGuideChannels[2])};
+  for (size_t first = 0; first < picture.values.size(); first += picture.channelCount()) {
+    float* const pixel = picture.values.data() + first;
+    const float a = std::clamp(pixel[alpha], 0.0f, 1.0f);
+    for (const size_t c : findColorChannels(picture).value()) pixel[c] = a;
+    for (const size_t c : albedo) pixel[c] = pixel[covered];
+    if (variance && samples) pixel[*variance] = a * (1.0f - a) / std::max(pixel[*samples] - 1.0f, 1.0f);
+  }
+  std::vector<std::string> channels = picture.channels;
+  std::erase(channels, kObservedChannel);
   return onlyChannels(picture, channels);
 }
 
@@ -106,11 +129,18 @@ std::optional<Image> filtered(const Image& picture, const RenderOptions& options
   const double start = steadyMilliseconds();
   std::optional<Image> result =
       isOverWhite(picture) ? filter.apply(laidOverWhite(picture)) : filter.apply(picture);
-  if (!result) {
+  std::optional<Image> alpha;
+  if (result && hasNoisyAlpha(picture)) alpha = filter.apply(ofAlpha(picture));
+  if (!result || (hasNoisyAlpha(picture) && !alpha)) {
     stats.skipped = "interrupted";
-    return result;
+    return std::nullopt;
   }
-  if (isOverWhite(picture)) result = liftedFromWhite(picture, *result);
+  const std::optional<glm::vec3> page = pageOf(options);
+  const Image own = alpha ? withAlpha(picture, *alpha) : picture;
+  if (isOverWhite(picture))
+    result = liftedFromWhite(own, *result);
+  else if (findChannel(own, "A"))
+    result = seenOverPage(own, *result, page.value_or(glm::vec3(0.0f)));
   stats.filter = filter.name;
   stats.compileMs = filter.compileMs;
   stats.filterMs = steadyMilliseconds() - start;

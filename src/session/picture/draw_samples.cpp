@@ -43,10 +43,10 @@ bool drawAllSamples(Renderer& renderer, SampledFilm& sampled, const RenderOption
 
 Image pictureOf(const Drawing& drawing, const RenderOptions& options, bool withSamples) {
   const RenderOptions drawn = withGuides(options);
-  Image picture = shownPicture(
-      options, drawing.pixels,
-      {!options.light.background, drawn.output.aovSamples || withSamples, drawn.output.aovVariance},
-      drawing.variance);
+  Image picture =
+      shownPicture(options, drawing.pixels,
+                   {keepsAlpha(options), drawn.output.aovSamples || withSamples, drawn.output.aovVariance},
+                   drawing.variance);
   if (drawing.observed.empty()) return picture;
   const auto observed = [&](size_t i) { return drawing.observed[i]; };
   appendChannels(picture, imageOfNumbers(drawing.pixels.size, observed), {kObservedChannel});

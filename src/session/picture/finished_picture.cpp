@@ -8,6 +8,7 @@
 #include "base/worker.h"
 #include "gl/driver_choice.h"
 #include "image/channels.h"
+#include "image/over_white.h"
 #include "render/adaptive.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
@@ -120,6 +121,10 @@ bool finishPicture(Image& picture, const PictureJob& job, const DrawingPlan& pla
   addAovs(picture, {options, job.loaded, job.tracer, job.showsProgress, job.told}, plan, stats);
   stats.programs = job.tracer.renderer->programs().count();
   stats.shaderCharacters = job.tracer.renderer->programs().characters();
+  const ShaderVariant& variant = job.tracer.variant;
+  if (findChannel(picture, "A") &&
+      (has(variant.traits, Trait::Alpha) || variant.shadowCatcher || variant.transparentGlass))
+    picture.attributes[kNoisyAlphaAttribute] = "1";
   denoise(picture, options, device.oidn, stats);
   sayDriverLog(options, device);
   if (interrupts() > most) return false;

@@ -117,15 +117,25 @@ int bitsOf(const OutputOptions& output) {
   return formatOfName(output.file) == ImageFormat::Jpeg ? 8 : output.encoding.pngBits;
 }
 
+/// Returns true if the page is expected to blend sRGB values: browsers and offices do, and shadows and glass
+/// show it.
+bool blendsValues(const RenderOptions& options) {
+  if (options.output.alpha != AlphaOf::Auto) return options.output.alpha == AlphaOf::Display;
+  return (options.light.shadowCatcher || options.light.transparentGlass) && !showsColors(options);
+}
+
 }  // namespace
 
 Image displayedPicture(const RenderOptions& options, const Image& linear,
                        std::span<const PictureLine> lines) {
   const bool colors = showsColors(options);
-  Image display = toDisplay(holdsDisplayAlpha(options.output.file) ? linear : withoutAlpha(linear),
-                            colors ? 0.0 : options.output.exposure.value_or(0.0),
-                            colors ? ToneMap::Linear : options.output.toneMap);
-  if (options.output.alpha == AlphaOf::Display) display = forBlendedValues(std::move(display));
+  const double exposure = colors ? 0.0 : options.output.exposure.value_or(0.0);
+  const ToneMap curve = colors ? ToneMap::Linear : options.output.toneMap;
+  const std::optional<glm::vec3> page = pageOf(options);
+  Image display = page && findChannel(linear, "A")         ? toDisplayOver(*page, linear, exposure, curve)
+                  : holdsDisplayAlpha(options.output.file) ? toDisplay(linear, exposure, curve)
+                                                           : toDisplay(withoutAlpha(linear), exposure, curve);
+  if (blendsValues(options)) display = forBlendedValues(std::move(display));
   const Placement place = linear.placement.value_or(Placement{{0, 0}, {linear.width, linear.height}});
   if (options.output.dither && bitsOf(options.output) == 8 && !colors) dither(display, place.corner);
   drawLines(display, lines, place);

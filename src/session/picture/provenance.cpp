@@ -89,6 +89,9 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
   json["background_color"] = nullptr;
   if (!loaded.view.showEnvironment)
     json["background_color"] = numbers(glm::dvec3(options.light.backgroundColor.value_or(glm::vec3(0.0f))));
+  if (named.light.studio && options.light.studioLook != StudioLook::Soft)
+    json["studio_look"] = kStudioLookNames[size_t(options.light.studioLook)];
+  if (options.light.ground) json["ground"] = rowOf("--ground").words(options).front();
   if (options.light.shadowCatcher) json["shadow_catcher_height"] = loaded.view.catcherHeight;
   if (options.camera.lens.fStop) {
     json["lens_radius"] = loaded.view.lens.radius;

@@ -136,7 +136,8 @@ bool PictureMaker::show(const Film& film, const Showing& showing, const RenderOp
                         Tracer& tracer, const View& view, SideMemory& memory, ShownTexture& into,
                         const std::function<bool()>& goOn) {
   const glm::ivec2 size = film.size();
-  const bool background = options.light.background;
+  const bool page = options.light.background && options.light.backgroundColor;
+  const bool background = options.light.background && !page;
   clock_.restart();
   const double share = showing.filtered ? filteredShare(showing.samples) : 0.0;
   if (share <= 0.0) {
@@ -166,9 +167,9 @@ bool PictureMaker::show(const Film& film, const Showing& showing, const RenderOp
   if (!filter) return false;
   clock_.end(Pass::Filter);
   fit(into, size);
-  const Behind behind = background                     ? Behind::Background
-                        : tracer.variant.shadowCatcher ? Behind::White
-                                                       : Behind::Nothing;
+  const Behind behind = background                              ? Behind::Background
+                        : tracer.variant.shadowCatcher && !page ? Behind::White
+                                                                : Behind::Nothing;
   seen_.show(raw_, *filter, share, behind, size, into.texture, passes_);
   clock_.end(Pass::Show);
   return true;

@@ -182,7 +182,8 @@ Image ViewTracer::seenOf(Side& side) {
                     shownOf(side, side.shownIn).size == side.film->size();
   if (!seen) show(side, false, [] { return true; });
   const Image picture = imageOf(shownOf(side, side.shownIn));
-  return side.options.light.background ? onlyChannels(picture, {"R", "G", "B"}) : picture;
+  const bool opaque = side.options.light.background && !side.options.light.backgroundColor;
+  return opaque ? onlyChannels(picture, {"R", "G", "B"}) : picture;
 }
 
 void ViewTracer::saveBoth(const SaveRequest& request) {
@@ -190,7 +191,9 @@ void ViewTracer::saveBoth(const SaveRequest& request) {
   for (size_t i = 0; i < 2; ++i) {
     if (i < sides_.size()) {
       if (!sides_[i].program) return exchange_.tell("not written: one of the sides draws no picture");
-      sides[i] = {seenOf(sides_[i]), showsColors(sides_[i].options)};
+      RenderOptions shown = sides_[i].options;
+      shown.output.file = request.path;
+      sides[i] = {seenOf(sides_[i]), showsColors(shown), pageOf(shown)};
     } else {
       if (!reference_) return exchange_.tell("not written: there is one side alone");
       sides[i] = {*reference_, false};

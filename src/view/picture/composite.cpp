@@ -19,12 +19,13 @@ glm::dvec4 texelAt(const Image& image, glm::ivec2 pixel, glm::ivec2 size) {
   return {value[0], value[1], value[2], channels > 3 ? value[3] : 1.0f};
 }
 
-/// A texel as a display shows it, premultiplied.
-glm::dvec4 displayed(const glm::dvec4& texel, bool asItIs, const Composition& composition) {
+/// A texel of the side as a display shows it, premultiplied.
+glm::dvec4 displayed(const glm::dvec4& texel, const ComposedSide& side, const Composition& composition) {
+  const double factor = side.asItIs ? 1.0 : std::exp2(composition.exposure);
+  const ToneMap curve = side.asItIs ? ToneMap::Linear : composition.toneMap;
+  if (side.page) return {shownOver(glm::dvec3(*side.page), texel, factor, curve), 1.0};
   const double coverage = std::clamp(texel.a, 0.0, 1.0);
   if (!(coverage > 0.0)) return glm::dvec4(0.0);
-  const double factor = asItIs ? 1.0 : std::exp2(composition.exposure);
-  const ToneMap curve = asItIs ? ToneMap::Linear : composition.toneMap;
   return {applyToneMap(curve, glm::dvec3(texel) / coverage * factor) * coverage, coverage};
 }
 
@@ -47,7 +48,7 @@ Image composite(const std::array<ComposedSide, 2>& sides, glm::ivec2 size, const
         value = glm::dvec4(applyToneMap(ToneMap::Linear, glm::abs(glm::dvec3(apart)) * factor), 1.0);
       } else {
         const ComposedSide& side = sides[x >= bar ? 1 : 0];
-        value = displayed(texelAt(side.image, {x, y}, size), side.asItIs, composition);
+        value = displayed(texelAt(side.image, {x, y}, size), side, composition);
       }
       for (int c = 0; c < (alpha ? 4 : 3); ++c) picture.values.push_back(float(value[c]));
     }

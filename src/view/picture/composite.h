@@ -3,6 +3,8 @@
 
 #include <array>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
 
 #include "image/display/tone_map.h"
 #include "image/image.h"
@@ -11,8 +13,9 @@ namespace fragtrace {
 
 /// One side of the split view, to be put beside the other.
 struct ComposedSide {
-  Image image;          ///< linear R, G, B, and A where it has that, premultiplied; of any size
-  bool asItIs = false;  ///< colours of a debug view: neither exposure nor tone map
+  Image image;                      ///< linear R, G, B, and A where it has that, premultiplied; of any size
+  bool asItIs = false;              ///< colours of a debug view: neither exposure nor tone map
+  std::optional<glm::vec3> page{};  ///< the colour behind the surfaces, as toDisplayOver() takes it
 };
 
 /// The way in which two sides are put together.

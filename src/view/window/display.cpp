@@ -16,6 +16,7 @@ namespace {
 constexpr GLint kFactor = 0;
 constexpr GLint kToneMap = 1;
 constexpr GLint kDithers = 2;
+constexpr GLint kPage = 3;
 constexpr GLint kPictureSize = 0;
 constexpr GLint kBar = 1;
 constexpr GLint kCorner = 2;
@@ -126,6 +127,9 @@ void Display::map(Side& side, const DisplaySide& settings) {
   glUniform1f(kFactor, side.asItIs ? 1.0f : float(std::exp2(settings.exposure)));
   glUniform1i(kToneMap, side.asItIs ? GLint(ToneMap::Linear) : GLint(settings.toneMap));
   glUniform1i(kDithers, side.asItIs ? 0 : 1);
+  const bool hasPage = settings.page && !side.asItIs;
+  const glm::vec3 page = hasPage ? *settings.page : glm::vec3(0.0f);
+  glUniform4f(kPage, page.r, page.g, page.b, hasPage ? 1.0f : 0.0f);
   glDrawArrays(GL_TRIANGLES, 0, 3);
   side.settings = settings;
   side.fresh = true;

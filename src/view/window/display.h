@@ -16,6 +16,7 @@ namespace fragtrace {
 struct DisplaySide {
   double exposure = 0.0;
   ToneMap toneMap = ToneMap::Neutral;
+  std::optional<glm::vec3> page{};  ///< the colour behind the surfaces, as toDisplayOver() takes it
   bool operator==(const DisplaySide&) const = default;
 };
 

@@ -339,9 +339,9 @@ void Window::draw() {
   ++report_.frames;
   std::array<DisplaySide, kMostSides> sides;
   for (size_t i = 0; i < kMostSides; ++i) {
-    const OutputOptions& output =
-        i < 2 && !state_.overview ? state_.sides[i].output : state_.options().output;
-    sides[i] = {output.exposure.value_or(0.0), output.toneMap};
+    const RenderOptions& o = i < 2 && !state_.overview ? state_.sides[i] : state_.options();
+    sides[i] = {o.output.exposure.value_or(0.0), o.output.toneMap};
+    if (o.light.background) sides[i].page = o.light.backgroundColor;
   }
   display_.draw({size, layout.picture, state_.shownBar(), state_.magnifier, state_.overview,
                  state_.compares() && state_.comparison == CompareMode::Difference, state_.differenceStops},
