@@ -59,13 +59,20 @@ void warnBeyondEnd(const RenderOptions& options, const SequenceOptions& sequence
           *length, int(std::ceil(*length * sequence.fps))));
 }
 
+/// Returns true if a turntable's scene is another one in each picture: its lamps stay, and the rest turns.
+bool turnsBeforeLamps(const SequenceRun& run, const SequenceOptions& sequence) {
+  return sequence.turntable > 0 && sequence.turn == Turn::Object && run.loaded &&
+         !run.loaded->scene.lights.empty();
+}
+
 /// The scene as the picture shows it, on the device. A turntable loads it once; else the environment stays.
 Statistics prepareFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOptions& sequence) {
   const RenderOptions& options = frame.options;
   const RenderOptions drawn = withGuides(options);
   const bool turntable = sequence.turntable > 0;
   const bool first = run.tracer.renderer == nullptr;
-  if (!first && turntable) return run.prepared;
+  const bool anew = !turntable || turnsBeforeLamps(run, sequence);
+  if (!first && !anew) return run.prepared;
   Statistics stats;
   SceneBefore before;
   Environment environment;
@@ -77,10 +84,14 @@ Statistics prepareFrame(SequenceRun& run, const SequenceFrame& frame, const Sequ
   const Volume volume = run.loaded ? run.loaded->scene.volume : Volume();
   before.volume = &volume;
   if (run.loaded) before.light = run.loaded->light;
-  if (!turntable) before.document = &run.document;
+  if (anew) before.document = &run.document;
   run.loaded.reset();
   run.loaded = loadScene(drawn, stats, {}, FilmOf::Part, before);
   if (turntable) run.loaded->scene.motion.camera = frame.sweep > 0.0;
+  if (turnsBeforeLamps(run, sequence)) {
+    const LoadedScene& loaded = *run.loaded;
+    turnLights(run.loaded->scene, turningPoint(loaded.camera, loaded.overrides, loaded.framed), frame.turn);
+  }
   if (!stats.treeRefitted) {
     run.tree.reset();
     if (!turntable && run.loaded->scene.motion.segments == 0 && keepsTree(options, run.loaded->scene))
@@ -119,6 +130,7 @@ Outcome drawFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOp
       poses.push_back(turned(frame.turn + (double(i) / segments - 0.5) * frame.sweep));
     loaded.motion = segmentsThrough(poses);
     loaded.view = makeView(options, loaded, loaded.camera);
+    if (sequence.turn == Turn::Object) loaded.view.hdriRotation += frame.turn;
   }
   const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);
   if (!options.output.treeLevel) releaseGeometry(loaded);

@@ -164,7 +164,8 @@ void checkShutter(const RenderOptions& o) {
   refuse(o.light.reuse == LightReuse::Spatial, "--light-reuse spatial",
          "whose pixels take light of other moments");
   refuse(o.light.caustics == Caustics::On, "--caustics on", "whose light paths know one moment");
-  if (o.output.sequence.turntable > 0) return;
+  if (o.output.sequence.turntable > 0)
+    return refuse(o.output.sequence.turn == Turn::Object, "--turn object", "whose light would have to turn");
   const char* const noTree = "which has no tree for each moment";
   refuse(o.device.traversal == TraversalMethod::Iterative, "--traversal iterative", noTree);
   refuse(o.device.traversal == TraversalMethod::Literals, "--traversal literals", noTree);

@@ -106,6 +106,7 @@ constexpr auto kHelpRows = std::to_array<HelpRow>({
     {"--frames", {nullptr, kEveryday, "A:B[:STEP]"}},
     {"--fps", {nullptr, kEveryday, "FPS", "frames per second"}},
     {"--turntable", {nullptr, kEveryday}},
+    {"--turn", {nullptr, kEveryday}},
     {"--shutter", {nullptr, kRest, "DEGREES", "degrees"}},
     {"--denoise", {kQuality, kEveryday}},
     {"--oidn-library", {kQuality, kRest, "FILE"}},

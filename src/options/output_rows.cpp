@@ -280,10 +280,15 @@ std::vector<OptionRow> outputRows() {  // NOLINT(readability-function-size): a t
           "render N pictures, numbers 0 to N - 1, from evenly spaced directions around the focal point, each "
           "to --output with its number in place of ####, or all to a video",
           FRAGTRACE_MEMBER(output.sequence.turntable), {1, kMostFrame}, turntable),
+      choice(
+          "--turn",
+          "what turns in a --turntable: the camera about the scene, or the scene before camera, environment "
+          "and lamps, which stay",
+          FRAGTRACE_MEMBER(output.sequence.turn), kTurnNames, turntable),
       limit<double>("--shutter",
-                    "blur what moves while the shutter is open, DEGREES of 360 of the time from picture to "
-                    "picture, around the moment of each: of an animation (--frames; --animation-time with "
-                    "--fps) or a turn (--turntable); films often have 180",
+                    "blur what moves while the shutter is open, DEGREES of 360 of the time from frame to "
+                    "frame, around the moment of each: of an animation (--frames; --animation-time with "
+                    "--fps), whatever its STEP, or a turn (--turntable); films often have 180",
                     FRAGTRACE_MEMBER(camera.shutter), {0.0, 360.0}, shutter),
       flag("--continue", "with --frames or --turntable: skip pictures that are there already",
            FRAGTRACE_MEMBER(output.sequence.keep), kNumbered),

@@ -61,6 +61,7 @@ constexpr VainRow kRows[] = {
      "values above 1 are brighter than white; divide values from 0 to 255 by 255"},
     {"--transparent-glass", [](const Options& o) { return o.light.background && !o.light.backgroundColor; },
      "goes with --no-background or --background-color: glass shows the environment else"},
+    {"--turn", [](const Options& o) { return o.output.sequence.turntable == 0; }, "goes with --turntable"},
     {"--alpha", [](const Options& o) { return o.light.background || !holdsDisplayAlpha(o.output.file); },
      "changes a .png with --no-background only"},
     {"--no-dither",

@@ -86,6 +86,9 @@ inline constexpr std::array<std::string_view, 3> kProgressNames{"auto", "json", 
 /// sRGB values. Auto: by these, where the picture has a shadow or glass that the page shows through.
 enum class AlphaOf : uint8_t { Linear, Display, Auto };
 inline constexpr std::array<std::string_view, 3> kAlphaNames{"linear", "display", "auto"};
+/// What turns in a turntable: the camera about the object, or the object before camera, light and ground.
+enum class Turn : uint8_t { Camera, Object };
+inline constexpr std::array<std::string_view, 2> kTurnNames{"camera", "object"};
 /// The distribution of camera samples about the middle of their pixel (shaders/pixel_filter.glsl).
 enum class PixelFilter : uint8_t { Box, Gaussian, BlackmanHarris };
 inline constexpr std::array<std::string_view, 3> kPixelFilterNames{"box", "gaussian", "blackman-harris"};
@@ -103,6 +106,7 @@ struct SequenceOptions {
   std::optional<FrameRange> frames;  ///< frames of the animation
   double fps = 24.0;                 ///< picture k is the animation at k / fps seconds
   int turntable = 0;                 ///< pictures of a whole turn about the focal point; 0: none
+  Turn turn = Turn::Camera;          ///< of a turntable
   bool keep = false;                 ///< pictures that are there already are not drawn again
 
   bool operator==(const SequenceOptions&) const = default;

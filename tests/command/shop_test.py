@@ -253,5 +253,40 @@ class Shop(PageCase):
             self.assertEqual(result.returncode, 0, (own, result.stderr))
 
 
+class Turned(PageCase):
+    def lit(self, *options, scene=None):
+        """The luminance of the left half of a white ball less that of the right one, in each picture of a turntable."""
+        self.renders(scene or self.ball(), "-o", self.folder / "t.#.pfm", *SIZE, *FRONT, "--spp", 64, "--turntable", 4, *options)
+        pictures = [read_pfm(self.folder / f"t.{k}.pfm") for k in range(4)]
+        half = lambda picture, xs: statistics.fmean(picture[y][x][1] for y in range(16, 32) for x in xs)
+        return [half(picture, range(14, 24)) - half(picture, range(24, 34)) for picture in pictures]
+
+    def test_the_light_stays_before_the_camera(self):
+        sun = {"rotation": [0, -0.354, 0, 0.935]}, {"type": "directional", "intensity": 3}
+        for options, scene in ((["--studio"], None), (["--sky"], None), (["--default-light", "none"], self.ball(lights=(sun,)))):
+            camera = self.lit(*options, scene=scene)
+            turned = self.lit(*options, "--turn", "object", scene=scene)
+            self.assertGreater(max(camera) - min(camera), 0.2, options)
+            self.assertLess(max(turned) - min(turned), 0.05, options)
+            self.assertAlmostEqual(turned[0], camera[0], delta=1e-6)
+
+    def test_the_object_turns_as_the_camera_would_see_it(self):
+        """What is seen is the same; only light differs."""
+        for turn in ("camera", "object"):
+            self.renders(SCENES / "plastics.gltf", "-o", self.folder / f"{turn}.#.exr", *SIZE, "--studio", "--spp", 1, "--turntable", 3, "--turn", turn, "--aov", "object")
+        for k in range(3):
+            camera, turned = (Exr(self.folder / f"{turn}.{k}.exr").layers["object.Y"] for turn in ("camera", "object"))
+            self.assertEqual(camera, turned)
+
+    def test_what_does_not_go_with_it_is_said(self):
+        out = ["render", self.ball(), "-o", self.folder / "x#.png", *SIZE]
+        self.fails(2, *out, "--turntable", 3, "--turn", "object", "--shutter", 180, says=["--shutter: not with --turn object"])
+
+    def test_a_thinned_film_has_the_shutter_of_the_whole(self):
+        for frames in ("4:4", "0:4:4"):
+            self.renders(SCENES / "wheel.gltf", "-o", self.folder / f"{frames[0]}.#.pfm", *SIZE, "--spp", 2, "--fps", 8, "--shutter", 360, "--frames", frames)
+        self.assertEqual((self.folder / "4.4.pfm").read_bytes(), (self.folder / "0.4.pfm").read_bytes())
+
+
 if __name__ == "__main__":
     main()

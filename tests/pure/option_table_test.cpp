@@ -194,6 +194,7 @@ TEST(OptionTable, GoesRoundAsAWhole) {
                    "--background-blur",
                    "--studio",
                    "--studio-look",
+                   "--turn",
                    "--sun-elevation",
                    "--sun-azimuth"};
   Words words{"a.gltf"};

@@ -14,7 +14,7 @@ ENDS = "only the command `fragtrace render` has it, since a picture in memory le
 SAID = "nothing is printed here; `messages` of the picture has what the command says"
 ELSEWHERE = {"output": "save() of the picture writes a file", "format": "save() of the picture chooses the format by the file's name",
              "checkpoint": ENDS, "resume": ENDS, "stats": "`statistics` of the picture has them", "frames": SINGLE, "fps": SINGLE,
-             "turntable": SINGLE, "shutter": SINGLE, "alpha": "only files have it, so render() has no such keyword", "continue": SINGLE, "quiet": SAID, "verbose": SAID, "help": "help(fragtrace.render) tells of keywords"}
+             "turntable": SINGLE, "turn": SINGLE, "shutter": SINGLE, "alpha": "only files have it, so render() has no such keyword", "continue": SINGLE, "quiet": SAID, "verbose": SAID, "help": "help(fragtrace.render) tells of keywords"}
 KNOWN = frozenset(_core.option_names())
 
 

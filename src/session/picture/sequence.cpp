@@ -82,7 +82,7 @@ SequenceFrame frameOf(const RenderOptions& options, int index) {
   if (options.device.traversal == TraversalMethod::Auto)
     frame.options.device.traversal = TraversalMethod::FrontToBack;
   frame.options.output.sequence = {};
-  frame.options.output.sequence.fps = picturesPerSecond(sequence);
+  frame.options.output.sequence.fps = sequence.fps;
   return frame;
 }
 
@@ -92,6 +92,14 @@ Camera turnedCamera(Camera camera, const glm::dvec3& focalPoint, double angle) {
   camera.forward = turned(camera.forward);
   camera.up = turned(camera.up);
   return camera;
+}
+
+void turnLights(Scene& scene, const glm::dvec3& focalPoint, double angle) {
+  const glm::dvec3 middle = scene.space.localOf(focalPoint);
+  for (Light& light : scene.lights) {
+    light.position = glm::vec3(middle + glm::rotateY(glm::dvec3(light.position) - middle, angle));
+    light.direction = glm::vec3(glm::rotateY(glm::dvec3(light.direction), angle));
+  }
 }
 
 }  // namespace fragtrace

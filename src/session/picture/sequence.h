@@ -48,4 +48,7 @@ SequenceFrame frameOf(const RenderOptions& options, int index);
 /// through its focal point.
 Camera turnedCamera(Camera camera, const glm::dvec3& focalPoint, double angle);
 
+/// Turns the scene's punctual lights in the same way, so that they stay before such a camera.
+void turnLights(Scene& scene, const glm::dvec3& focalPoint, double angle);
+
 }  // namespace fragtrace
