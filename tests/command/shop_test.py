@@ -3,6 +3,7 @@
 """Pictures for a page: its colour, alpha of glass and of what blends, the studio's looks, the ground, --shop."""
 import json
 import statistics
+import struct
 
 from support import SCENES, Case, Exr, main, quad, read_pfm, read_png, run
 
@@ -140,6 +141,14 @@ class Alpha(PageCase):
                 self.assertAlmostEqual(self.middle(page, name), seen, delta=2 * within)
             opaque = self.exr(scene, *options[:-1], "--no-background")
             self.assertEqual(self.middle(opaque, "A"), 1)
+
+    def test_a_rough_pane_reflects_what_it_does_not_pass(self):
+        """Neither rays nor light samples bring the surroundings behind it."""
+        white = self.folder / "white.pfm"
+        white.write_bytes(b"PF\n4 2\n-1.0\n" + struct.pack("<24f", *24 * [1.0]))
+        exr = self.exr(self.square(**self.glass(roughness=0.6, ior=1.5)), *FRONT, "--spp", 512, "--hdri-file", white, "--no-background", "--transparent-glass")
+        self.assertAlmostEqual(self.middle(exr, "G"), self.middle(exr, "A"), delta=0.02)
+        self.assertLess(self.middle(exr, "A"), 0.3)
 
     def test_a_ball_of_glass_reflects_what_it_does_not_pass(self):
         """At the middle of a solid ball each face reflects 4 %."""
