@@ -60,6 +60,18 @@ class Display(Case):
             viewer.key("t")
         self.ends_well(viewer, viewer.close())
 
+    def test_a_page_keeps_its_colour(self):
+        """In the window, and in what F12 writes, as `render` does."""
+        page = ["--background-color", "#80c0ff", "--exposure", "1", "--spp", "4"]
+        viewer = self.view("sphere-phong", *SIZE, *page)
+        viewer.rest()
+        time.sleep(0.3)
+        rendered = pixels_of(self.render("sphere-phong", *SIZE, *page))
+        self.assertEqual(tuple(rendered[0][:3]), (0x80, 0xc0, 0xff))
+        self.assertLessEqual(largest_difference(viewer.picture()[2], rendered), 1)
+        self.same(pixels_of(viewer.press_for_file("F12", ".png")), rendered)
+        self.ends_well(viewer, viewer.close())
+
 
 class Camera(Case):
     def measures(self, viewer, picked):
