@@ -13,6 +13,7 @@ namespace fragtrace {
 namespace {
 
 constexpr float kRounding = 1e-6f;  // smaller changes of alpha are rounding
+constexpr float kNearlyFilled = 0.98f;
 
 }  // namespace
 
@@ -71,8 +72,9 @@ Image withAlpha(Image picture, const Image& alpha) {
   const auto covered = findChannel(picture, kGuideChannels[3]);
   for (size_t i = 0; i < alpha.values.size() / alpha.channelCount(); ++i) {
     float* const pixel = &picture.values[i * picture.channelCount()];
+    const float other = std::clamp(alpha.values[i * alpha.channelCount()], 0.0f, 1.0f);
     const bool isFilled = covered && pixel[*covered] >= 1.0f - kRounding && pixel[channel] >= 1.0f;
-    if (!isFilled) pixel[channel] = std::clamp(alpha.values[i * alpha.channelCount()], 0.0f, 1.0f);
+    if (!isFilled || other < kNearlyFilled) pixel[channel] = other;
   }
   return picture;
 }

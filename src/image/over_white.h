@@ -33,7 +33,8 @@ Image liftedFromWhite(const Image& picture, const Image& seen);
 Image seenOverPage(const Image& picture, const Image& seen, const glm::vec3& page);
 
 /// The picture with another alpha, that of the first channel of `alpha`, in 0..1. Where surfaces fill a
-/// pixel, as its guides say, and all its samples have met them, alpha stays 1.
+/// pixel, as its guides say, all its samples have met them and the other alpha is nearly 1,
+/// alpha stays 1.
 Image withAlpha(Image picture, const Image& alpha);
 
 }  // namespace fragtrace

@@ -23,6 +23,7 @@ namespace {
 
 constexpr const char* kFilterAttribute = "fragtrace:denoise";
 constexpr const char* kNoisy = "noisy.";
+constexpr float kFewSamples = 16.0f;  ///< as trustAt() of shaders/denoise/finish.frag has it
 
 /// The channels of a picture that a filter changes.
 Image seenChannels(const Image& picture) {
@@ -47,7 +48,10 @@ Image ofAlpha(Image picture) {
     const float a = std::clamp(pixel[alpha], 0.0f, 1.0f);
     for (const size_t c : findColorChannels(picture).value()) pixel[c] = a;
     for (const size_t c : albedo) pixel[c] = pixel[covered];
-    if (variance && samples) pixel[*variance] = a * (1.0f - a) / std::max(pixel[*samples] - 1.0f, 1.0f);
+    if (!variance || !samples) continue;
+    pixel[*variance] = a * (1.0f - a) / std::max(pixel[*samples] - 1.0f, 1.0f);
+    // This variance is known, not measured: the filter trusts it as that of few samples.
+    pixel[*samples] = std::min(pixel[*samples], kFewSamples);
   }
   std::vector<std::string> channels = picture.channels;
   std::erase(channels, kObservedChannel);
