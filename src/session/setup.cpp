@@ -372,8 +372,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   // The tree is built while the map is decoded, unless the camera depends on the map. It serves the decision
   // about the light, too, where it holds the file's surfaces alone.
   const bool early = fitsShadow(options, settledOverrides(options.camera.overrides, scene));
-  const bool apart =
-      early || options.light.ground || !scene.strokes.empty() || shutterSeconds(options) > 0.0;
+  const bool apart = early || options.light.ground || !scene.strokes.empty() || shutterSeconds(options) > 0.0;
   if (apart) settleLight(nullptr);
   if (early) settleEnvironment();
   aim(loaded, options, film);

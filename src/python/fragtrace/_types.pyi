@@ -46,11 +46,15 @@ class Keywords(TypedDict, total=False):
     hdri_rotation: float | None
     hdri_intensity: float | None
     background_blur: float | None
-    studio: bool | None
+    studio: dict[str, Any] | bool | None
+    studio_look: Literal["soft", "white", "dark"] | None
+    shop: bool | None
     shadow_catcher: str | float | None
+    ground: dict[str, Any] | str | float | Sequence[float] | None
     shadow_fade: float | None
     no_background: bool | None
-    background_color: str | Sequence[float] | None
+    transparent_glass: bool | None
+    background_color: str | float | Sequence[float] | None
     default_light: Literal["white", "studio", "none"] | None
     no_default_light: bool | None
     lamp_units: Literal["auto", "photometric", "radiometric"] | None
@@ -62,7 +66,7 @@ class Keywords(TypedDict, total=False):
     sky_turbidity: float | None
     ground_albedo: float | None
     fog_density: float | None
-    fog_color: str | Sequence[float] | None
+    fog_color: str | float | Sequence[float] | None
     fog_anisotropy: float | None
     fog_height: str | float | Sequence[float] | None
     fog_distance: float | None
@@ -70,7 +74,7 @@ class Keywords(TypedDict, total=False):
     volume_position: str | Sequence[float] | None
     volume_scale: float | None
     volume_density: float | None
-    volume_color: str | Sequence[float] | None
+    volume_color: str | float | Sequence[float] | None
     volume_anisotropy: float | None
     volume_emission: float | None
     traversal: Literal["auto", "iterative", "bvh", "front-to-back", "literals"] | None
