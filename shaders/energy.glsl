@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Tables behind the materials: the energy that single scattering loses between GGX facets (src/pack/ggx_energy.cpp) and
-// the albedo of rough glass (src/pack/glass_energy.cpp). Each has one row per cell with the values at its corners, over
-// the roots of cosine and alpha. The first table continues with one row per cell of the average loss.
+// Tables behind the materials (src/pack/energy_tables.cpp): the energy that single scattering loses between GGX facets,
+// and the albedo of rough glass. Each has one row per cell with the values at its corners, over the roots of cosine and
+// alpha. The first table continues with one row per cell of the average loss.
 
 const int kEnergyRows = int(kEnergyCells * kEnergyCells + kEnergyCells);
 

@@ -108,9 +108,7 @@ glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options) {
 }
 
 double pathsOf(const RenderOptions& options, glm::ivec2 size) {
-  const bool adaptive = isAdaptive(options);
-  return double(size.x) * size.y *
-         (adaptive ? std::numeric_limits<double>::infinity() : options.sampling.spp);
+  return double(size.x) * size.y * options.sampling.spp;
 }
 
 bool isInStudio(const RenderOptions& options, const LoadedScene& loaded) {
@@ -355,7 +353,9 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   std::vector<std::string> ofEnvironment;  // warnings, which are printed at once
   const auto settleLight = [&](const Bvh* tree) {
     PhaseTimer timer("light");
-    loaded.light = before.light ? *before.light : fileLightOf(options, scene, tree, before.document);
+    // The document holds the key times of its latest pose, which the shutter reads.
+    loaded.light =
+        before.light ? *before.light : fileLightOf(options, scene, tree, opens ? nullptr : before.document);
     setLampScale(loaded.scene, loaded.light.lampScale);
     stats.phases.push_back(timer.end());
   };

@@ -104,8 +104,8 @@ std::string whyOff(Stage stage, const TraitSet& present, bool gi = true);
 /// none.
 std::string whyNoLightPaths(const RenderOptions& options, const TraitSet& present);
 
-/// Returns true if the tables of src/pack/glass_energy.cpp describe the loss. These traits change the facets:
-/// then no table fits, and samples would not follow their density.
+/// Returns true if the tables of src/pack/energy_tables.cpp describe the loss. These traits change the
+/// facets: then no table fits, and samples would not follow their density.
 inline bool usesGlassTables(const ShaderVariant& v) {
   if (!has(v.traits, Trait::RoughGlass) || !has(v.stages, Stage::EnergyCompensation)) return false;
   return !has(v.traits, Trait::Anisotropy) && !has(v.traits, Trait::Iridescence) &&

@@ -28,7 +28,7 @@ std::map<std::string, std::string> documentedStates() {
   std::map<std::string, std::string> states;
   bool isBelow = false;
   for (std::string line; std::getline(document, line);) {
-    isBelow = isBelow || line == "## Extensions";
+    if (line.starts_with("## ")) isBelow = line == "## Extensions";
     std::istringstream cells(line);
     std::string bar, name, state;
     if (!isBelow || !(cells >> bar >> name >> bar >> state) || line[0] != '|') continue;

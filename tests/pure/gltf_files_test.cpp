@@ -138,7 +138,9 @@ TEST(GltfFiles, EveryTruncationOfAGlbIsRefused) {
 
 TEST(GltfFiles, WhatIsNotGltfIsRefused) {
   const TemporaryFolder folder;
-  EXPECT_EQ(refusalOf(folder.write("a.gltf", "solid cube")), "a.gltf: is not glTF: neither JSON nor a .glb");
+  EXPECT_EQ(refusalOf(folder.write("a.gltf", "a cube")), "a.gltf: is not glTF: neither JSON nor a .glb");
+  EXPECT_EQ(refusalOf(folder.write("a.gltf", "solid cube")),
+            "a.gltf: is STL, not glTF; Blender opens it and writes a .glb");
   EXPECT_EQ(refusalOf(folder.write("a.gltf", "")), "a.gltf: is empty, not glTF");
   EXPECT_EQ(refusalOf(folder.write("a.gltf", "{}")), "a.gltf: \"asset\" is missing");
   EXPECT_TRUE(refusalOf(folder.write("a.gltf", "{\"asset\":")).starts_with("a.gltf: the JSON is broken: "));
