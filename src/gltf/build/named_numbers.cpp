@@ -43,7 +43,8 @@ std::optional<std::string> placeIn(const std::string& material, const std::strin
   const auto* word = std::ranges::find(kWords, name, &std::pair<std::string_view, std::string_view>::first);
   const std::string member = word == kWords.end() ? name : std::string(word->second);
   for (const std::string& one : {member, member + "Factor"}) {
-    if (numberRuleAt(material + "/" + one)) return material + "/" + one;
+    const std::string direct = std::string(material).append("/").append(one);
+    if (numberRuleAt(direct)) return direct;
     std::vector<std::string> places = numbersBelow(material, "/" + one);
     std::erase_if(places, [](const std::string& place) { return place.find(kOlder) != std::string::npos; });
     if (!places.empty()) return places.front();
@@ -57,7 +58,7 @@ std::vector<std::string> knownNames(const std::string& material) {
   for (const auto& [word, member] : kWords) names.emplace_back(word);
   std::vector<std::string> objects{material, material + "/pbrMetallicRoughness"};
   for (const std::string& extension : numberMembersAt(material + "/extensions"))
-    objects.push_back(material + "/extensions/" + extension);
+    objects.push_back(std::string(material).append("/extensions/").append(extension));
   for (const std::string& object : objects) {
     for (std::string name : numberMembersAt(object)) {
       if (name.ends_with("Factor")) name.resize(name.size() - std::string_view("Factor").size());

@@ -199,6 +199,7 @@ std::optional<glm::vec3> pageColor(std::string_view word) {
 
 std::vector<std::string> pageColorNames() {
   std::vector<std::string> names;
+  names.reserve(kNames.size());
   for (const NamedColor& row : kNames) names.emplace_back(row.name);
   return names;
 }
