@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a ray hits in a leaf.
+// Finds what a ray hits in a leaf.
 
 /// Returns true if a hit at distance t is nearer than the traversal's. Where a ray passes through surfaces, all hits
 /// along it have one order, by distance and slot, so that it meets each once, however close they lie.

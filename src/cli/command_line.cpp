@@ -44,7 +44,7 @@ void checkCommand(const CLI::App& app, std::optional<std::string> word) {
                    (atFirst ? ", and no file: " : ": ") + joined(names) + didYouMean(*word, names));
 }
 
-/// What --help prints.
+/// Returns what --help prints.
 enum class HelpForm : uint8_t { Everyday, All, Json };
 
 /// The form that the word after --help asks for.

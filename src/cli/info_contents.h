@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `info` tells of a scene to somebody who has not made it.
+// Holds what `info` tells of a scene to somebody who has not made it.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,7 @@ struct FileContents {
 /// The scene's file and those that it refers to; one that is missing is left out.
 std::vector<FileContents> filesOf(const std::filesystem::path& path, const Scene& scene);
 
-/// What would light the scene with these options: its own light, or a word of kDefaultLightNames.
+/// Returns what would light the scene with these options: its own light, or a word of kDefaultLightNames.
 struct WhoLights {
   std::string by;    ///< "own", or that word
   std::string text;  ///< a clause

@@ -97,7 +97,6 @@ class LightEstimator {
 
   const Scene& scene_;
   ExactTracer tracer_;
-  bool isDoubleSided_;
   std::vector<EmissivePicture> pictures_;  ///< by material
   Words texels_;
   std::vector<Emitter> emitters_;
@@ -112,10 +111,7 @@ glm::dvec3 straightThrough(const Material& m) {
 }
 
 LightEstimator::LightEstimator(const SeenScene& seen)
-    : scene_(seen.scene),
-      tracer_(seen.scene, seen.bvh),
-      isDoubleSided_(seen.isDoubleSided),
-      pictures_(seen.scene.materials.size()) {
+    : scene_(seen.scene), tracer_(seen.scene, seen.bvh), pictures_(seen.scene.materials.size()) {
   constexpr int kSide = 128;  // pixels
   std::vector<double> areas(scene_.materials.size(), 0.0);
   const size_t triangles = scene_.triangles.size();
@@ -296,7 +292,7 @@ double LightEstimator::fromEmitter(const SurfacePoint& point, const glm::dvec3& 
   if (!(distance > 0.0)) return 0.0;
   towards /= distance;
   double leaves = -glm::dot(normal, towards);
-  if (materialOf(emitter.primitive).doubleSided || isDoubleSided_) leaves = std::abs(leaves);
+  if (materialOf(emitter.primitive).doubleSided) leaves = std::abs(leaves);
   const double arrives = glm::dot(point.normal, towards);
   if (!(leaves > 0.0) || !(arrives > 0.0)) return 0.0;
   const glm::dvec3 light = emissionAt(emitter.primitive, place) * between(point, towards, distance);
@@ -349,7 +345,7 @@ void LightEstimator::trace(const Projection& projection, const glm::dvec2& place
       ++cell.surfaces;
       if (m.metallicFactor > 0.5f && m.roughnessFactor < 0.5f && !m.metallicRoughnessTexture.present())
         ++cell.metals;
-      const bool emits = m.emissive() && (point->front || m.doubleSided || isDoubleSided_);
+      const bool emits = m.emissive() && (point->front || m.doubleSided);
       const glm::dvec3 shown = m.unlit ? albedo
                                : emits ? emissionAt(point->primitive, point->place)
                                        : glm::dvec3(0.0);

@@ -50,8 +50,7 @@ struct SeenLight {
 struct SeenScene {
   const Scene& scene;
   const Bvh& bvh;
-  bool readsTextures = true;   ///< emissive textures are decoded; without them their surfaces do not shine
-  bool isDoubleSided = false;  ///< all surfaces are seen, and emit, on both sides
+  bool readsTextures = true;  ///< emissive textures are decoded; without them their surfaces do not shine
 };
 
 /// Traces at most 4,096 paths of at most four surfaces from the camera, of a fixed seed: surfaces are matt,

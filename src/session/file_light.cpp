@@ -21,9 +21,7 @@ FileLight decideByFirstView(const Scene& scene, const Bvh& tree, LampUnits units
   Camera camera = chooseCamera(scene.cameras, std::nullopt, overrides, scene.bounds);
   const double aspect = camera.aspectRatio > 0.0 ? camera.aspectRatio : kUsual;
   if (overrides.fit) {
-    std::vector<glm::dvec3> points = outlineOf(scene);
-    if (overrides.leavesStrays) points = withoutStrays(std::move(points));
-    camera = fitted(camera, points, aspect);
+    camera = fitted(camera, pointsToFit(scene, {}, {}, overrides).scene, aspect);
   }
   return decideLight({scene, tree}, camera, aspect, units);
 }
@@ -40,10 +38,14 @@ bool staysDark(const RenderOptions& options, const Scene& scene) {
   return scene.lightSources.empty() && std::ranges::none_of(scene.materials, &Material::emissive);
 }
 
+/// Returns true if the options name a light.
+bool isLitByUser(const RenderOptions& options) {
+  return hasMap(options) || !options.selection.lights.empty();
+}
+
 /// Returns true if a light that the options name, or none, stands for that of a file without one.
 bool isChosen(const RenderOptions& options) {
-  return hasMap(options) || !options.selection.lights.empty() ||
-         options.light.defaultLight == DefaultLight::None;
+  return isLitByUser(options) || options.light.defaultLight == DefaultLight::None;
 }
 
 std::string percent(double share) { return std::to_string(std::lround(100.0 * share)) + " %"; }
@@ -84,8 +86,7 @@ OwnLight countedLight(const RenderOptions& options, const FileLight& light) {
 
 double exposureOf(const RenderOptions& options, const FileLight& light) {
   const double exposure = exposureFor(light.mean);
-  const bool alone = !hasMap(options) && options.selection.lights.empty() &&
-                     countedLight(options, light) == OwnLight::Enough;
+  const bool alone = !isLitByUser(options) && countedLight(options, light) == OwnLight::Enough;
   return alone || exposure < 0.0 ? exposure : 0.0;
 }
 
@@ -119,7 +120,7 @@ void sayWhoLights(const RenderOptions& options, const FileLight& light) {
                          : ": a white environment that the camera does not see lights it (--default-light)"));
     return;
   }
-  if (hasMap(options) || !options.selection.lights.empty() || light.own == OwnLight::None) return;
+  if (isLitByUser(options) || light.own == OwnLight::None) return;
   const std::string who =
       light.byLamps ? "the file's own lamps light it" : "the file's own emission lights it";
   if (light.dark > kNoticed)

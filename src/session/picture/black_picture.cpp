@@ -69,11 +69,14 @@ LoadedAgain loadAgain(const DrawnView& view) {
   return again;
 }
 
-SeenLight seenBy(const DrawnView& view, const LoadedAgain& again, bool isDoubleSided) {
-  Scene scene = again.scene;
-  if (isDoubleSided) std::ranges::for_each(scene.materials, [](Material& m) { m.doubleSided = true; });
+/// Makes the backs of all surfaces like their fronts.
+void turnAll(Scene& scene) {
+  for (Material& m : scene.materials) m.doubleSided = true;
+}
+
+SeenLight seenBy(const DrawnView& view, const LoadedAgain& again) {
   const double aspect = double(view.loaded.size.x) / view.loaded.size.y;
-  return seenLight({scene, again.tree}, view.loaded.camera, aspect);
+  return seenLight({again.scene, again.tree}, view.loaded.camera, aspect);
 }
 
 std::string whyViewIsEmpty(const DrawnView& view) {
@@ -81,7 +84,9 @@ std::string whyViewIsEmpty(const DrawnView& view) {
   const bool chosen = loaded.overrides == view.options.camera.overrides;
   const std::string nothing =
       std::string(chosen ? "this" : "the default") + " view shows nothing of the scene";
-  if (!seenBy(view, loadAgain(view), true).cells.empty())
+  LoadedAgain again = loadAgain(view);
+  turnAll(again.scene);
+  if (!seenBy(view, again).cells.empty())
     return nothing + " but backs, which are not drawn; --double-sided all draws them";
   return nothing + "; " +
          (chosen && !loaded.overrides.fit ? "--fit moves the camera until it does"
@@ -90,9 +95,10 @@ std::string whyViewIsEmpty(const DrawnView& view) {
 
 /// Why no light reaches what is seen; empty: it may be by chance.
 std::string whyUnlit(const DrawnView& view) {
-  const LoadedAgain again = loadAgain(view);
-  const SeenLight seen = seenBy(view, again, false);
-  const SeenLight turned = seenBy(view, again, true);
+  LoadedAgain again = loadAgain(view);
+  const SeenLight seen = seenBy(view, again);
+  turnAll(again.scene);
+  const SeenLight turned = seenBy(view, again);
   if (turned.meanLuminance(1.0) > 100.0 * seen.meanLuminance(1.0))
     return "the fronts of surfaces that would be lit, or shine, are turned away (--double-sided all)";
   const bool surrounded = view.loaded.environment.kind != Surroundings::None;
