@@ -72,8 +72,8 @@ class Schedules(BothSchedules):
     def test_auto_takes_the_wavefront_for_many_paths(self):
         """On a software rasteriser, which is what the tests have."""
         for scene, options, chosen in (("room-ball", ["--spp", 1], ("megakernel", "few paths")),
-                                       ("room-ball", ["--spp", 16384, "--noise", 0.5], ("wavefront", None)),
-                                       ("many-lights", ["--spp", 16384, "--noise", 0.5], ("megakernel", "a small tree"))):
+                                       ("room-ball", ["--spp", 65536, "--noise", 0.5], ("wavefront", None)),
+                                       ("many-lights", ["--spp", 65536, "--noise", 0.5], ("megakernel", "a small tree"))):
             stats = self.drawn(scene, "auto", "--resolution", "8,8", *options)[1]
             self.assertEqual((stats["schedule"], stats.get("schedule_reason")), chosen, scene)
 
