@@ -96,7 +96,7 @@ Camera fitCamera(const Camera& camera, const FittedPoints& points, const CameraO
 FittedPoints pointsToFit(const Scene& scene, const Environment& environment, const RenderOptions& options,
                          const CameraOverrides& overrides);
 
-/// Camera paths that the picture takes at the most; very many where only time or noise ends it.
+/// Camera paths that the picture takes at the most: what the largest number of samples allows.
 double pathsOf(const RenderOptions& options, glm::ivec2 size);
 
 /// Makes fog from the options, around a scene with these bounds.
