@@ -97,7 +97,7 @@ Path endShadow(Path p) {
     Surface s = surfaceAt(p.hitSlot, p.hitInstance, p.origin, p.direction, p.hitT, p.hitWeights, p.time);
     uint flags = materialFlags(s.material);
     float alpha = alphaAt(s.material, flags, baseColorAt(s.material, s.texcoords, s.color).a);
-    passes = passesThrough(flags, alpha, p.sampler, nextCrossing(p));
+    passes = passesThrough(p, flags, alpha, p.hitSlot, p.hitInstance, p.hitT);
   }
   if (kAlpha && passes) {
     p.phase = kPhaseExtend;

@@ -15,7 +15,6 @@ const float kAboveAll = 1.0e6;  // local space
 const uint kCameraDimensions = 0u;
 const uint kChannelDimension = 2u;  // one number per path
 const uint kLensDimensions = 4u;
-const uint kAlphaDimensions = 0x40000000u;
 const uint kBounceDimensions = 16u;  // a bounce uses 16 dimensions from 16 (bounce + 1) on
 const uint kLobeDimension = 0u;
 const uint kDirectionDimension = 1u;
@@ -256,19 +255,19 @@ Path meetSurroundings(Path p) {
   return addLight(p, clampIndirect(p.throughput * (weight * seen.rgb), countedScatterings(p)));
 }
 
-/// The number of a meeting with a surface that may let the path pass. One that stops it counts too: the rays that
-/// follow must not meet the same chance again.
-int nextCrossing(inout Path p) {
-  p.crossings += 1;
-  return p.crossings - 1;
+/// The random number of a meeting of the path's ray, or its shadow ray, with a primitive: the same in whatever order a
+/// ray meets its primitives. A sphere is met at two distances.
+float chanceAt(Path p, int slot, int instance, float t) {
+  uint primitive = mixBits(uint(slot) + mixBits(uint(instance) + mixBits(uint(p.bounce))));
+  return hashFloat(p.sampler, primitive ^ floatBitsToUint(t));
 }
 
 /// Decides by the alpha of the point whether the ray goes through it; 1 opaque, 0 not there
-/// (docs/design/surfaces.md).
-bool passesThrough(uint flags, float alpha, Sampler sampler, int crossing) {
+/// (docs/design/surfaces.md). slot, instance, t: the ray's hit.
+bool passesThrough(Path p, uint flags, float alpha, int slot, int instance, float t) {
   if ((flags & kMaterialMask) != 0u) return alpha == 0.0;
   if ((flags & kMaterialBlend) != 0u && kIdAov) return alpha < 0.5;
-  if ((flags & kMaterialBlend) != 0u) return hashFloat(sampler, kAlphaDimensions + uint(crossing)) >= alpha;
+  if ((flags & kMaterialBlend) != 0u) return chanceAt(p, slot, instance, t) >= alpha;
   return false;
 }
 

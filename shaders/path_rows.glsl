@@ -18,7 +18,7 @@ const int kRowShadowHit = 9;        // the hit of the shadow ray, or of a suspen
 // The last surfaces that the ray and the shadow ray have passed: distance and slot of each; a suspended traversal has
 // its two groups instead of the second.
 const int kRowTMin = 10;
-// crossings, instance of the row of the shadow ray's hit, instance that is walked, medium of the shadow ray
+// free, instance of the row of the shadow ray's hit, instance that is walked, medium of the shadow ray
 const int kRowCrossings = 11;
 // kResumable:
 const int kRowSuspended = 12;       // node of the traversal, light sample, more flags, visits
@@ -70,7 +70,7 @@ void savePath(Path p, int row, bool begins) {
   if (kPassingRows) {
     Traversal t = p.traversal;
     pathStates[row + kRowTMin] = uvec4(floatBitsToUint(t.tMin), uint(t.tMinSlot), 0u, 0u);
-    pathStates[row + kRowCrossings] = uvec4(uint(p.crossings), uint(t.hitInstance), uint(t.instance), p.shadowMedium);
+    pathStates[row + kRowCrossings] = uvec4(0u, uint(t.hitInstance), uint(t.instance), p.shadowMedium);
   }
 }
 
@@ -110,7 +110,6 @@ Path loadPath(int row, uint key) {
     p.contribution = uintBitsToFloat(a.xyz);
     p.hitInstance = int(a.w);
   }
-  if (kPassingRows) p.crossings = int(readPathStates(row + kRowCrossings).x);
   if (kDimsLate) {
     p.shadowMedium = readPathStates(row + kRowCrossings).w;
     p.traversal.tMin = uintBitsToFloat(readPathStates(row + kRowTMin).x);

@@ -58,7 +58,6 @@ struct Path {
   int bounce;      // scatterings so far, also one whose ray roulette ends
   int freeBounces;  // the part of `bounce` at smooth glass (kTransmission) and in media, which --bounces does not limit
   int straightBounces;  // the part of `bounce` that went straight through glass (kThroughGlass)
-  int crossings;   // meetings with surfaces, where there is alpha; see nextCrossing
   int rays;        // of the sample, see tracedRays
   ivec2 pixel;     // the pixel in the film (kStoresReservoirs, kNeighbours), or the index of a light path's record
   Sampler sampler;
@@ -104,7 +103,6 @@ Path newPath() {
   p.bounce = 0;
   p.freeBounces = 0;
   p.straightBounces = 0;
-  p.crossings = 0;
   p.rays = 0;
   p.pixel = ivec2(0);
   p.time = 0.0;

@@ -316,7 +316,7 @@ Path shade(Path p) {
   if (kAov == kAovGuides) return guideAt(p, s, flags, base);
   if (kPassesLight && kDrawsLight && first) p = flyTo(p, s);
   if (kMedia && p.hitSlot < 0) return scatterInMedium(p);
-  if (kAlpha && first && passesThrough(flags, alphaAt(s.material, flags, base.a), p.sampler, nextCrossing(p))) {
+  if (kAlpha && first && passesThrough(p, flags, alphaAt(s.material, flags, base.a), p.hitSlot, p.hitInstance, p.hitT)) {
     p.phase = kPhaseExtend;
     return goPast(p);
   }
@@ -354,13 +354,14 @@ Path shade(Path p) {
 Path settleShadow(Path p) {
   int slot = p.traversal.slot;
   bool passes = false;
-  if (kPassing && slot >= 0) {
+  if (kPassing && slot >= 0 && slot != kOpaqueSlot) {
     if (kCountWork) countWork(kWorkShadowSurfaces, 1u);
     Surface s = surfaceAt(slot, p.traversal.hitInstance, p.shadowOrigin, p.shadowDirection, p.traversal.t,
                           p.traversal.weights, p.time);
     uint flags = materialFlags(s.material);
     vec4 base = baseColorAt(s.material, s.texcoords, s.color);
-    passes = kAlpha && passesThrough(flags, alphaAt(s.material, flags, base.a), p.sampler, nextCrossing(p));
+    passes = kAlpha && passesThrough(p, flags, alphaAt(s.material, flags, base.a), slot, p.traversal.hitInstance,
+                                     p.traversal.t);
     bool holes = passes;
     if (kThroughGlass && p.throughGlass && !passes) {
       p.contribution *= lightThrough(s, base.rgb, p.shadowDirection);

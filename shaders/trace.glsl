@@ -218,7 +218,7 @@ Path advance(Path p, int budget, TreeFrame tree) {
     if (kWholeRays && !isShadow) p = extendTo(p, kMedia ? p.traversal.t : kFarAway);
     if (kGpu && kWholeRays && isShadow) p = traceAnew(p, p.shadowLimit);
     p.traversal = traverse(isShadow ? p.shadowOrigin : p.origin, isShadow ? p.shadowDirection : p.direction,
-                           isShadow ? p.shadowLimit : kFarAway, p.traversal, tree, budget, isShadow && !kPassing);
+                           isShadow ? p.shadowLimit : kFarAway, p.traversal, tree, budget, isShadow);
     // A shadow ray or one that is not done leaves its hit, too: that of the ray before then needs no registers.
     if (kWholeRays) p = withHit(p, p.traversal);
     if (!isShadow && isDone(p.traversal)) {
@@ -238,7 +238,7 @@ Path advance(Path p, int budget, TreeFrame tree) {
 
   // Step: is the light seen?
   if (!kGpu && kShadows && p.phase == kPhaseShadow) {
-    p.traversal = traverse(p.shadowOrigin, p.shadowDirection, p.shadowLimit, p.traversal, tree, budget, !kPassing);
+    p.traversal = traverse(p.shadowOrigin, p.shadowDirection, p.shadowLimit, p.traversal, tree, budget, true);
     p = meetShadow(p);
   }
   return p;

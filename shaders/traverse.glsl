@@ -59,9 +59,9 @@ int leafOf(Traversal s) { return int((s.leaves + uint(firstOf(s.leaves))) & kBas
 
 /// The primitives of the leaf that comes next.
 Traversal meetLeaf(Traversal s, TreeRay ray, bool anyHit) {
-  s = intersectLeaf(s, leafOf(s), ray.origin, ray.direction, ray.shear, ray.start);
+  s = intersectLeaf(s, leafOf(s), ray.origin, ray.direction, ray.shear, ray.start, anyHit);
   s.leaves ^= kFirstChild << firstOf(s.leaves);
-  if (anyHit && s.slot >= 0) s = ended(s);
+  if (anyHit && isStopped(s)) s = ended(s);
   return s;
 }
 
@@ -124,26 +124,31 @@ Traversal traverseIterative(vec3 origin, vec3 direction, Traversal s, TreeFrame 
   RayShear shear = makeShear(direction);
   while (s.node != kTraversalDone && s.steps < stepLimit) {
     for (int i = 0; i < int(kLeafBlock); ++i) {
-      s = intersectLeaf(s, s.node + i, origin, direction, shear, 0.0f);
+      s = intersectLeaf(s, s.node + i, origin, direction, shear, 0.0f, anyHit);
     }
     s.steps += 1;
     if (kCountVisits) s.visits += int(kLeafBlock);
     s.node += int(kLeafBlock);
-    if (s.node >= tree.leafCount || (anyHit && s.slot >= 0)) s.node = kTraversalDone;
+    if (s.node >= tree.leafCount || (anyHit && isStopped(s))) s.node = kTraversalDone;
   }
   return s;
 }
 
 #include "literals.glsl"
 
+/// Meets the triangles that the tree does not hold.
+Traversal meetLargeFirst(vec3 origin, vec3 direction, Traversal s, bool anyHit) {
+  s = traverseLiterals(origin, direction, s, anyHit);
+  if (kPassing && anyHit && s.slot >= 0 && (wordOf(s.slot) & kPrimitivePasses) == 0u) s.slot = kOpaqueSlot;
+  if (anyHit && isStopped(s)) s = ended(s);
+  return s;
+}
+
 /// Continues a traversal of the ray until it is done or has taken stepLimit steps. direction is unit length.
 Traversal traverse(vec3 origin, vec3 direction, float rayLimit, Traversal s, TreeFrame tree, int stepLimit,
                    bool anyHit) {
   if (kLiterals) return traverseLiterals(origin, direction, s, anyHit);
-  if (kLargeFirst) {
-    s = traverseLiterals(origin, direction, s, anyHit);
-    if (anyHit && s.slot >= 0) s = ended(s);
-  }
+  if (kLargeFirst) s = meetLargeFirst(origin, direction, s, anyHit);
   if (kIterative) return traverseIterative(origin, direction, s, tree, stepLimit, anyHit);
   return traverseTree(origin, direction, rayLimit, s, tree, stepLimit, anyHit);
 }

@@ -66,6 +66,12 @@ LeafPair loadLeaf(int index) {
   return l;
 }
 
+/// The word of the primitive in a leaf slot.
+uint wordOf(int slot) {
+  uvec4 r4 = readLeaves(int(kLeafRows) * (kMoving ? slot / 2 * 2 : slot / 2) + int(kLeafRows) - 1);
+  return slot % 2 == 1 ? r4.w : r4.z;
+}
+
 /// A time within one of the straight pieces in which surfaces move (kMoving).
 struct Moment {
   int segment;

@@ -23,7 +23,7 @@ struct Wave {
   uint hits;     // the ray has hit a surface, which is to be shaded
   uint misses;   // the ray has missed, the path has ended, or none has begun
   uint waiting;  // the path also waits for its shadow ray
-  uint blocked;  // the shadow ray has hit something
+  uint blocked;  // the shadow ray has hit something; while the path does not wait for it, something light may pass
   uint rays;     // the ray is to be traced
   uint shadows;
   int steps;
@@ -72,10 +72,7 @@ void settleStates() {
 /// The first, short part of a traversal, which is the same for all rays: the triangles that the tree does not hold, and
 /// the first step into the tree. It is done if the ray misses the tree.
 Traversal beginRay(vec3 origin, vec3 direction, float limit, Traversal t, bool anyHit, TreeFrame tree) {
-  if (kLargeFirst) {
-    t = traverseLiterals(origin, direction, t, anyHit);
-    if (anyHit && t.slot >= 0) t = ended(t);
-  }
+  if (kLargeFirst) t = meetLargeFirst(origin, direction, t, anyHit);
   return stepNode(t, treeRayOf(t, origin, direction, tree), limit, tree, isAtNode(t));
 }
 
@@ -85,9 +82,8 @@ Traversal beginExtension(Path p, TreeFrame tree) {
   return beginRay(p.origin, p.direction, kFarAway, t, false, tree);
 }
 
-/// Shadow rays end at any hit, unless light may pass what they hit.
 Traversal beginShadow(Path p, TreeFrame tree) {
-  return beginRay(p.shadowOrigin, p.shadowDirection, p.shadowLimit, p.traversal, !kPassing, tree);
+  return beginRay(p.shadowOrigin, p.shadowDirection, p.shadowLimit, p.traversal, true, tree);
 }
 
 /// A ray has met a surface, or may be scattered by a medium: it is shaded.
@@ -96,7 +92,7 @@ bool isMeeting(Traversal t) { return t.slot >= 0 || kMedia; }
 /// Notes what a shadow ray has met before the tree, and whether it is to be traced. Where light may pass what it has
 /// met, it is done when that was asked, in the next round.
 Wave sendShadow(Wave v, uint bit, int row, Traversal t) {
-  bool done = isDone(t) && !(kPassing && t.slot >= 0);
+  bool done = isDone(t) && (t.slot < 0 || isStopped(t));
   v.shadows |= done ? 0u : bit;
   v.blocked |= done && t.slot >= 0 ? bit : 0u;
   if (kPassing) {
@@ -114,8 +110,8 @@ Wave sendRay(Wave v, uint bit, Traversal t) {
   return v;
 }
 
-/// Shadow rays that have met a surface go on behind it where its alpha lets light pass; what their paths do next waits
-/// for them.
+/// Shadow rays that have met a surface that may let light pass go on behind it where it does; what their paths do next
+/// waits for them.
 Wave passShadows(Wave v, uint left, TreeFrame tree) {
   for (; left != 0u; left &= left - 1u) {
     int k = findLSB(left);
@@ -125,11 +121,11 @@ Wave passShadows(Wave v, uint left, TreeFrame tree) {
     if (kDimsLate) p = loadShadowPast(p, row);
     p.phase = kPhaseShadow;
     p = settleShadow(p);
-    pathStates[row + kRowCrossings].x = uint(p.crossings);
     if (kThroughGlass || kDimsLate) pathStates[row + kRowContribution].xyz = floatBitsToUint(p.contribution);
     if (kDimsLate) pathStates[row + kRowCrossings].w = p.shadowMedium;
+    uint bit = 1u << k;
+    v.waiting |= bit;
     if (p.phase == kPhaseShadow) {
-      uint bit = 1u << k;
       pathStates[row + kRowCounts].y += 1u;
       if (kCountWork) countShadowRay();
       v.blocked &= ~bit;
@@ -231,6 +227,7 @@ Wave settleRay(Wave v, Traversal t, int current, bool isShadow) {
   int row = rowOf(v, current);
   bool met = t.slot >= 0;
   v.blocked |= isShadow && met ? bit : 0u;
+  if (kPassing) v.waiting &= ~(isShadow && met && !isStopped(t) ? bit : 0u);
   v.hits |= !isShadow && isMeeting(t) ? bit : 0u;
   v.misses |= !isShadow && !isMeeting(t) ? bit : 0u;
   if (kPassing || !isShadow) {
@@ -288,7 +285,7 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
       t = changeSpace(t);
       ray = treeRayOf(t, origin, direction, tree);
     } else if (t.leaves >= kFirstChild) {
-      t = meetLeaf(t, ray, isShadow && !kPassing);
+      t = meetLeaf(t, ray, isShadow);
     }
     v.steps += 1;
     if (isDone(t)) v = settleRay(v, t, current, isShadow);
@@ -344,7 +341,7 @@ void traceWave(ivec2 lane) {
   while ((v.hits | v.misses) != 0u && v.steps < budget / 2) {
     settleStates();
     if (kPassing) {
-      v = passShadows(v, v.blocked, tree);
+      v = passShadows(v, v.blocked & ~v.waiting, tree);
       settleStates();
     }
     uint later = v.shadows;

@@ -49,7 +49,7 @@ Path scatterInMedium(Path p) {
   }
   if (kDensityGrid && inGrid && volume.extinction.y > 0.0) {
     // Kirchhoff's law: it emits as much as it absorbs.
-    vec3 light = volumeRadiance(volume, point, hashBits(p.sampler, flightNumber(p) + kShadowFlights));
+    vec3 light = volumeRadiance(volume, point, hashBits(p.sampler, flightNumber(p, passedBefore(p)) + kShadowFlights));
     p = addLight(p, clampIndirect(p.throughput * (1.0 - scatter.rgb) * light, countedScatterings(p)));
   }
   p.throughput *= scatter.rgb;

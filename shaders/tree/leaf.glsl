@@ -58,8 +58,8 @@ PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear sh
 }
 
 /// The nearest of what the traversal has and the two primitives of a leaf. The origin lies at distance `start` along
-/// the ray (kInstances).
-Traversal intersectLeaf(Traversal s, int leaf, vec3 origin, vec3 direction, RayShear shear, float start) {
+/// the ray (kInstances). anyHit, for shadow rays: what lets no light pass comes before all else, as kOpaqueSlot.
+Traversal intersectLeaf(Traversal s, int leaf, vec3 origin, vec3 direction, RayShear shear, float start, bool anyHit) {
   LeafPair l;
   if (kMoving) l = loadMovingLeaf(leaf, s.part);
   if (!kMoving) l = loadLeaf(leaf);
@@ -70,6 +70,8 @@ Traversal intersectLeaf(Traversal s, int leaf, vec3 origin, vec3 direction, RayS
     b.t += b.t > 0.0f ? start : 0.0f;
   }
   bool hita = isNearer(s, a.t, 2 * leaf);
+  bool stops = hita && (l.worda & kPrimitivePasses) == 0u;
+  if (kPassing) stops = stops || (isNearer(s, b.t, 2 * leaf + 1) && (l.wordb & kPrimitivePasses) == 0u);
   s.t = hita ? a.t : s.t;
   s.slot = hita ? 2 * leaf : s.slot;
   if (kWeights) s.weights = hita ? a.weights : s.weights;
@@ -77,6 +79,8 @@ Traversal intersectLeaf(Traversal s, int leaf, vec3 origin, vec3 direction, RayS
   s.t = hitb ? b.t : s.t;
   s.slot = hitb ? 2 * leaf + 1 : s.slot;
   if (kWeights) s.weights = hitb ? b.weights : s.weights;
+  stops = stops || isStopped(s);
+  if (kPassing && anyHit && stops) s.slot = kOpaqueSlot;
   if (kInstances) s.hitInstance = hita || hitb ? s.instance : s.hitInstance;
   return s;
 }

@@ -64,6 +64,12 @@ bool isDone(Traversal s) { return s.node == kTraversalDone && s.leaves < kFirstC
 /// Returns true if the next step is one from an inner node.
 bool isAtNode(Traversal s) { return (s.node | int(kBaseMask - s.leaves)) >= 0; }
 
+/// The slot of a shadow ray that has met a surface through which no light passes, where there are others (kPassing).
+const int kOpaqueSlot = 0x7fffffff;
+
+/// Returns true if a shadow ray needs to know no more.
+bool isStopped(Traversal s) { return kPassing ? s.slot == kOpaqueSlot : s.slot >= 0; }
+
 /// A traversal that looks no further.
 Traversal ended(Traversal s) {
   s.node = kTraversalDone;

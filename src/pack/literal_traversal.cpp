@@ -64,6 +64,7 @@ Traversal traverseLiterals(vec3 origin, vec3 direction, Traversal s, bool anyHit
 )";
 constexpr const char* kWeightsTail = "  s.weights = weights / bestSum;\n";
 constexpr const char* kWholeTail = "  s.node = kTraversalDone;\n";
+constexpr const char* kNearestTail = "  s.t = best;\n  return s;\n}\n";
 constexpr const char* kTail = R"(  if (!anyHit) s.t = best / bestSum;
   return s;
 }
@@ -84,7 +85,7 @@ class TraversalText {
     const int exponent = size_ > 0.0 ? std::ilogb(size_) : 0;
     const std::string scale = "const float kLiteralScale = " + number(std::ldexp(1.0, -exponent)) + ";\n";
     return scale + kHead + countText() + body_ + (weights_ ? kWeightsTail : "") + (whole ? kWholeTail : "") +
-           kTail;
+           (passing_ ? kNearestTail : kTail);
   }
 
  private:

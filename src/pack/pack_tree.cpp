@@ -10,6 +10,7 @@
 #include "scene/coincidence.h"
 #include "scene/hit_error.h"
 #include "scene/motion/moving_scene.h"
+#include "shader/material_kinds.h"
 
 namespace fragtrace {
 
@@ -157,11 +158,16 @@ void appendNode(const Bvh& bvh, const WideNode& node, uint32_t firstInstance, bo
   }
 }
 
+/// Returns true unless all light ends at the material, or is bent there (passesThrough, lightThrough of the shaders).
+bool mayPass(const Material& m) {
+  return m.alphaMode != AlphaMode::Opaque || (m.transmissive() && mayBeClearWall(m)) || m.scattersMatched();
+}
+
 uint32_t primitiveFlags(const Material& m) {
   uint32_t flags = 0;
   if (m.culled()) flags |= layout::kPrimitiveCull;
   if (m.emissive()) flags |= layout::kPrimitiveEmits;
-  if (m.alphaMode != AlphaMode::Opaque) flags |= layout::kPrimitiveAlpha;
+  if (mayPass(m)) flags |= layout::kPrimitivePasses;
   return flags;
 }
 
