@@ -92,17 +92,6 @@ Path beginShadow(Path p) {
 Path endShadow(Path p) {
   p.phase = kPhaseEnd;
   if (p.hitSlot < 0) return p;
-  bool passes = false;
-  if (kAlpha) {
-    Surface s = surfaceAt(p.hitSlot, p.hitInstance, p.origin, p.direction, p.hitT, p.hitWeights, p.time);
-    uint flags = materialFlags(s.material);
-    float alpha = alphaAt(s.material, flags, baseColorAt(s.material, s.texcoords, s.color).a);
-    passes = passesThrough(p, flags, alpha, p.hitSlot, p.hitInstance, p.hitT);
-  }
-  if (kAlpha && passes) {
-    p.phase = kPhaseExtend;
-    return tracePast(p, kFarAway, p.hitT, p.hitSlot);
-  }
   vec4 hidden = environmentAlong(p.direction);
   float weight = 1.0;
   if (kEnvironmentSampling)

@@ -79,7 +79,7 @@ Path guideInFog(Path p) {
 /// kFarAway. The guides of a pixel are means over such flights; their own distances would part its neighbours.
 float gridBefore(Path p) {
   if (!p.cameraRay) return kFarAway;
-  uint seed = hashBits(p.sampler, flightNumber(p, passedBefore(p)));
+  uint seed = hashBits(p.sampler, flightNumber(p));
   Walk walk = walkVolume(volume, p.origin, p.direction, 0.0, p.hitT, false, seed);
   return walk.end < kFarAway ? max(walk.entry, 0.0) : kFarAway;
 }

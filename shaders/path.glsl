@@ -8,9 +8,6 @@ const bool kScatters = kGi || kReflections || kRefraction;
 /// Paths have a time: the camera or surfaces move while the shutter is open.
 const bool kTimed = kMovingCamera || kMoving;
 
-/// The AOV is a number of a part of the scene. Such numbers have no mean: they are those of the pixel's middle.
-const bool kIdAov = kAov == kAovObject || kAov == kAovMaterial;
-
 const float kAboveAll = 1.0e6;  // local space
 const uint kCameraDimensions = 0u;
 const uint kChannelDimension = 2u;  // one number per path
@@ -62,6 +59,13 @@ float dispersedIor(Path p, uint material) {
 }
 
 #include "media/medium.glsl"
+
+/// Decides by chance what alpha lets pass of the ray that is traced next.
+Path withChances(Path p) {
+  p.traversal.key = chanceKey(p.sampler, p.bounce);
+  p.traversal.time = p.time;
+  return p;
+}
 
 /// Starts a traversal of a ray up to its limit, keeping the step count of this draw.
 Path traceAnew(Path p, float limit) {
@@ -253,22 +257,6 @@ Path meetSurroundings(Path p) {
     weight = balanceWeight(p.pdf, samples * frame.environmentChance * environmentPdf(seen, p.direction));
   }
   return addLight(p, clampIndirect(p.throughput * (weight * seen.rgb), countedScatterings(p)));
-}
-
-/// The random number of a meeting of the path's ray, or its shadow ray, with a primitive: the same in whatever order a
-/// ray meets its primitives. A sphere is met at two distances.
-float chanceAt(Path p, int slot, int instance, float t) {
-  uint primitive = mixBits(uint(slot) + mixBits(uint(instance) + mixBits(uint(p.bounce))));
-  return hashFloat(p.sampler, primitive ^ floatBitsToUint(t));
-}
-
-/// Decides by the alpha of the point whether the ray goes through it; 1 opaque, 0 not there
-/// (docs/design/surfaces.md). slot, instance, t: the ray's hit.
-bool passesThrough(Path p, uint flags, float alpha, int slot, int instance, float t) {
-  if ((flags & kMaterialMask) != 0u) return alpha == 0.0;
-  if ((flags & kMaterialBlend) != 0u && kIdAov) return alpha < 0.5;
-  if ((flags & kMaterialBlend) != 0u) return chanceAt(p, slot, instance, t) >= alpha;
-  return false;
 }
 
 /// Returns true if light may come through the surface.

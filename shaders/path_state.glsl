@@ -11,6 +11,9 @@ const int kPhasePass = 6;    // a value of `after` alone: the ray goes on behind
 
 const float kTie = 9.5367431640625e-7;  // 2^-20: 16 roundings of a distance
 
+/// The AOV is a number of a part of the scene. Such numbers have no mean: they are those of the pixel's middle.
+const bool kIdAov = kAov == kAovObject || kAov == kAovMaterial;
+
 /// The AOV is a part of the radiance. Paths are traced to their ends for it, as for the picture.
 const bool kLightPart = kAov == kAovEmission || kAov == kAovDiffuse || kAov == kAovSpecular;
 const bool kDrawsLight = kAov == kAovNone || kLightPart;

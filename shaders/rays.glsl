@@ -8,13 +8,15 @@ layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frame; };
 #include "stack.glsl"
 #include "tree.glsl"
 #include "tree/state.glsl"
-#include "tree/leaf.glsl"
 #include "tree/ray.glsl"
+#include "tree/leaf.glsl"
 #include "traverse.glsl"
 
 // These buffers use bindings that the tracer uses for others.
 const uint kRaysBinding = kPathStatesBinding;
 const uint kRayHitsBinding = kProgressBinding;
+bool letsPass(Traversal hit, vec3 origin, vec3 direction) { return false; }
+
 const uint kRayUnfinished = 0xfffffffeu;  // replaces a slot: the step limit ended the ray
 
 layout(std430, binding = kRaysBinding) readonly restrict buffer RaysBlock { vec4 rays[]; };  // origin, limit; direction

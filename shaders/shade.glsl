@@ -307,7 +307,7 @@ vec3 aovAt(Surface s, int slot, int instance, vec3 baseColor, vec3 wo, float tim
 #include "guides.glsl"
 #include "caustics/light_path.glsl"
 
-/// One step at the point hit. The first visit (gi has one only) also settles alpha, absorption and emission.
+/// One step at the point hit. The first visit (gi has one only) also settles absorption and emission.
 Path shade(Path p) {
   Surface s = surfaceAt(p.hitSlot, p.hitInstance, p.origin, p.direction, p.hitT, p.hitWeights, p.time);
   uint flags = materialFlags(s.material);
@@ -316,10 +316,6 @@ Path shade(Path p) {
   if (kAov == kAovGuides) return guideAt(p, s, flags, base);
   if (kPassesLight && kDrawsLight && first) p = flyTo(p, s);
   if (kMedia && p.hitSlot < 0) return scatterInMedium(p);
-  if (kAlpha && first && passesThrough(p, flags, alphaAt(s.material, flags, base.a), p.hitSlot, p.hitInstance, p.hitT)) {
-    p.phase = kPhaseExtend;
-    return goPast(p);
-  }
   if (p.cameraRay) p.covered = true;
   if (!kDrawsLight) {
     p.radiance = aovAt(s, p.hitSlot, p.hitInstance, base.rgb, -p.direction, p.time);
@@ -350,7 +346,7 @@ Path shade(Path p) {
   return p;
 }
 
-/// The shadow ray is traced. One that met a surface with alpha may go on behind it; else the light sample is settled.
+/// The shadow ray is traced. One that met glass may go on behind it; else the light sample is settled.
 Path settleShadow(Path p) {
   int slot = p.traversal.slot;
   bool passes = false;
@@ -358,18 +354,14 @@ Path settleShadow(Path p) {
     if (kCountWork) countWork(kWorkShadowSurfaces, 1u);
     Surface s = surfaceAt(slot, p.traversal.hitInstance, p.shadowOrigin, p.shadowDirection, p.traversal.t,
                           p.traversal.weights, p.time);
-    uint flags = materialFlags(s.material);
     vec4 base = baseColorAt(s.material, s.texcoords, s.color);
-    passes = kAlpha && passesThrough(p, flags, alphaAt(s.material, flags, base.a), slot, p.traversal.hitInstance,
-                                     p.traversal.t);
-    bool holes = passes;
-    if (kThroughGlass && p.throughGlass && !passes) {
+    if (kThroughGlass && p.throughGlass) {
       p.contribution *= lightThrough(s, base.rgb, p.shadowDirection);
       passes = maxComponent(p.contribution) > 0.0;
     }
     if (kDimsLate && passes) {
       p = dimShadow(p, solidBefore(p.shadowMedium, s, false), passedBefore(p), p.traversal.t);
-      if (!holes && isSolid(s.material)) p.shadowMedium = behindBoundary(p.shadowMedium, s);
+      if (isSolid(s.material)) p.shadowMedium = behindBoundary(p.shadowMedium, s);
     }
   }
   if (kPassing && passes) return tracePast(p, p.shadowLimit, p.traversal.t, slot);

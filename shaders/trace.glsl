@@ -18,7 +18,7 @@
 //     node = root
 //     until nothing is left:
 //       inner node: node = nearer child that the ray meets; push the farther one; none: pop
-//       leaf: keep the nearest hit on its two primitives (intersect.glsl); pop
+//       leaf: keep the nearest hit on its two primitives (intersect.glsl, tree/alpha.glsl); pop
 //
 //   meet(path, hit):
 //     the shadow catcher lies before it: catcher.glsl
@@ -28,7 +28,6 @@
 //
 //   shade(path, hit):                             shade.glsl
 //     surface, material = what is hit             surface.glsl, material.glsl
-//     alpha lets it pass: the same ray goes on behind the hit
 //     throughput *= absorption along the ray
 //     radiance += throughput * emission * weight(pdf of scattering, pdf of light samples)
 //     more scatterings than --bounces: end
@@ -57,8 +56,8 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "stack.glsl"
 #include "tree.glsl"
 #include "tree/state.glsl"
-#include "tree/leaf.glsl"
 #include "tree/ray.glsl"
+#include "tree/leaf.glsl"
 #include "traverse.glsl"
 #include "texture.glsl"
 #include "material.glsl"
@@ -84,6 +83,7 @@ layout(location = kMostCasters) uniform int casterCount;
 #include "caustics/flux.glsl"
 #include "caustics/form.glsl"
 #include "path_state.glsl"
+#include "tree/alpha.glsl"
 #include "path_rows.glsl"
 #include "media/phase.glsl"
 #include "media/flight.glsl"
@@ -217,6 +217,7 @@ Path advance(Path p, int budget, TreeFrame tree) {
     // The flight, which limits the ray, is drawn already: a walk through a grid takes long.
     if (kWholeRays && !isShadow) p = extendTo(p, kMedia ? p.traversal.t : kFarAway);
     if (kGpu && kWholeRays && isShadow) p = traceAnew(p, p.shadowLimit);
+    if (kTestsAlpha) p = withChances(p);
     p.traversal = traverse(isShadow ? p.shadowOrigin : p.origin, isShadow ? p.shadowDirection : p.direction,
                            isShadow ? p.shadowLimit : kFarAway, p.traversal, tree, budget, isShadow);
     // A shadow ray or one that is not done leaves its hit, too: that of the ray before then needs no registers.
@@ -238,6 +239,7 @@ Path advance(Path p, int budget, TreeFrame tree) {
 
   // Step: is the light seen?
   if (!kGpu && kShadows && p.phase == kPhaseShadow) {
+    if (kTestsAlpha) p = withChances(p);
     p.traversal = traverse(p.shadowOrigin, p.shadowDirection, p.shadowLimit, p.traversal, tree, budget, true);
     p = meetShadow(p);
   }

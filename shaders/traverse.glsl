@@ -2,6 +2,9 @@
 // Finding what a ray hits, by walking the tree (docs/design/traversal.md). What a step finds of a node's children are
 // two groups (layout.glsl): the leaves are met before any other node, the inner nodes join those that still wait.
 
+#include "literals.glsl"
+#include "tree/meet.glsl"
+
 /// The lowest number of a child in a group.
 int firstOf(uint group) { return int(0x12131210u >> (group >> 26 & 30u)) & 3; }
 
@@ -58,8 +61,8 @@ Traversal stepNode(Traversal s, TreeRay ray, float rayLimit, TreeFrame tree, boo
 int leafOf(Traversal s) { return int((s.leaves + uint(firstOf(s.leaves))) & kBaseMask); }
 
 /// The primitives of the leaf that comes next.
-Traversal meetLeaf(Traversal s, TreeRay ray, bool anyHit) {
-  s = intersectLeaf(s, leafOf(s), ray.origin, ray.direction, ray.shear, ray.start, anyHit);
+Traversal meetLeaf(Traversal s, TreeRay ray, vec3 origin, vec3 direction, bool anyHit) {
+  s = meetPrimitives(s, leafOf(s), ray, origin, direction, anyHit);
   s.leaves ^= kFirstChild << firstOf(s.leaves);
   if (anyHit && isStopped(s)) s = ended(s);
   return s;
@@ -111,7 +114,7 @@ Traversal traverseTree(vec3 origin, vec3 direction, float rayLimit, Traversal s,
       s = changeSpace(s);
       ray = treeRayOf(s, origin, direction, tree);
     } else if (s.leaves >= kFirstChild) {
-      s = meetLeaf(s, ray, anyHit);
+      s = meetLeaf(s, ray, origin, direction, anyHit);
       s.steps += 1;
       if (kCountVisits) s.visits += 1;
     }
@@ -121,10 +124,10 @@ Traversal traverseTree(vec3 origin, vec3 direction, float rayLimit, Traversal s,
 
 /// One plain loop over all leaves, kLeafBlock of them an iteration (the last block is padded).
 Traversal traverseIterative(vec3 origin, vec3 direction, Traversal s, TreeFrame tree, int stepLimit, bool anyHit) {
-  RayShear shear = makeShear(direction);
+  TreeRay ray = makeTreeRay(origin, direction, 0.0f);
   while (s.node != kTraversalDone && s.steps < stepLimit) {
     for (int i = 0; i < int(kLeafBlock); ++i) {
-      s = intersectLeaf(s, s.node + i, origin, direction, shear, 0.0f, anyHit);
+      s = meetPrimitives(s, s.node + i, ray, origin, direction, anyHit);
     }
     s.steps += 1;
     if (kCountVisits) s.visits += int(kLeafBlock);
@@ -133,8 +136,6 @@ Traversal traverseIterative(vec3 origin, vec3 direction, Traversal s, TreeFrame 
   }
   return s;
 }
-
-#include "literals.glsl"
 
 /// Meets the triangles that the tree does not hold.
 Traversal meetLargeFirst(vec3 origin, vec3 direction, Traversal s, bool anyHit) {
@@ -147,7 +148,7 @@ Traversal meetLargeFirst(vec3 origin, vec3 direction, Traversal s, bool anyHit) 
 /// Continues a traversal of the ray until it is done or has taken stepLimit steps. direction is unit length.
 Traversal traverse(vec3 origin, vec3 direction, float rayLimit, Traversal s, TreeFrame tree, int stepLimit,
                    bool anyHit) {
-  if (kLiterals) return traverseLiterals(origin, direction, s, anyHit);
+  if (kLiterals) return meetPrimitives(s, 0, makeTreeRay(origin, direction, 0.0f), origin, direction, anyHit);
   if (kLargeFirst) s = meetLargeFirst(origin, direction, s, anyHit);
   if (kIterative) return traverseIterative(origin, direction, s, tree, stepLimit, anyHit);
   return traverseTree(origin, direction, rayLimit, s, tree, stepLimit, anyHit);

@@ -262,6 +262,11 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
       t = startTraversal(limit, frame.leafCount);
       if (kCreases) t.tie = isShadow ? 0.0 : a.w;
       if (kCoincident) t.extends = !isShadow;
+      if (kTestsAlpha) {
+        uvec4 counts = readPathStates(row + kRowCounts);
+        int bounce = withCounts(newPath(), counts.z, counts.w).bounce;
+        t.key = chanceKey(makeSampler(keyOf(v, current), counts.x), bounce);
+      }
       if (kPassing) {
         uvec4 tMins = readPathStates(row + kRowTMin);
         t.tMin = uintBitsToFloat(isShadow ? tMins.z : tMins.x);
@@ -285,7 +290,7 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
       t = changeSpace(t);
       ray = treeRayOf(t, origin, direction, tree);
     } else if (t.leaves >= kFirstChild) {
-      t = meetLeaf(t, ray, isShadow);
+      t = meetLeaf(t, ray, origin, direction, isShadow);
     }
     v.steps += 1;
     if (isDone(t)) v = settleRay(v, t, current, isShadow);

@@ -191,7 +191,7 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   if (singleSided && !s.front) return p;
   bool mayScatter = !unlit && (caster || scattered);
   bool passes = singleSided &&
-                (!mayScatter || chanceAt(p, p.hitSlot, p.hitInstance, p.hitT) < kPassedOn);
+                (!mayScatter || chanceAt(chanceKey(p.sampler, p.bounce), p.hitSlot, p.hitInstance, p.hitT) < kPassedOn);
   if (passes) return passOn(p, s, mayScatter ? 1.0 / kPassedOn : 1.0);
   if (unlit) return p;
   if (singleSided) p.throughput /= 1.0 - kPassedOn;

@@ -42,17 +42,14 @@ float flightEnd(Path p, float from, float u) {
   return end;
 }
 
-/// The hashed number of a flight of this bounce that begins at a distance along the ray.
-uint flightNumber(Path p, float from) {
-  return kFlightDimensions + (uint(p.bounce) << 12) + (from > 0.0 ? mixBits(floatBitsToUint(from)) : 0u);
-}
+/// The hashed number of this bounce. Glass that does not bend the ray counts as one.
+uint flightNumber(Path p) { return kFlightDimensions + (uint(p.bounce) << 12); }
 
 /// Limits the path's ray, which begins at `from`, to its flight.
 Path limitFlight(Path p, float from) {
-  float u = from > 0.0 ? hashFloat(p.sampler, flightNumber(p, from)) : pathRandom(p, kFlightDimension);
-  p.traversal.t = flightEnd(p, from, u);
+  p.traversal.t = flightEnd(p, from, pathRandom(p, kFlightDimension));
   if (kDensityGrid && p.medium == kPrimitiveNone) {
-    uint seed = hashBits(p.sampler, flightNumber(p, from));
+    uint seed = hashBits(p.sampler, flightNumber(p));
     Walk walk = walkVolume(volume, p.origin, p.direction, from, p.traversal.t, false, seed);
     p.traversal.t = min(p.traversal.t, walk.end);
     p.traversal.steps += walk.steps;
@@ -96,7 +93,7 @@ Path dimShadow(Path p, uint solid, float from, float to) {
   bool outside = solid == kPrimitiveNone;
   if (kFog && outside) p.contribution *= exp(-fogDepth(fog, p.shadowOrigin, p.shadowDirection, from, to));
   if (kDensityGrid && outside) {
-    uint seed = hashBits(p.sampler, flightNumber(p, 0.0) + kShadowFlights) ^ floatBitsToUint(from);
+    uint seed = hashBits(p.sampler, flightNumber(p) + kShadowFlights) ^ floatBitsToUint(from);
     Walk walk = walkVolume(volume, p.shadowOrigin, p.shadowDirection, from, to, true, seed);
     p.contribution *= walk.transmittance;
     p.traversal.steps += walk.steps;

@@ -32,7 +32,7 @@ Path decideInMedium(Path p) {
 bool endsInGrid(Path p) {
   if (!kFog) return true;
   float from = passedBefore(p);
-  return p.hitT < flightEnd(p, from, flightRandom(p)) * float(1.0 - 1e-6);
+  return p.hitT < flightEnd(p, from, pathRandom(p, kFlightDimension)) * float(1.0 - 1e-6);
 }
 
 /// The path's ray ends in its medium, and is scattered.
@@ -49,7 +49,7 @@ Path scatterInMedium(Path p) {
   }
   if (kDensityGrid && inGrid && volume.extinction.y > 0.0) {
     // Kirchhoff's law: it emits as much as it absorbs.
-    vec3 light = volumeRadiance(volume, point, hashBits(p.sampler, flightNumber(p, passedBefore(p)) + kShadowFlights));
+    vec3 light = volumeRadiance(volume, point, hashBits(p.sampler, flightNumber(p) + kShadowFlights));
     p = addLight(p, clampIndirect(p.throughput * (1.0 - scatter.rgb) * light, countedScatterings(p)));
   }
   p.throughput *= scatter.rgb;

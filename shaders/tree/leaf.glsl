@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Finds what a ray hits in a leaf.
 
-/// Returns true if a hit at distance t is nearer than the traversal's. Where a ray passes through surfaces, all hits
-/// along it have one order, by distance and slot, so that it meets each once, however close they lie.
+/// Rays pass through surfaces. Then all hits along a ray have one order, by distance and slot, so that it meets each
+/// once, however close they lie.
+bool isOrdered() { return kPassing || kTestsAlpha; }
+
+/// Returns true if a hit at distance t is nearer than the traversal's.
 bool isNearer(Traversal s, float t, int slot) {
-  if (!kPassing) return t > 0.0f && t < s.t;
+  if (!isOrdered()) return t > 0.0f && t < s.t;
   return liesBehind(t, s.tMin, slot > s.tMinSlot) && (t < s.t || (t == s.t && slot < s.slot));
 }
 
@@ -49,8 +52,8 @@ PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear sh
   }
   if (kSpheres) {
     bool inside = !kCulling || (kLightPaths && s.both) || (word & kPrimitiveCull) == 0u;
-    float tMin = kPassing ? s.tMin : 0.0f;
-    float t = intersectSphere(origin, direction, v0, v1.x, inside, tMin, kPassing && slot > s.tMinSlot);
+    float tMin = isOrdered() ? s.tMin : 0.0f;
+    float t = intersectSphere(origin, direction, v0, v1.x, inside, tMin, isOrdered() && slot > s.tMinSlot);
     bool isSphere = (word & kPrimitiveSphere) != 0u && word != kPrimitiveNone;
     r.t = isSphere ? t : (kTriangles ? r.t : -1.0f);
   }
@@ -70,8 +73,10 @@ Traversal intersectLeaf(Traversal s, int leaf, vec3 origin, vec3 direction, RayS
     b.t += b.t > 0.0f ? start : 0.0f;
   }
   bool hita = isNearer(s, a.t, 2 * leaf);
-  bool stops = hita && (l.worda & kPrimitivePasses) == 0u;
-  if (kPassing) stops = stops || (isNearer(s, b.t, 2 * leaf + 1) && (l.wordb & kPrimitivePasses) == 0u);
+  bool metb = isNearer(s, b.t, 2 * leaf + 1);
+  bool passesa = (l.worda & kPrimitivePasses) != 0u;
+  bool passesb = (l.wordb & kPrimitivePasses) != 0u;
+  bool stops = isStopped(s) || (hita && !passesa) || (metb && !passesb);
   s.t = hita ? a.t : s.t;
   s.slot = hita ? 2 * leaf : s.slot;
   if (kWeights) s.weights = hita ? a.weights : s.weights;
@@ -79,7 +84,11 @@ Traversal intersectLeaf(Traversal s, int leaf, vec3 origin, vec3 direction, RayS
   s.t = hitb ? b.t : s.t;
   s.slot = hitb ? 2 * leaf + 1 : s.slot;
   if (kWeights) s.weights = hitb ? b.weights : s.weights;
-  stops = stops || isStopped(s);
+  if (kTestsAlpha) {
+    bool spheres = kSpheres && ((l.worda | l.wordb) & kPrimitiveSphere) != 0u;
+    s.tested = (hita || hitb) && (hitb ? passesb : passesa);
+    s.more = (hita && metb) || spheres;
+  }
   if (kPassing && anyHit && stops) s.slot = kOpaqueSlot;
   if (kInstances) s.hitInstance = hita || hitb ? s.instance : s.hitInstance;
   return s;

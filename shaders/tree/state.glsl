@@ -19,8 +19,12 @@ struct Traversal {
   bool both;  // kLightPaths: single-sided surfaces have their backs, too
   float part; // kMoving: of the segment in whose tree the traversal is, 0..1
   int visits; // nodes and leaves visited, counted for the heat map only
-  float tMin;     // kPassing: only hits behind this distance count,
+  float tMin;     // kPassing, kTestsAlpha: only hits behind this distance count,
   int tMinSlot;   // and those at it in later slots: what the ray has passed through lies there
+  bool tested;    // kTestsAlpha: alpha may let the ray pass the hit of the last leaf,
+  bool more;      // and that leaf may have others
+  uint key;       // kTestsAlpha: decides by chance what alpha lets pass (tree/alpha.glsl)
+  float time;     // kTestsAlpha and kMoving: of the path
   Stack stack;
 };
 
@@ -48,6 +52,10 @@ Traversal startTraversal(float limit, int leafCount) {
   s.visits = 0;
   s.tMin = 0.0f;
   s.tMinSlot = 0x7fffffff;
+  s.tested = false;
+  s.more = false;
+  s.key = 0u;
+  s.time = 0.0f;
   s.stack = emptyStack();
   return s;
 }

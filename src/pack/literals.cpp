@@ -82,7 +82,7 @@ bool partsLamps(const ShaderVariant& variant) { return has(variant.traits, Trait
 LiteralOptions optionsOf(const ShaderVariant& variant, bool whole) {
   return {.weights = keepsWeights(variant),
           .whole = whole,
-          .passing = passesSurfaces(variant),
+          .passing = passesSurfaces(variant) || testsAlpha(variant),
           .backFaces = has(variant.traits, Trait::Caustics)};
 }
 

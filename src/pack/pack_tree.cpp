@@ -158,9 +158,10 @@ void appendNode(const Bvh& bvh, const WideNode& node, uint32_t firstInstance, bo
   }
 }
 
-/// Returns true unless all light ends at the material, or is bent there (passesThrough, lightThrough of the shaders).
+/// Returns true unless all light ends at the material, or is bent there (letsPass, lightThrough of the
+/// shaders).
 bool mayPass(const Material& m) {
-  return m.alphaMode != AlphaMode::Opaque || (m.transmissive() && mayBeClearWall(m)) || m.scattersMatched();
+  return m.testsAlpha() || (m.transmissive() && mayBeClearWall(m)) || m.scattersMatched();
 }
 
 uint32_t primitiveFlags(const Material& m) {

@@ -106,6 +106,7 @@ struct Material {
   float occlusionStrength = 1.0f;
   AlphaMode alphaMode = AlphaMode::Opaque;
   float alphaCutoff = 0.5f;
+  float leastAlpha = 1.0f;  ///< a bound of the alpha of its texture and vertices (settleLeastAlpha)
   bool doubleSided = false;
   bool unlit = false;
   /// The material is of KHR_materials_pbrSpecularGlossiness: the diffuse colour gives way to the specular
@@ -165,6 +166,11 @@ struct Material {
   /// Returns true if the surface, judged by its roughness factor without the texture, is so smooth that it
   /// scatters light in single directions (kMirrorAlpha of shaders/bsdf.glsl).
   bool mirrorLike() const { return roughnessFactor * roughnessFactor < 0.001f; }
+  /// Returns true if alpha may let a ray pass.
+  bool testsAlpha() const {
+    const float least = baseColorFactor.a * leastAlpha;
+    return alphaMode == AlphaMode::Blend ? least < 1.0f : alphaMode == AlphaMode::Mask && least < alphaCutoff;
+  }
   /// No ray sees the back.
   bool culled() const { return !doubleSided && !passesLight(); }
   bool clearcoated() const { return clearcoatFactor > 0.0f; }

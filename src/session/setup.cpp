@@ -128,8 +128,11 @@ Bvh buildTree(const Scene& scene, const RenderOptions& options) {
   const uint32_t triangles = uint32_t(scene.triangles.size());
   std::vector<uint32_t> large;
   if (besideAllowed(options) && bounds.size() >= kLeastBesideLarge) large = largeTriangles(bounds, triangles);
-  // Literals do not know of coincidence.
-  std::erase_if(large, [&](uint32_t i) { return scene.triangles[i].reach > 0; });
+  // Literals know neither of coincidence nor of alpha.
+  std::erase_if(large, [&](uint32_t i) {
+    const Triangle& t = scene.triangles[i];
+    return t.reach > 0 || scene.materials[t.material].testsAlpha();
+  });
   if (large.empty()) return buildBvh(std::move(bounds), triangles);
   Bvh bvh = buildBvh(bounds, triangles);
   Bvh beside = buildBvhBeside(bounds, triangles, large);

@@ -154,6 +154,7 @@ void appendConstants(std::string& text, const ShaderVariant& variant) {
   constant("kWeights", keepsWeights(variant));
   constant("kGlassTables", usesGlassTables(variant));
   constant("kPassing", passesSurfaces(variant));
+  constant("kTestsAlpha", testsAlpha(variant));
   constant("kIterative", variant.traversal == TraversalMethod::Iterative);
   constant("kFrontToBack", variant.traversal == TraversalMethod::FrontToBack);
   constant("kResumable", variant.resumable);

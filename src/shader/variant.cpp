@@ -381,8 +381,12 @@ bool keepsWeights(const ShaderVariant& variant) {
 }
 
 bool passesSurfaces(const ShaderVariant& variant) {
-  return has(variant.traits, Trait::Alpha) || has(variant.traits, Trait::ThinGlass) ||
-         has(variant.traits, Trait::MatchedGlass);
+  return (has(variant.traits, Trait::Alpha) && !testsAlpha(variant)) ||
+         has(variant.traits, Trait::ThinGlass) || has(variant.traits, Trait::MatchedGlass);
+}
+
+bool testsAlpha(const ShaderVariant& variant) {
+  return has(variant.traits, Trait::Alpha) && variant.aov != Aov::Guides;
 }
 
 std::string variantName(const ShaderVariant& variant) {

@@ -89,9 +89,11 @@ bool lightsByEnvironment(const ShaderVariant& variant);
 /// Returns true if hits keep their barycentric weights, which only vertex attributes need.
 bool keepsWeights(const ShaderVariant& variant);
 
-/// Returns true if rays may continue behind what they meet: through holes, and straight through thin
-/// surfaces.
+/// Returns true if rays may continue behind what they meet: straight through glass, and guides through alpha.
 bool passesSurfaces(const ShaderVariant& variant);
+
+/// Returns true if rays meet no surface that lets them pass by its alpha.
+bool testsAlpha(const ShaderVariant& variant);
 
 /// The variant by name: what is on, separated by "+", for the statistics.
 std::string variantName(const ShaderVariant& variant);

@@ -11,6 +11,7 @@ import re
 import shutil
 import sys
 import tempfile
+import unittest.mock
 from pathlib import Path
 
 from support import EXTENDED, SCENES, SHADERS, Case, main, run
@@ -41,15 +42,19 @@ IN_WAVES = ("one-alpha", "volume")
 
 
 def made(folder, scene):
-    """Returns the file of a scene. Two are made: the room with the ball, whose lamp may have holes, and has none; and balls that share a mesh."""
+    """Returns the file of a scene. Two are made: the room with the ball, half of whose lamp is there; and balls that share a mesh."""
     if scene == "one-alpha":
         model = json.loads((SCENES / "room-ball.gltf").read_text())
-        next(material for material in model["materials"] if material["name"] == "lamp")["alphaMode"] = "MASK"
+        lamp = next(material for material in model["materials"] if material["name"] == "lamp")
+        lamp["alphaMode"] = "BLEND"
+        lamp.setdefault("pbrMetallicRoughness", {})["baseColorFactor"] = [1, 1, 1, 0.5]
         (folder / "one-alpha.gltf").write_text(json.dumps(model))
         shutil.copy(SCENES / "room-ball.bin", folder)
     elif scene == "field":
         with contextlib.redirect_stdout(None):
             write_field(folder, "field", 64, 500)
+    elif (folder / f"{scene}.gltf").exists():
+        return folder / f"{scene}.gltf"
     else:
         return SCENES / f"{scene}.gltf"
     return folder / f"{scene}.gltf"
@@ -123,6 +128,23 @@ class WorkOfSchedules(Case):
                 self.assertEqual(waves["schedule"], "wavefront")
                 for kind in set(waves["work"]) - {"node_steps", "boxes_tested", "node_rows"}:
                     self.assertEqual(known(name)["work"][kind], waves["work"][kind], f"{name}, {tune}: {kind}")
+
+
+class AlphaWork(Case):
+    def test_no_ray_begins_again_behind_what_alpha_lets_pass(self):
+        self.assertGreater(known("alpha")["work"]["surfaces_passed"], 100)
+        self.assertEqual(known("alpha")["work"]["camera_rays"], 32 * 32 * 2)
+
+    def test_alpha_that_hides_nothing_takes_no_work(self):
+        model = json.loads((SCENES / "room-ball.gltf").read_text())
+        for material in model["materials"]:
+            material["alphaMode"] = "MASK"
+        (self.folder / "masked.gltf").write_text(json.dumps(model))
+        shutil.copy(SCENES / "room-ball.bin", self.folder)
+        with unittest.mock.patch.dict(PICTURES, masked=("masked", MEGAKERNEL)):
+            stats = counted(self.folder, "masked")
+        self.assertNotIn("alpha", stats["variant"].split("+"))
+        self.assertEqual(numbers(known("ball")), numbers(stats))
 
 
 class Counting(Case):

@@ -46,6 +46,7 @@ inline bool kCreases = false;
 inline bool kSlivers = false;
 inline bool kCoincident = false;
 inline bool kPassing = false;
+inline bool kTestsAlpha = false;
 inline bool kMatchedGlass = false;
 inline bool kThinScattering = false;
 inline bool kCaustics = false;

@@ -10,9 +10,10 @@
 #include "stack.glsl"
 #include "tree.glsl"
 #include "tree/state.glsl"
-#include "tree/leaf.glsl"
 #include "tree/ray.glsl"
+#include "tree/leaf.glsl"
 #include "traverse.glsl"
+bool letsPass(Traversal, vec3, vec3) { return false; }
 #include "perlin.glsl"
 #include "fresnel.glsl"
 #include "ggx.glsl"

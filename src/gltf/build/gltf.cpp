@@ -12,6 +12,7 @@
 #include "bvh/contacts.h"
 #include "bvh/open_panes.h"
 #include "gltf/build/flatten.h"
+#include "gltf/build/least_alpha.h"
 #include "gltf/build/materials.h"
 #include "gltf/build/meshes.h"
 #include "gltf/build/nodes.h"
@@ -171,6 +172,7 @@ void settleSurfaces(const std::vector<PlacedSphere>& spheres, Diagnostics& diagn
                              sphere.material, sphere.node, sphere.nodeIndex});
   }
   scene.solids = solidsOf(scene);
+  settleLeastAlpha(scene);
 }
 
 Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,

@@ -148,7 +148,7 @@ std::vector<SetNumber> placedValues(const json& root, std::span<const SetNumber>
   return placed;
 }
 
-std::string extensionOf(std::string_view pointer) {
+std::string extensionIn(std::string_view pointer) {
   constexpr std::string_view kExtensions = "/extensions/";
   const size_t at = pointer.rfind(kExtensions);
   if (at == std::string_view::npos || !pointer.starts_with("/materials/")) return "";

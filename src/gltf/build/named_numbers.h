@@ -23,6 +23,6 @@ bool matchesPattern(std::string_view pattern, std::string_view text);
 std::vector<SetNumber> placedValues(const nlohmann::json& root, std::span<const SetNumber> set);
 
 /// The extension that holds a place of a material; empty: none does.
-std::string extensionOf(std::string_view pointer);
+std::string extensionIn(std::string_view pointer);
 
 }  // namespace fragtrace

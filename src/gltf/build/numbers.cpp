@@ -204,7 +204,7 @@ void writeValue(json& root, const SetNumber& set, const std::optional<NumberRule
     root[json::json_pointer(set.pointer)] =
         set.word == "true" || set.word == "false" ? json(set.word == "true") : json(set.word);
   }
-  const std::string extension = extensionOf(set.pointer);
+  const std::string extension = extensionIn(set.pointer);
   if (extension.empty()) return;
   json& used = root["extensionsUsed"];
   if (std::ranges::find(used, json(extension)) == used.end()) used.push_back(extension);

@@ -70,7 +70,7 @@ bool areOfOneKind(const Material& a, const Material& b) {
   const auto kind = [](const Material& m) {
     return std::tuple{m.transmissive(), m.mirrorLike(),     m.clearcoated(),     m.hasSheen(),
                       m.attenuates(),   m.scattersInside(), m.scattersMatched(), m.scattersThinly(),
-                      m.disperses(),    m.emissive(),       casterOf(m)};
+                      m.disperses(),    m.emissive(),       m.testsAlpha(),      casterOf(m)};
   };
   return kind(a) == kind(b);
 }

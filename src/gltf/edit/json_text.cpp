@@ -192,7 +192,7 @@ void useExtension(std::string& text, const std::string& name) {
 std::string withNumbers(std::string text, std::span<const SetNumber> set) {
   for (const SetNumber& one : set) {
     setValue(text, one);
-    if (const std::string extension = extensionOf(one.pointer); !extension.empty())
+    if (const std::string extension = extensionIn(one.pointer); !extension.empty())
       useExtension(text, extension);
   }
   return text;
