@@ -11,6 +11,7 @@ endif()
 execute_process(
   COMMAND dpkg-shlibdeps -O
           -dDepends -e${build}/fragtrace -e${build}/fragtrace-bench -e${build}/fragtrace_worker -e${build}/libfragtrace_pictures.so
+                    -e${build}/libfragtrace_letters.so
           -dRecommends -e${build}/libfragtrace_geometry.so -e${build}/libfragtrace_window.so ${volumes}
   WORKING_DIRECTORY ${folder} OUTPUT_VARIABLE found COMMAND_ERROR_IS_FATAL ANY)
 foreach(field Depends Recommends)

@@ -14,6 +14,7 @@ struct RawRender;
 RunCommand addRender(CLI::App& app);
 RunCommand addView(CLI::App& app);
 RunCommand addInfo(CLI::App& app);
+RunCommand addSheet(CLI::App& app);
 RunCommand addDiff(CLI::App& app);
 RunCommand addMerge(CLI::App& app);
 RunCommand addDenoise(CLI::App& app);
@@ -28,6 +29,7 @@ inline constexpr std::array kCommandRows{
     CommandRow{"render", "render a scene to a file", addRender},
     CommandRow{"view", "show a scene in a window", addView},
     CommandRow{"info", "print what a scene contains", addInfo},
+    CommandRow{"sheet", "draw all models of a folder in one picture", addSheet},
     CommandRow{"diff", "compare a picture with a reference", addDiff},
     CommandRow{"merge", "merge parts of one render", addMerge},
     CommandRow{"denoise", "remove noise from a picture file", addDenoise},

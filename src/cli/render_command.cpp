@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `fragtrace render` as a pipeline: scene, tree, context, packed scene and renderer here; film and picture in
-// drawAndWrite() of cli/render_picture.cpp.
+// `fragtrace render`: one picture by drawScene() of cli/render_picture.cpp, one of each variant, or a
+// sequence.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -14,18 +14,13 @@
 #include "cli/render_picture.h"
 #include "gltf/gltf.h"
 #include "image/files/process.h"
-#include "options/command_text.h"
 #include "options/config_file.h"
 #include "options/parse_render.h"
-#include "session/file_light.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
 #include "session/picture/denoising.h"
 #include "session/picture/finished_picture.h"
-#include "session/picture/picture_file.h"
 #include "session/picture/sequence.h"
-#include "session/sequence_camera.h"
-#include "session/tracer.h"
 
 namespace fragtrace {
 
@@ -40,26 +35,9 @@ int renderOne(const RenderOptions& asked) {
   Device device;
   device.oidn = openDenoiser(options);
   Statistics stats;
-
-  // Step: load. The image library opens meanwhile, in its own process, when the output needs it.
+  // The image library opens meanwhile, in its own process, when the output needs it.
   if (options.output.file.extension() != ".pfm") startImageProcess();
-  const RenderOptions drawn = withGuides(options);
-  LoadedScene loaded = loadScene(drawn, stats, {}, FilmOf::Part);
-  options = exposed(options, loaded.light);
-  if (options.output.verbose && loaded.overrides.fit) {
-    RenderOptions placed = options;
-    placed.camera.overrides = asPlaced(loaded.camera, loaded.framed);
-    say(options, "--fit: the camera stands at " + viewText(placed));
-  }
-
-  // Step: the shader variant, and the arrays that it reads.
-  openContext(options, pathsOf(options, loaded.region.size), device, stats);
-  const Tracer tracer = makeTracer(*device.context, loaded, drawn, stats);
-  const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);
-  releaseGeometry(loaded);
-
-  const Outcome outcome =
-      drawAndWrite({options, loaded, tracer}, boxes, {nameOf(options.output)}, device, stats);
+  const Outcome outcome = drawScene(options, {nameOf(options.output)}, device, stats, true);
   if (outcome == Outcome::None) {
     say(options, "interrupted, nothing is written");
     return kInterruptedStatus;

@@ -1,17 +1,25 @@
 // SPDX-License-Identifier: MIT
+// A picture as a pipeline: scene, tree, context, packed scene and renderer in drawScene(); film and picture
+// in drawAndWrite().
 #include "cli/render_picture.h"
 
 #include <cstdio>
+#include <utility>
 
 #include "base/errors.h"
 #include "base/report.h"
 #include "base/text.h"
 #include "cli/program.h"
+#include "options/command_text.h"
+#include "session/file_light.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
+#include "session/picture/denoising.h"
 #include "session/picture/finished_picture.h"
 #include "session/picture/picture_file.h"
 #include "session/picture/video.h"
+#include "session/sequence_camera.h"
+#include "session/tracer.h"
 
 namespace fragtrace {
 
@@ -76,6 +84,30 @@ Outcome drawAndWrite(const PictureJob& job, const std::vector<PictureLine>& boxe
   if (!options.output.statsFile.empty()) replaceText(options.output.statsFile, statisticsText(stats));
   sayWhatWasDone(options, destination.name, stats);
   return stats.complete ? Outcome::Complete : Outcome::Partial;
+}
+
+Outcome drawScene(const RenderOptions& asked, const Destination& destination, Device& device,
+                  Statistics& stats, bool showsProgress) {
+  // Step: load.
+  const RenderOptions drawn = withGuides(asked);
+  LoadedScene loaded = loadScene(drawn, stats, {}, FilmOf::Part);
+  const RenderOptions options = exposed(asked, loaded.light);
+  if (options.output.verbose && loaded.overrides.fit) {
+    RenderOptions placed = options;
+    placed.camera.overrides = asPlaced(loaded.camera, loaded.framed);
+    say(options, "--fit: the camera stands at " + viewText(placed));
+  }
+
+  // Step: the shader variant, and the arrays that it reads.
+  if (!device.context) openContext(options, pathsOf(options, loaded.region.size), device, stats);
+  Tracer tracer = makeTracer(*device.context, loaded, drawn, stats, std::exchange(device.programs, {}));
+  const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);
+  releaseGeometry(loaded);
+
+  const Outcome outcome =
+      drawAndWrite({options, loaded, tracer, showsProgress}, boxes, destination, device, stats);
+  device.programs = tracer.renderer->takePrograms();
+  return outcome;
 }
 
 std::string nameOf(const OutputOptions& output) {

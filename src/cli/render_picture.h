@@ -29,6 +29,11 @@ enum class Outcome : uint8_t { Complete, Partial, None };
 Outcome drawAndWrite(const PictureJob& job, const std::vector<PictureLine>& boxes,
                      const Destination& destination, Device& device, Statistics& stats);
 
+/// Loads the scene of the options, draws it and writes the picture. The device keeps its context, which is
+/// opened where there is none yet. Throws InputError, UsageError, RenderError, ContextError.
+Outcome drawScene(const RenderOptions& asked, const Destination& destination, Device& device,
+                  Statistics& stats, bool showsProgress);
+
 /// The name of the output in messages.
 std::string nameOf(const OutputOptions& output);
 

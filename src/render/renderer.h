@@ -161,6 +161,8 @@ class Renderer {
 
   /// The programs that are built.
   const ProgramCache& programs() const { return programs_; }
+  /// Gives them away; nothing may be drawn afterwards.
+  ProgramCache takePrograms() { return std::move(programs_); }
 
   /// The milliseconds that one sample of one pixel takes, as the latest work measured them; 0 if not yet
   /// known.

@@ -272,12 +272,13 @@ std::optional<Phase> buildAhead(ProgramCache& programs, ShaderVariant variant, c
 }  // namespace
 
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
-                  Statistics& stats) {
-  return makeTracer(context, loaded, options, stats, keepsCheckpoint(options) || holdsLayers(options));
+                  Statistics& stats, std::optional<ProgramCache> programs) {
+  return makeTracer(context, loaded, options, stats, keepsCheckpoint(options) || holdsLayers(options),
+                    std::move(programs));
 }
 
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
-                  Statistics& stats, bool withHash) {
+                  Statistics& stats, bool withHash, std::optional<ProgramCache> before) {
   Tracer tracer;
   const ShaderVariant everything = chooseVariants(tracer, loaded, options, stats);
   tracer.textureSide =
@@ -286,7 +287,8 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
     say(options, "warning: the textures are larger than what this driver reads; those wider or higher than " +
                      std::to_string(tracer.textureSide) + " pixels are scaled down");
   }
-  ProgramCache programs(shaderSource(options.device.shaderFolder));
+  ProgramCache programs =
+      before ? std::move(*before) : ProgramCache(shaderSource(options.device.shaderFolder));
   Phase packing;  // outlives the thread that sets it
   std::future<GpuScene> packedLater = std::async(kThreadIfGranted, [&] {
     PhaseTimer timer("pack", "second");

@@ -33,11 +33,11 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
                  ShaderVariant& variant);
 
 /// Packs and uploads what the variants need; by default with the hash where the options' output keeps it.
-/// Throws InputError, RenderError.
+/// `programs` may be built already, from the same shader folder. Throws InputError, RenderError.
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
-                  Statistics& stats, bool withHash);
+                  Statistics& stats, bool withHash, std::optional<ProgramCache> programs = {});
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
-                  Statistics& stats);
+                  Statistics& stats, std::optional<ProgramCache> programs = {});
 
 /// The next scene of a sequence: packs and uploads what has changed. `loaded` is of the same file and options
 /// but for the time of its animation; or, if surfaces alone have changed, but for numbers of its materials

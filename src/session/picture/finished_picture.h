@@ -17,7 +17,8 @@ namespace fragtrace {
 /// The device and the filter, which several pictures share.
 struct Device {
   std::unique_ptr<Context> context;
-  std::optional<DebugLog> driverLog;  ///< messages of the context's driver
+  std::optional<DebugLog> driverLog;     ///< messages of the context's driver
+  std::optional<ProgramCache> programs;  ///< those that the scene before has left to the next
   std::optional<OidnLibrary> oidn;
 };
 

@@ -9,13 +9,13 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
-#include <array>
 #include <cfloat>
 #include <cmath>
 #include <filesystem>
 #include <glm/common.hpp>
 
 #include "view/key_queue.h"
+#include "view/letters/fonts.h"
 #include "view/window/draw/theme.h"
 #include "view/window/glfw_window.h"
 
@@ -23,13 +23,7 @@ namespace fragtrace {
 
 namespace {
 
-constexpr float kFontSize = 15.0f;         // pixels at 96 dots an inch
-constexpr float kBuiltInFontSize = 13.0f;  // the only one that its pixels are drawn for
-
-/// Legible fonts of the system; without any, Dear ImGui's own is taken.
-constexpr std::array kFonts{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-                            "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
-                            "/usr/share/fonts/TTF/DejaVuSans.ttf"};
+constexpr float kFontSize = 15.0f;  // pixels at 96 dots an inch
 
 void loadFont(float scale) {
   ImGuiIO& io = ImGui::GetIO();
