@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The shadow catcher (kShadowCatcher): a horizontal plane that only camera rays meet, from above. It shows the share of
-// the light that the scene hides from it. While a path is caught, its radiance is that share so far, and its throughput
-// is the radiance that the camera sees behind the plane. Camera rays may come through glass (kTransparentGlass).
+// the light that the scene hides from it; of glass, what the glass reflects and absorbs. While a path is caught, its
+// radiance is that share so far, and its throughput is the radiance that the camera sees behind the plane. Camera rays
+// may come through glass (kTransparentGlass).
 
 /// The plane wins against a surface only if it is nearer by this much, relative to the distance. So a surface that lies
 /// on it is seen.
@@ -83,20 +84,44 @@ Path beginShadow(Path p) {
   p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.direction);
   p.pdf = lobe.z * kInversePi;
   if (kCreases) p.tie = 0.0;
+  if (kClearShadows && p.phase != kPhaseShadow) p.contribution = vec3(1.0);
   p.after = kEnvironment && p.pdf > 0.0 ? kPhaseExtend : kPhaseEnd;
   if (p.phase != kPhaseShadow) p = proceed(p);
   return p;
 }
 
+/// What a solid absorbs on the way of the caught path's ray to a surface that lets it pass.
+Path passSolid(Path p, Surface s) {
+  uint solid = solidBefore(p.medium, s, false);
+  if (solid != kPrimitiveNone)
+    p.contribution *= exp(-(p.hitT - passedBefore(p)) * materialFloats(solid, kMaterialVolume).rgb);
+  if (isSolid(s.material)) p.medium = behindBoundary(p.medium, s);
+  return p;
+}
+
+/// Returns true if light passes the surface that the caught path's ray has met.
+bool passesToCatcher(inout Path p) {
+  Surface s = surfaceAt(p.hitSlot, p.hitInstance, p.origin, p.direction, p.hitT, p.hitWeights, p.time);
+  p.contribution *= clearThrough(s, vec3(baseColorAt(s.material, s.texcoords, s.color)), p.direction);
+  if (kAbsorption) p = passSolid(p, s);
+  return maxComponent(p.contribution) > 0.0;
+}
+
 /// The ray along the direction drawn has met a surface, or nothing.
 Path endShadow(Path p) {
   p.phase = kPhaseEnd;
-  if (p.hitSlot < 0) return p;
+  bool arrives = p.hitSlot < 0;
+  if (arrives && !kClearShadows) return p;
+  if (kClearShadows && !arrives && passesToCatcher(p)) {
+    p.phase = kPhaseExtend;
+    return tracePast(p, kFarAway, p.hitT, p.hitSlot);
+  }
   vec4 hidden = environmentAlong(p.direction);
   float weight = 1.0;
   if (kEnvironmentSampling)
     weight = balanceWeight(p.pdf, frame.environmentChance * environmentPdf(hidden, p.direction));
-  p.radiance += shareOfLight(kPi * weight * hidden.rgb, freeIrradiance(p.origin));
+  vec3 share = shareOfLight(kPi * weight * hidden.rgb, freeIrradiance(p.origin));
+  p.radiance += arrives ? share * (vec3(1.0) - p.contribution) : share;
   return p;
 }
 

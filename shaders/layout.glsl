@@ -112,7 +112,7 @@ const uint kPrimitiveNone = 0xffffffffu;
 const uint kPrimitiveReachMask = 0xffu;
 const uint kPrimitiveEmits = 0x08000000u;
 const uint kPrimitiveCull = 0x80000000u;    // the back is not there
-const uint kPrimitivePasses = 0x40000000u;  // light may pass: alpha, or glass that does not bend it
+const uint kPrimitivePasses = 0x40000000u;  // light may pass: alpha, or glass
 const uint kPrimitiveSphere = 0x20000000u;  // v0 is the centre, v1.x the radius
 const uint kPrimitiveSliver = 0x10000000u;  // distances to it may be those to its plane
 

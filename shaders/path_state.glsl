@@ -30,6 +30,9 @@ const bool kDimsLate = kMedia || (kDims && kPassing && !kLightPaths);
 /// Light may go straight through smooth glass, and shadow rays with it.
 const bool kThroughGlass = kThinGlass || kMatchedGlass;
 
+/// Glass throws a clear shadow on the catcher: light goes through it there as if it were not bent.
+const bool kClearShadows = kShadowCatcher && kTransmission && kDrawsLight;
+
 /// The light samples that global illumination takes in a sample where its paths scatter for the time with this index,
 /// from 0 on. All camera rays of a sample take one where they first scatter; the last alone goes on.
 float lightSamplesAt(int scattering) { return kCameraRays > 1 && scattering == 0 ? float(kCameraRays) : 1.0; }
@@ -89,7 +92,7 @@ struct Path {
   vec3 aovWeight;       // the share of the light still to come that belongs to the AOV (kLightPart)
   Guide guide;
   LightPath fromLight;
-  vec3 contribution;  // added if the shadow ray meets nothing
+  vec3 contribution;  // added if the shadow ray meets nothing; of a caught path's ray, the share that glass has let pass
   int hitSlot;        // slot that the ray has hit, or -1
   float hitT;         // since the last scattering
   int hitInstance;  // instance that shows the slot, or -1

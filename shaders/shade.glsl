@@ -262,6 +262,15 @@ vec3 lightThrough(Surface s, vec3 baseColor, vec3 direction) {
   return straightThrough(b, toFrame(around, -direction));
 }
 
+/// The share of a shadow ray's light that glass lets pass to the catcher, whether it bends light, spreads it or neither.
+/// Light comes from outside, so that no angle reflects all of it.
+vec3 clearThrough(Surface s, vec3 baseColor, vec3 direction) {
+  SurfaceMaterial m = materialAt(s.material, baseColor, s.texcoords);
+  if (kUnlit && (materialFlags(s.material) & kMaterialUnlit) != 0u) return vec3(0.0);
+  Bsdf b = baseBsdf(m, true);
+  return b.glass * (1.0 - glassFresnel(b, abs(dot(normalFacing(s, -direction), direction)))) * b.baseColor;
+}
+
 /// The depth of a point at a distance along the camera's ray of a path with this time, in metres.
 float depthAlong(vec3 direction, float t, float time) {
   vec3 forward = frame.cameraForward;
@@ -355,7 +364,10 @@ Path settleShadow(Path p) {
     Surface s = surfaceAt(slot, p.traversal.hitInstance, p.shadowOrigin, p.shadowDirection, p.traversal.t,
                           p.traversal.weights, p.time);
     vec4 base = baseColorAt(s.material, s.texcoords, s.color);
-    if (kThroughGlass && p.throughGlass) {
+    if (kClearShadows && p.caught) {
+      p.contribution *= clearThrough(s, base.rgb, p.shadowDirection);
+      passes = maxComponent(-p.contribution) > 0.0;
+    } else if (kThroughGlass && p.throughGlass) {
       p.contribution *= lightThrough(s, base.rgb, p.shadowDirection);
       passes = maxComponent(p.contribution) > 0.0;
     }
@@ -368,5 +380,6 @@ Path settleShadow(Path p) {
   if (kDimsLate && slot < 0) p = dimShadow(p, innermost(p.shadowMedium), passedBefore(p), p.shadowLimit);
   if (kLightPaths && slot < 0) storeSplat(p);
   if (!kLightPaths && slot < 0) p.radiance += p.contribution;
+  if (kClearShadows && p.caught) p.contribution = vec3(1.0);
   return proceed(p);
 }

@@ -39,8 +39,9 @@ void checkCommand(const CLI::App& app, std::optional<std::string> word) {
   const bool atFirst = app.get_parent() == nullptr;
   std::error_code error;
   if (atFirst && std::filesystem::is_directory(*word, error))
-    throw UsageError("'" + *word + "' is a folder; name the .gltf or .glb in it, or draw all: fragtrace sheet " +
-                     *word + " -o sheet.png");
+    throw UsageError("'" + *word +
+                     "' is a folder; name the .gltf or .glb in it, or draw all: fragtrace sheet " + *word +
+                     " -o sheet.png");
   throw UsageError("'" + *word + "' is no command of " + app.get_name() +
                    (atFirst ? ", and no file: " : ": ") + joined(names) + didYouMean(*word, names));
 }

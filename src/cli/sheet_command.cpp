@@ -161,8 +161,9 @@ std::string reasonOf(const Model& model, const std::string& what) {
   return what.starts_with(path) ? what.substr(path.size()) : what;
 }
 
-/// The line with the model's name in it.
+/// The line with the model's name in it, unless it names the file.
 std::string withName(const Model& model, const std::string& line) {
+  if (line.find(model.file.string()) != std::string::npos) return line;
   constexpr std::string_view kWarning = "warning: ";
   const bool isWarning = line.starts_with(kWarning);
   const std::string rest = isWarning ? line.substr(kWarning.size()) : line;

@@ -10,7 +10,6 @@
 #include "scene/coincidence.h"
 #include "scene/hit_error.h"
 #include "scene/motion/moving_scene.h"
-#include "shader/material_kinds.h"
 
 namespace fragtrace {
 
@@ -158,11 +157,8 @@ void appendNode(const Bvh& bvh, const WideNode& node, uint32_t firstInstance, bo
   }
 }
 
-/// Returns true unless all light ends at the material, or is bent there (letsPass, lightThrough of the
-/// shaders).
-bool mayPass(const Material& m) {
-  return m.testsAlpha() || (m.transmissive() && mayBeClearWall(m)) || m.scattersMatched();
-}
+/// Returns true unless all light ends at the material (letsPass, lightThrough, clearThrough of the shaders).
+bool mayPass(const Material& m) { return m.testsAlpha() || m.transmissive(); }
 
 uint32_t primitiveFlags(const Material& m) {
   uint32_t flags = 0;

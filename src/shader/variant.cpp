@@ -382,7 +382,8 @@ bool keepsWeights(const ShaderVariant& variant) {
 
 bool passesSurfaces(const ShaderVariant& variant) {
   return (has(variant.traits, Trait::Alpha) && !testsAlpha(variant)) ||
-         has(variant.traits, Trait::ThinGlass) || has(variant.traits, Trait::MatchedGlass);
+         has(variant.traits, Trait::ThinGlass) || has(variant.traits, Trait::MatchedGlass) ||
+         (variant.shadowCatcher && has(variant.traits, Trait::Transmission));
 }
 
 bool testsAlpha(const ShaderVariant& variant) {

@@ -129,4 +129,5 @@ class ModelSheets(Case):
         self.fails(2, str(self.models), says=["fragtrace sheet"])
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -139,6 +139,42 @@ class ShadowCatcher(CatcherCase):
         mean = statistics.fmean(exr.values("A"))
         self.assertAlmostEqual(mean, 0.5, delta=5 * math.sqrt(0.5 / (16 * 16 * 64)))
 
+    def glass(self, color, ior, **more):
+        return {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.3, "baseColorFactor": [*color, 1]}, "doubleSided": True,
+                "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": ior}} | more}
+
+    def under(self, scene, height, *light):
+        """The mean of each channel that the catcher shows of white, straight under the middle of the scene."""
+        exr = self.picture(scene, "x.exr", "--resolution", "16,16", "--camera-position", f"0,{height},0", "--camera-focal-point", "0,0,0", "--camera-view-angle", 5,
+                           "--spp", 64, "--background-color", "1,1,1", "--shadow-catcher", "0", *light)
+        return [statistics.fmean(exr.values(name)) for name in "RGB"]
+
+    def test_glass_hides_what_it_reflects_and_absorbs(self):
+        """A pane without reflection lets pass its colour, under a sun and under a sky; a ball, its two faces and what it absorbs on its diameter.
+        Rough glass does the same."""
+        sun = {"rotation": [-0.70710678, 0, 0, 0.70710678]}, {"type": "directional", "intensity": 2}
+        pane = {"mesh": 0, "rotation": [-0.70710678, 0, 0, 0.70710678], "scale": [100, 100, 100], "translation": [20, 1, 0]}
+        for lights, options in (([sun], []), ([], ["--hdri-file", SCENES / "sky.pfm"])):
+            scene = self.scene("pane", [pane], [self.glass((0.8, 0.5, 0.2), 1)], lights)
+            for seen, color in zip(self.under(scene, 0.5, *options), (0.8, 0.5, 0.2)):
+                self.assertAlmostEqual(seen, color, delta=0.02 if options else 1e-4)
+        solid = self.glass((1, 1, 1), 1.5, KHR_materials_volume={"thicknessFactor": 1, "attenuationDistance": 2 * RADIUS, "attenuationColor": [1, 0.5, 0.25]})
+        ball = {"translation": [0, HEIGHT, 0], "extras": {"shape": 0, "material": 0}}
+        for lights, options in (([sun], []), ([sun], ["--transparent-glass"])):
+            for seen, absorbed in zip(self.under(self.scene("ball", [ball], [solid], lights), 0.25, *options), (1, 0.5, 0.25)):
+                self.assertAlmostEqual(seen, 0.96**2 * absorbed, delta=0.002)
+        # Under a white sky, the same along each direction from the point: the ball's face is met at an angle with the sine `off`.
+        steps, sky = 2000, [0.0] * 3
+        for i in range(steps):
+            sine = (i + 0.5) / steps * RADIUS / HEIGHT
+            off = HEIGHT * sine / RADIUS
+            cosine, inner = math.sqrt(1 - off**2), math.sqrt(1 - (off / 1.5)**2)
+            reflected = 0.5 * (((1.5 * cosine - inner) / (1.5 * cosine + inner))**2 + ((cosine - 1.5 * inner) / (cosine + 1.5 * inner))**2)
+            for c, absorbed in enumerate((1, 0.5, 0.25)):
+                sky[c] += (1 - (1 - reflected)**2 * absorbed**cosine) * 2 * sine * RADIUS / HEIGHT / steps
+        for seen, hidden in zip(self.under(self.scene("ball", [ball], [solid]), 0.25, "--default-light", "white"), sky):
+            self.assertAlmostEqual(seen, 1 - hidden, delta=0.003)
+
     def test_nothing_else_changes(self):
         """If nothing is in the way, the background keeps its bits, and surfaces are lit as without the catcher."""
         options = ["--resolution", "24,24", "--spp", "4", "--studio"]
