@@ -140,18 +140,19 @@ Path meetCatcher(Path p) {
 }
 
 /// The share of a shadow that a pixel of the whole picture keeps, since it ends before the edge. The outermost pixels
-/// have none.
+/// have none. Lines of the same share are round at the corners.
 float shadowLeft(ivec2 pixel) {
   vec2 size = vec2(frame.pictureSize);
   vec2 place = vec2(pixel);
   vec2 toEdge = min(place, size - 1.0 - place);
-  return smoothstep(0.0, frame.shadowFade * min(size.x, size.y), min(toEdge.x, toEdge.y));
+  vec2 width = max(frame.shadowFade * min(size.x, size.y), vec2(0.5));
+  return 1.0 - smoothstep(0.0, 1.0, length(max(1.0 - toEdge / width, vec2(0.0))));
 }
 
 /// The guide of the catcher at a pixel. Where the shadow has ended, there is nothing to be filtered.
 Path guideOfShadow(Path p, ivec2 pixel) {
   p.caught = false;
-  if (frame.shadowFade > 0.0 && shadowLeft(pixel) <= 0.0) p.covered = false;
+  if (frame.shadowFade != vec2(0.0) && shadowLeft(pixel) <= 0.0) p.covered = false;
   return p;
 }
 

@@ -302,8 +302,7 @@ struct Frame {
   float environmentScale;   // factor of the environment's radiance
   vec4 lens;                // the camera's lens, local space: radius, distance in focus along the view; blades
   vec2 lensShift;           // the middle of the picture, in halves of its width and height
-  float shadowFade;         // part of the picture's smaller side over which the catcher's shadow ends before the edge
-  float unused;
+  vec2 shadowFade;          // as in LightOptions
   // Surfaces move in straight pieces: their number, and nodes and leaves of each; vertices of one pose.
   ivec4 segments;
 };

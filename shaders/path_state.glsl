@@ -92,7 +92,7 @@ struct Path {
   vec3 aovWeight;       // the share of the light still to come that belongs to the AOV (kLightPart)
   Guide guide;
   LightPath fromLight;
-  vec3 contribution;  // added if the shadow ray meets nothing; of a caught path's ray, the share that glass has let pass
+  vec3 contribution;  // added if the shadow ray meets nothing; of a caught path's own ray, what glass has let pass
   int hitSlot;        // slot that the ray has hit, or -1
   float hitT;         // since the last scattering
   int hitInstance;  // instance that shows the slot, or -1

@@ -262,8 +262,8 @@ vec3 lightThrough(Surface s, vec3 baseColor, vec3 direction) {
   return straightThrough(b, toFrame(around, -direction));
 }
 
-/// The share of a shadow ray's light that glass lets pass to the catcher, whether it bends light, spreads it or neither.
-/// Light comes from outside, so that no angle reflects all of it.
+/// The share of a shadow ray's light that glass lets pass to the catcher, whether it bends light, spreads it or
+/// neither. Light comes from outside, so that no angle reflects all of it.
 vec3 clearThrough(Surface s, vec3 baseColor, vec3 direction) {
   SurfaceMaterial m = materialAt(s.material, baseColor, s.texcoords);
   if (kUnlit && (materialFlags(s.material) & kMaterialUnlit) != 0u) return vec3(0.0);

@@ -162,7 +162,7 @@ FilmPixel endSample(FilmPixel film, Path p, ivec2 pixel) {
   film.rays += uint(tracedRays(p));
   if (kCountVisits) p.radiance = vec3(float(p.traversal.visits));
   if (kShadowCatcher && kAov == kAovGuides && p.caught) p = guideOfShadow(p, pixel + frame.filmOffset);
-  if (kShadowCatcher && p.caught && frame.shadowFade > 0.0) p.radiance *= shadowLeft(pixel + frame.filmOffset);
+  if (kShadowCatcher && p.caught && frame.shadowFade != vec2(0.0)) p.radiance *= shadowLeft(pixel + frame.filmOffset);
   float alpha = coverageOf(p);
   if (kShadowCatcher) p = showShadow(p);
   if (kLightPaths || kStoresReservoirs) {

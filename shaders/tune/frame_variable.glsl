@@ -5,7 +5,7 @@
 layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frameBlock; };
 Frame frame = Frame(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0u, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0),
                     0.0, vec2(0.0), vec2(0.0), 0.0, 0.0, 0.0, 0.0, ivec2(0), 0, 0, ivec4(0), 0, 0, 0, 0, 0, 0, 0, 0,
-                    ivec2(0), ivec2(0), vec3(0.0), 0.0, vec3(0.0), 0.0, vec4(0.0), vec2(0.0), 0.0, 0.0,
+                    ivec2(0), ivec2(0), vec3(0.0), 0.0, vec3(0.0), 0.0, vec4(0.0), vec2(0.0), vec2(0.0),
                     ivec4(0));
 
 /// Pixels of the draw, before fetchFrame().

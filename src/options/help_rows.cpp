@@ -64,7 +64,7 @@ constexpr auto kHelpRows = std::to_array<HelpRow>({
     {"--ground", {kLook, kEveryday, "COLOR[,ROUGHNESS]"}},
     {"--transparent-glass", {kLook, kEveryday}},
     {"--shadow-catcher", {kLook, kEveryday, "HEIGHT", "metres"}},
-    {"--shadow-fade", {kLook, kRest, "SHARE"}},
+    {"--shadow-fade", {kLook, kRest, "SHARE[,VERTICAL]"}},
     {"--lamp-units", {nullptr, kEveryday}},
     {"--no-background", {kLook, kEveryday}},
     {"--background-color", {kLook, kEveryday, "COLOR"}},

@@ -109,6 +109,34 @@ OptionRow catcherHeightRow() {
                    {.effect = Effect::Picture, .copied = false, .group = OptionGroup::None});
 }
 
+OptionRow fadeRow() {
+  constexpr double kMost = 100.0;  // the narrowest pictures have longer sides
+  OptionRow row = memberRow("--shadow-fade",
+                            "let the shadow on --shadow-catcher fade out before the edges of the picture, "
+                            "over SHARE of its smaller "
+                            "side; VERTICAL is that above and below, SHARE then that at the sides; by "
+                            "default the margins of --fit, "
+                            "at least 0.08, and 0 without --fit",
+                            FRAGTRACE_MEMBER(light.shadowFade), {.effect = Effect::Picture});
+  row.examples = {"0,100", "0.30000001192092896,0.5"};
+  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
+    app.add_option_function<std::vector<double>>(
+           r.name,
+           [&raw](const std::vector<double>& values) {
+             raw.options.light.shadowFade = glm::dvec2(values.front(), values.back());
+           },
+           r.help)
+        ->delimiter(',')
+        ->expected(1, 2)
+        ->check(realNumber(0.0, kMost))
+        ->allow_extra_args(false);
+  };
+  row.words = [](const RenderOptions& o) {
+    return std::vector{numbersText(o.light.shadowFade->x, o.light.shadowFade->y)};
+  };
+  return row;
+}
+
 }  // namespace
 
 std::vector<OptionRow> lightRows() {
@@ -163,11 +191,7 @@ std::vector<OptionRow> lightRows() {
       catcherRow(),
       catcherHeightRow(),
       groundRow(),
-      limit<double>(
-          "--shadow-fade",
-          "let the shadow on --shadow-catcher fade out before the edge of the picture, over this part "
-          "of its smaller side; by default 0.08 with --fit, and 0 without",
-          FRAGTRACE_MEMBER(light.shadowFade), {0.0, 0.5}, {.effect = Effect::Picture}),
+      fadeRow(),
       offFlag("--no-background", "hide the environment map from the camera, and write alpha",
               FRAGTRACE_MEMBER(light.background), {.effect = Effect::Picture, .attribute = "background"}),
       flag(

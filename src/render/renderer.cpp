@@ -168,7 +168,7 @@ void Renderer::setFrame(const Film& film, const View& view) {
   frame_.clampBits = std::bit_cast<int>(view.clampIndirect);
   frame_.filmOffset = {placed.corner.x, placed.whole.y - placed.corner.y - film.size().y};
   frame_.worldOrigin = view.space.origin;
-  frame_.shadowFade = float(view.shadowFade);
+  frame_.shadowFade = glm::vec2(view.shadowFade);
   frame_.catcherHeight = float((view.catcherHeight - view.space.origin.y) / view.space.unit);
 }
 

@@ -64,7 +64,7 @@ struct View {
   Fog fog;                      ///< the fog, if the variant has one
   Volume volume;                ///< the volume, if the variant has one; its grid is packed
   uint32_t cameraSolids = layout::kPrimitiveNone;  ///< as Frame::cameraSolids
-  double shadowFade = 0.0;                         ///< as in LightOptions
+  glm::dvec2 shadowFade{0.0};                      ///< as in LightOptions
   double catcherHeight = 0.0;  ///< Y of the shadow catcher in world space, when the variant has one
   bool firstInMiddle = false;  ///< the first sample of each pixel is in its middle, for edges without chance
   int bounces = 16;

@@ -65,7 +65,7 @@ View makeView(const RenderOptions& options, const LoadedScene& loaded, const Cam
   view.volume.grid.reset();
   view.fog = fogOf(options.fog, scene.bounds);
   view.catcherHeight = catcherHeightOf(options, scene.bounds);
-  view.shadowFade = shadowFadeOf(options, loaded.overrides);
+  view.shadowFade = options.light.shadowFade.value_or(loaded.shadowFade);
   view.bounces = options.sampling.bounces;
   view.rouletteDepth = options.sampling.rouletteDepth;
   view.seed = options.sampling.seed;

@@ -101,8 +101,10 @@ RenderOptions placedForAllPoses(RenderOptions options, std::shared_ptr<KeptDocum
   Camera camera = chooseCamera(first.cameras,
                                cameraIndexOf(options.camera.index, options.selection.camera, first.cameras),
                                overrides, filled.bounds, framedAspect(options));
-  if (overrides.fit) camera = fitCamera(camera, filled.points, overrides, chooseSize(camera, options));
-  if (const double fade = shadowFadeOf(options, overrides); fade > 0.0) options.light.shadowFade = fade;
+  const glm::ivec2 size = chooseSize(camera, options);
+  if (overrides.fit) camera = fitCamera(camera, filled.points, overrides, size);
+  const glm::dvec2 fade = shadowFadeOf(options, overrides, camera, filled.points.scene, size);
+  if (fade != glm::dvec2(0.0)) options.light.shadowFade = fade;
   options.camera.overrides = asPlaced(camera, filled.bounds);
   return options;
 }

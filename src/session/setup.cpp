@@ -25,6 +25,7 @@
 #include "scene/camera.h"
 #include "scene/describe.h"
 #include "scene/fit.h"
+#include "scene/projection.h"
 #include "scene/strokes.h"
 #include "session/caught_light.h"
 #include "session/environment.h"
@@ -282,10 +283,19 @@ std::future<LinearImage> startMap(const RenderOptions& options, Phase& reading) 
 
 }  // namespace
 
-double shadowFadeOf(const RenderOptions& options, const CameraOverrides& settled) {
-  constexpr double kFade = 0.08;
+glm::dvec2 shadowFadeOf(const RenderOptions& options, const CameraOverrides& settled, const Camera& camera,
+                        std::span<const glm::dvec3> points, glm::ivec2 size) {
+  constexpr double kLeast = 0.08;
   const bool fades = options.light.shadowCatcher && settled.fit && !settled.fitShadow;
-  return options.light.shadowFade.value_or(fades ? kFade : 0.0);
+  if (options.light.shadowFade || !fades) return options.light.shadowFade.value_or(glm::dvec2(0.0));
+  const Projection projection = projectionOf(camera, double(size.x) / size.y);
+  glm::dvec2 filled(0.0);
+  for (const glm::dvec3& point : points) {
+    const glm::dvec3 place = projected(projection, point);
+    filled = glm::max(filled, place.z > 0.0 ? glm::abs(glm::dvec2(place) / place.z) : glm::dvec2(1.0));
+  }
+  const glm::dvec2 sides = glm::dvec2(size) / double(std::min(size.x, size.y));
+  return glm::max(0.5 * (1.0 - glm::min(filled, 1.0)) * sides, kLeast);
 }
 
 FittedPoints pointsToFit(const Scene& scene, const Environment& environment, const RenderOptions& options,
@@ -326,6 +336,7 @@ void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film) {
     }
     loaded.camera = fitCamera(loaded.camera, points, overrides, loaded.size);
   }
+  loaded.shadowFade = shadowFadeOf(options, overrides, loaded.camera, points.scene, loaded.size);
   if (options.camera.lens.fStop && loaded.camera.type == CameraType::Orthographic)
     throw UsageError("--f-stop: the camera is orthographic, and has no lens");
   checkDistance(loaded.camera, scene.space, options);

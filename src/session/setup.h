@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <memory>
+#include <span>
 
 #include "bvh/refit.h"
 #include "gltf/gltf.h"
@@ -27,10 +28,11 @@ struct LoadedScene {
   BoundsDouble framed;  ///< box of what the camera frames, world space: all of the scene, or a part
   /// The camera's motion while the shutter is open; empty: it stands still.
   std::vector<CameraSegment> motion{};
-  glm::ivec2 size{0};  ///< size of the picture
-  Region region;       ///< part of the picture that is drawn
-  size_t strays = 0;   ///< points that the default view leaves out
-  FileLight light{};   ///< what is decided about the file's own light
+  glm::ivec2 size{0};          ///< size of the picture
+  Region region;               ///< part of the picture that is drawn
+  size_t strays = 0;           ///< points that the default view leaves out
+  glm::dvec2 shadowFade{0.0};  ///< shadowFadeOf() the picture
+  FileLight light{};           ///< what is decided about the file's own light
   Bvh bvh;
   View view;
   DecodeProgress decoding{};  ///< told when the textures are, which is later
@@ -74,8 +76,10 @@ glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options);
 /// The height of the shadow catcher's plane (Y, metres).
 double catcherHeightOf(const RenderOptions& options, const BoundsDouble& bounds);
 
-/// The part of the picture's smaller side over which the catcher's shadow ends before the edge; 0: nowhere.
-double shadowFadeOf(const RenderOptions& options, const CameraOverrides& settled);
+/// LightOptions::shadowFade of a picture of that size, in which the camera has framed these points: as wide
+/// as the margins around them, so that no edge of it is seen; 0: nowhere.
+glm::dvec2 shadowFadeOf(const RenderOptions& options, const CameraOverrides& settled, const Camera& camera,
+                        std::span<const glm::dvec3> points, glm::ivec2 size);
 
 /// Points of the world about which --fit moves the camera.
 struct FittedPoints {

@@ -201,9 +201,9 @@ struct LightOptions {
   bool transparentGlass = false;        ///< the camera sees the page through glass, and alpha says how much
   bool shadowCatcher = false;           ///< a plane that shows nothing but shadows
   std::optional<double> catcherHeight;  ///< its Y in world space, metres; none: the bottom of the scene
-  /// The part of the picture's smaller side over which the shadow ends before the edge; none: as
-  /// shadowFadeOf().
-  std::optional<double> shadowFade;
+  /// The parts of the picture's smaller side over which the shadow ends before the edges at the sides, and
+  /// above and below; none: as shadowFadeOf().
+  std::optional<glm::dvec2> shadowFade;
 
   bool operator==(const LightOptions&) const = default;
 };

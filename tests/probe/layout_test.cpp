@@ -60,7 +60,6 @@ const std::vector<Member> kFrameMembers = {MEMBER(Frame, "frameBlock", cameraPos
                                            MEMBER(Frame, "frameBlock", catcherIrradiance),
                                            MEMBER(Frame, "frameBlock", lensShift),
                                            MEMBER(Frame, "frameBlock", shadowFade),
-                                           MEMBER(Frame, "frameBlock", unused),
                                            MEMBER(Frame, "frameBlock", segments),
                                            MEMBER(Frame, "frameBlock", environmentScale),
                                            MEMBER(Frame, "frameBlock", lens)};

@@ -51,7 +51,7 @@ class Keywords(TypedDict, total=False):
     shop: bool | None
     shadow_catcher: str | float | None
     ground: dict[str, Any] | str | float | Sequence[float] | None
-    shadow_fade: float | None
+    shadow_fade: str | Sequence[float] | None
     no_background: bool | None
     transparent_glass: bool | None
     background_color: str | float | Sequence[float] | None

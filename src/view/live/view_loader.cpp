@@ -64,7 +64,7 @@ void SceneLoader::start(const RenderOptions& options) {
       result.options.selection.camera.clear();
       // A camera that was placed by the scene's vertices is also kept by its numbers.
       if (result.scene->overrides.fit) {
-        if (result.scene->view.shadowFade > 0.0)
+        if (result.scene->view.shadowFade != glm::dvec2(0.0))
           result.options.light.shadowFade = result.scene->view.shadowFade;
         result.options.camera.overrides = overridesOf(poseOf(result.scene->camera, result.scene->framed));
       }
