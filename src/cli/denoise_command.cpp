@@ -7,9 +7,11 @@
 #include <string_view>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "cli/commands.h"
 #include "cli/program.h"
 #include "image/channels.h"
+#include "image/files/video_format.h"
 #include "image/format.h"
 #include "options/choose.h"
 #include "options/library/option_facts.h"
@@ -18,6 +20,7 @@
 #include "session/outputs.h"
 #include "session/picture/denoised_file.h"
 #include "session/picture/picture_file.h"
+#include "session/picture/provenance.h"
 #include "session/say.h"
 
 namespace fragtrace {
@@ -43,6 +46,13 @@ int runDenoise(const std::filesystem::path& file, RenderOptions options) {
     throw InputError(file.string() + ": is no picture of linear radiance (.exr, .hdr, .pfm)");
   sayNotes(options, file, read.image);
   const Image drawn = asDrawn(read.image);
+  if (!options.output.exposure && holdsDisplay(options.output.file)) {
+    options.output.exposure = exposureOf(drawn);
+    if (options.output.exposure)
+      say(options,
+          formatted("%s has an exposure of %.1f, as the render of %s asks for (--exposure 0 has none)",
+                    options.output.file.string().c_str(), *options.output.exposure, file.string().c_str()));
+  }
   DenoiseStatistics stats;
   Image result = denoisedFile(drawn, file, options, oidn, stats);
   result.placement = drawn.placement;

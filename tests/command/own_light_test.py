@@ -232,6 +232,16 @@ class LampUnits(Case):
             self.assertTrue(40 < shown < 230, f"{intensity}: {shown}")
         # What is given wins, and a file of radiance has none.
         path = scene(1e-3)
+        # An .exr keeps it for the .png that is made of it.
+        self.draw(path, "raw.exr", *FEW, "--spp", 4, "--aov", "denoising")
+        shown = {}
+        for name, options in (("a.png", []), ("b.png", ["--exposure", Exr(self.folder / "raw.exr").texts["fragtrace:exposure"]]), ("c.png", ["--exposure", 0])):
+            result = run("denoise", self.folder / "raw.exr", "-o", self.folder / name, "--denoise", "variance", "--no-dither", *options)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual("has an exposure of" in result.stderr, not options)
+            shown[name] = read_png(self.folder / name)[2]
+        self.assertEqual(shown["a.png"], shown["b.png"])
+        self.assertNotEqual(shown["a.png"], shown["c.png"])
         for options in (["--exposure", "0"], ["--studio"]):
             self.assertNotIn("exposure of", self.draw(path, "y.png", *FEW, *options))
         self.draw(path, "x.pfm", *FEW)

@@ -59,7 +59,7 @@ class Picture(np.ndarray):
 
     def save(self, path, *, exposure=None, tone_map=None, half=False, png_depth=8, no_dither=False):
         """Writes .exr, .hdr, .pfm (linear) or .png, .jpg (as tonemap() shows it), whole or not at all. half: 16-bit floats in an .exr;
-        exposure: by default what `statistics` says; png_depth: 8 or 16; no_dither: 8 bits are rounded without noise. Raises RenderError, and UsageError for what the format cannot hold."""
+        exposure: by default what `statistics`, or the .exr that was read, says; png_depth: 8 or 16; no_dither: 8 bits are rounded without noise. Raises RenderError, and UsageError for what the format cannot hold."""
         planes = {"" if name == "color" else name: np.asarray(layer) for name, layer in self.layers.items()}
         _save(path, {**planes, "": np.asarray(self)}, self, exposure, tone_map, half, png_depth, no_dither, self.layers.channels)
 
@@ -111,7 +111,7 @@ def _save(path, planes, made, exposure, tone_map, half, png_depth, no_dither, ch
         if not path.lower().endswith(".png"):
             color, names = color[:, :, :3], names[:3]  # over black: colour is multiplied by alpha
         if exposure is None and made is not None:
-            exposure = made.statistics.get("exposure")  # what the scene's light asks for
+            exposure = made.statistics.get("exposure", made.attributes.get("fragtrace:exposure"))  # what the scene's light asks for
         names, color, _ = _core.display(np.ascontiguousarray(color), names, float(exposure or 0.0), tone_map or "neutral", png_depth == 8 and not no_dither)
         attributes, numbers = {}, {}
     elif exposure is not None or tone_map is not None:

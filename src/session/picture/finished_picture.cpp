@@ -9,7 +9,9 @@
 #include "gl/driver_choice.h"
 #include "image/channels.h"
 #include "image/over_white.h"
+#include "options/option_text.h"
 #include "render/adaptive.h"
+#include "session/file_light.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
 #include "session/picture/black_picture.h"
@@ -49,6 +51,8 @@ void setProvenanceOf(Image& picture, const RenderOptions& options, const LoadedS
   else if (!made.uniform)
     made.ranges = {{options.sampling.seed, options.sampling.sampleOffset, most}};
   setProvenance(picture, made);
+  if (const double exposure = exposureOf(options, loaded.light); exposure != 0.0)
+    picture.attributes[kExposureAttribute] = exactText(exposure);
   if (!stats.complete) picture.attributes[kInterruptedAttribute] = "1";
 }
 

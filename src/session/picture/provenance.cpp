@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cinttypes>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
@@ -165,6 +166,13 @@ std::string differenceOf(const std::string& settings, const std::string& others)
     return "scene " + a["scene"].dump() + " and " + b["scene"].dump() +
            (differences.size() > 1 ? ", and " + countText(differences.size() - 1, "more setting") : "");
   return differences.empty() ? "of another version" : joined(differences);
+}
+
+std::optional<double> exposureOf(const Image& image) {
+  const auto found = image.attributes.find(kExposureAttribute);
+  const std::optional<double> stops =
+      found == image.attributes.end() ? std::nullopt : numberOfAll<double>(found->second);
+  return stops && std::isfinite(*stops) ? stops : std::nullopt;
 }
 
 void setProvenance(Image& image, const Provenance& provenance) {

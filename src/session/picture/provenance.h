@@ -3,6 +3,7 @@
 #pragma once
 
 #include <compare>
+#include <optional>
 #include <vector>
 
 #include "image/image.h"
@@ -32,6 +33,8 @@ struct Provenance {
 };
 
 inline constexpr const char* kSettingsAttribute = "fragtrace:settings";
+/// The attribute of an .exr whose picture needs an exposure as .png: its stops.
+inline constexpr const char* kExposureAttribute = "fragtrace:exposure";
 /// The attribute of an .exr whose render was interrupted: "1".
 inline constexpr const char* kInterruptedAttribute = "fragtrace:interrupted";
 
@@ -48,6 +51,9 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
 /// Describes the difference between two settings: "bounces 16 and 4, ..."; between two scenes,
 /// only these are named.
 std::string differenceOf(const std::string& settings, const std::string& others);
+
+/// The exposure that the file names; none: it needs none.
+std::optional<double> exposureOf(const Image& image);
 
 void setProvenance(Image& image, const Provenance& provenance);
 
