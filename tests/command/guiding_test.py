@@ -25,13 +25,6 @@ class Guiding(Case):
         # Without guiding the error is many times as large.
         self.assert_same_light(behind, [THROUGH_PANE * value for value in open_air], "behind the pane", 0.005)
 
-    def test_parts_and_regions_and_schedules_are_what_the_whole_is(self):
-        scene, size = str(SCENES / "caustics"), ("--resolution", "64,48")
-        whole = self.picture(scene, "a.pfm", *size, "--spp", 6, "--schedule", "megakernel")
-        self.assertEqual(whole, self.picture(scene, "b.pfm", *size, "--spp", 6, "--schedule", "wavefront"))
-        region = self.picture(scene, "c.pfm", *size, "--spp", 6, "--region", "10,20,30,17", "--schedule", "megakernel")
-        self.assertEqual([row[10:40] for row in whole[20:37]], region)
-
     def test_the_first_sample_waits_for_no_guiding(self):
         def guiding_ms(spp):
             path = self.folder / "s.json"

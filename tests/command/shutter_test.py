@@ -91,17 +91,15 @@ class Shutter(Case):
         """Light samples find a lamp where it is at the path's time, with all ways to choose it, and scattered rays find it as well."""
         wheel = SCENES / "wheel.gltf"
         options = ["--camera", "follower", "--bounces", 1, "--hide", "lamp"]
-        def close(most, spp, ways, *stage):
+        for most, stage, ways in ((0.04, [], ((512, "--light-selection", "tree"), (512, "--light-selection", "power", "--tune", "gpu"),
+                                              (512, "--dispatch", "compute", "--light-reuse", "candidates"), (2048, "--disable", "light-sampling"))),
+                                  (0.03, ["--stage", "shadows"], ((512,),))):
             exact = tiles(self.exact(wheel, 0.25, 1 / 32, *options, *stage, "--spp", 16)["R"])
             dark = [i for i, value in enumerate(exact) if value < 0.3]  # the lamp itself is not among these
             wanted = sum(exact[i] for i in dark)
-            for way in ways:
+            for spp, *way in ways:
                 ours = tiles(self.blurred(wheel, 0.25, 1 / 32, *options, *stage, "--spp", spp, *way).values("R"))
                 self.assertLess(abs(sum(ours[i] for i in dark) / wanted - 1), most, (way, stage))
-
-        close(0.04, 512, [["--light-selection", "tree"], ["--light-selection", "power", "--tune", "gpu"], ["--dispatch", "compute", "--light-reuse", "candidates"]])
-        close(0.04, 2048, [["--disable", "light-sampling"]])
-        close(0.03, 512, [[]], "--stage", "shadows")
 
     def test_a_sphere(self):
         scene = animated_sphere(self.folder / "moving.gltf", translation=((-0.4, 0.2, 0), (0.6, 0.5, 0.3)), scale=((1, 1, 1), (0.6, 0.6, 0.6)))
