@@ -20,8 +20,8 @@ class GpuDriver(Case):
         return path.read_bytes(), json.loads(stats.read_text())
 
     def test_it_draws_the_same_bits(self):
-        for scene, options in (("room-ball.gltf", ["--light-reuse", "spatial"]), ("caustic-ground.gltf", [])):
-            options = [*options, "--resolution", "70,50", "--spp", "2"]
+        for scene, options in (("room-ball.gltf", ["--light-reuse", "spatial"]), ("caustics.gltf", [])):
+            options = [*options, "--resolution", "70,10", "--spp", "2"]
             right, _ = self.render("software", scene, "--tune", "gpu", "--buffer-reads", "ssbo", "--schedule", "megakernel", "--dispatch", "fragment", *options)
             found, stats = self.render("gpu", scene, *options, env=self.gpu)
             self.assertEqual(stats["gl_renderer"], "a GPU that is not there")
