@@ -9,8 +9,8 @@ from support import FRAGTRACE, Case, main, pixels_of
 from clipboard import clipboard_text
 from gltf_file import SQUARE, TWO_TRIANGLES, Gltf
 
-SIZE = ["--resolution", "900,700"]
-FEW = [*SIZE, "--spp", "2"]
+WIDTH = 640  # and so high that the panel shows the row of the time
+FEW = ["--resolution", f"{WIDTH},520", "--spp", "2"]
 
 
 def animated(folder, seconds=2.0):
@@ -44,7 +44,7 @@ class Animation(Case):
         viewer.until(lambda s: not s["overview"] and s["animation"]["playing"], "it goes on")
         viewer.key("space")
         time = self.playing(viewer, False)["time"]
-        status = viewer.rest(lambda s: s["sides"][0]["samples"] == 2 and s["sides"][0]["width"] == 900)
+        status = viewer.rest(lambda s: s["sides"][0]["samples"] == 2 and s["sides"][0]["width"] == WIDTH)
         self.assertEqual(status["animation"]["time"], time)
         away.rename(path)
         words = self.shows_the_copied_command(viewer)
@@ -71,7 +71,7 @@ class Animation(Case):
         gltf["meshes"][0]["primitives"][0]["mode"] = 2
         del gltf["animations"]
         path.write_text(json.dumps(gltf))
-        viewer = self.view(path, *FEW, "--line-width", "6")
+        viewer = self.view(path, "--resolution", "900,700", "--spp", "2", "--line-width", "6")  # so large that moving frames are coarse
         before = viewer.status()
         viewer.at(450, 350)
         for _ in range(4):
@@ -109,7 +109,7 @@ class Animation(Case):
         animated(self.folder, 4.0)
         viewer.until(lambda s: s["animation"]["length"] == 4.0, "it is loaded again")
         viewer.click("Time")
-        viewer.rest(lambda s: abs((s["animation"]["time"] or 0) - 2.0) < 0.2 and s["sides"][0]["samples"] == 2 and s["sides"][0]["width"] == 900)
+        viewer.rest(lambda s: abs((s["animation"]["time"] or 0) - 2.0) < 0.2 and s["sides"][0]["samples"] == 2 and s["sides"][0]["width"] == WIDTH)
         self.shows_the_copied_command(viewer)
 
     def test_without_animations_nothing_plays(self):

@@ -29,13 +29,13 @@ class DenoisedView(Case):
         viewer.until(lambda s: abs(s["sides"][0]["filtered"] - share) < 1e-6 and s["state"] == "resting", f"filtered {share}")
 
     def test_a_key_and_the_box_compare_it_with_the_raw_picture(self):
-        viewer = self.view("cornell-box", "--resolution", "760,620", "--tone-map", "linear", *FILTER, "--spp", "2")
+        viewer = self.view("cornell-box", "--resolution", "560,480", "--tone-map", "linear", *FILTER, "--spp", "2")
         self.filtered(viewer, 1)
         clean = self.shot(viewer)
         viewer.key("g")
         self.filtered(viewer, 0)
         raw = self.shot(viewer)
-        self.same(raw, pixels_of(self.render("cornell-box", "--resolution", "760,620", "--tone-map", "linear", "--spp", 2)))
+        self.same(raw, pixels_of(self.render("cornell-box", "--resolution", "560,480", "--tone-map", "linear", "--spp", 2)))
         viewer.click("Denoise")
         self.filtered(viewer, 1)
         self.same(clean, self.shot(viewer))
