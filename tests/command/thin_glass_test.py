@@ -133,7 +133,7 @@ class ThinGlass(Case):
         lamp = ((0.4, -0.2, 3.0), 1.2, 2.0)
         wanted = over_ground(lambda x, y: self.lamp_light(x, y, lamp) / math.pi) * TINT[0]
         scene = self.scene([PANE], lamps=[lamp])
-        for options, spp, part in (([], 64, 2e-3), (["--disable", "light-sampling"], 1024, 6e-3), (["--schedule", "megakernel"], 64, 2e-3)):
+        for options, spp, part in (([], 64, 2e-3), (["--disable", "light-sampling"], 1024, 6e-3)):
             seeds = [self.channel(self.seen(scene, "--bounces", 1, "--seed", seed, *options, spp=spp, side=32)) for seed in range(4)]
             error = statistics.stdev(seeds) / 2
             print(f"{options}: {statistics.fmean(seeds) / wanted - 1:+.4%}, standard error {error / wanted:.4%}")
