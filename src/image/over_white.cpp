@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <limits>
 
 #include "base/vectors.h"
 #include "image/channels.h"
@@ -14,6 +15,31 @@ namespace {
 
 constexpr float kRounding = 1e-6f;  // smaller changes of alpha are rounding
 constexpr float kNearlyFilled = 0.98f;
+
+/// A range of colours that are not multiplied by alpha.
+struct ColorRange {
+  glm::vec3 least{std::numeric_limits<float>::max()};
+  glm::vec3 most{0.0f};
+
+  glm::vec3 clamped(const glm::vec3& color) const { return glm::clamp(color, glm::min(least, most), most); }
+};
+
+/// The colours of the surfaces in a pixel of an RGBA picture and its neighbours; a shadow is none.
+ColorRange colorsAround(const Image& picture, size_t index) {
+  const int x = int(index % size_t(picture.width));
+  const int y = int(index / size_t(picture.width));
+  ColorRange range;
+  for (int row = std::max(y - 1, 0); row <= std::min(y + 1, picture.height - 1); ++row) {
+    for (int column = std::max(x - 1, 0); column <= std::min(x + 1, picture.width - 1); ++column) {
+      const float* const p = &picture.values[4 * (size_t(row) * size_t(picture.width) + size_t(column))];
+      const glm::vec3 color(p[0], p[1], p[2]);
+      if (!(p[3] > 0.0f) || color == glm::vec3(0.0f)) continue;
+      range.least = glm::min(range.least, color / p[3]);
+      range.most = glm::max(range.most, color / p[3]);
+    }
+  }
+  return range;
+}
 
 }  // namespace
 
@@ -36,7 +62,8 @@ Image laidOverWhite(const Image& picture) {
   return over;
 }
 
-Image liftedFromWhite(const Image& picture, const Image& seen) {
+Image liftedFromWhite(const Image& picture, const Image& seen, const Image& noisy) {
+  const Image drawn = onlyChannels(noisy, {"R", "G", "B", "A"});
   Image lifted = onlyChannels(picture, {"R", "G", "B", "A"});
   for (size_t i = 0; i < lifted.values.size() / 4; ++i) {
     float* pixel = &lifted.values[i * 4];
@@ -44,9 +71,12 @@ Image liftedFromWhite(const Image& picture, const Image& seen) {
     if (pixel[0] == 0.0f && pixel[1] == 0.0f && pixel[2] == 0.0f) {
       const float alpha = 1.0f - float(luminance({over[0], over[1], over[2]}));
       pixel[3] = alpha > kRounding ? alpha : 0.0f;
-    } else {
-      for (int c = 0; c < 3; ++c) pixel[c] = std::max(over[c] - (1.0f - pixel[3]), 0.0f);
+      continue;
     }
+    glm::vec3 color = glm::max(glm::vec3(over[0], over[1], over[2]) - (1.0f - pixel[3]), glm::vec3(0.0f));
+    const bool fills = pixel[3] >= 1.0f && drawn.values[i * 4 + 3] >= 1.0f;
+    if (!fills) color = pixel[3] * colorsAround(drawn, i).clamped(color / std::max(pixel[3], kRounding));
+    for (int c = 0; c < 3; ++c) pixel[c] = color[c];
   }
   return lifted;
 }

@@ -25,8 +25,10 @@ bool isOverWhite(const Image& picture);
 Image laidOverWhite(const Image& picture);
 
 /// R, G, B and A of a picture whose colours, laid over white, are those of `seen`. Where the picture is
-/// black, alpha takes the difference; elsewhere the colour does, as far as it stays positive.
-Image liftedFromWhite(const Image& picture, const Image& seen);
+/// black, alpha takes the difference; elsewhere the colour does. Where surfaces fill a pixel in part, its
+/// colour over alpha stays among those around it in `noisy`, the picture as drawn: alpha and colour are
+/// filtered apart, and their difference would be dots on outlines.
+Image liftedFromWhite(const Image& picture, const Image& seen, const Image& noisy);
 
 /// Does the same for a picture that is laid over a page of one colour already: returns R, G and B of `seen`,
 /// and A. Where the picture shows the page and a shadow on it alone, A is that of `seen`.

@@ -50,12 +50,12 @@ TEST(FilmPixels, AShadowInAlphaAloneIsSeenOverWhite) {
   ASSERT_TRUE(isOverWhite(picture));
   Image seen = laidOverWhite(picture);
   for (size_t x = 0; x < 3; ++x) EXPECT_NEAR(seen.pixel(int(x), 0)[0], film.pixels[x].luminance(), 1e-6);
-  const Image same = liftedFromWhite(picture, seen);
+  const Image same = liftedFromWhite(picture, seen, picture);
   for (size_t i = 0; i < picture.values.size(); ++i) EXPECT_NEAR(same.values[i], picture.values[i], 1e-6);
   for (float& value : seen.values) value *= 0.5f;
-  const Image lifted = liftedFromWhite(picture, seen);
-  // A shadow alone gets darker, a surface keeps its alpha, and no light is negative.
-  const std::vector<float> expected{0, 0, 0, 0.75f, 0.1f, 0.1f, 0.1f, 1, 0, 0, 0, 0.75f};
+  const Image lifted = liftedFromWhite(picture, seen, picture);
+  // A shadow alone gets darker, a surface keeps its alpha, and its colour stays among those around it.
+  const std::vector<float> expected{0, 0, 0, 0.75f, 0.1f, 0.1f, 0.1f, 1, 0.1f, 0.1f, 0.1f, 0.75f};
   for (size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(lifted.values[i], expected[i], 1e-6) << i;
 }
 

@@ -142,7 +142,7 @@ std::optional<Image> filtered(const Image& picture, const RenderOptions& options
   const std::optional<glm::vec3> page = pageOf(options);
   const Image own = alpha ? withAlpha(picture, *alpha) : picture;
   if (isOverWhite(picture))
-    result = liftedFromWhite(own, *result);
+    result = liftedFromWhite(own, *result, picture);
   else if (findChannel(own, "A"))
     result = seenOverPage(own, *result, page.value_or(glm::vec3(0.0f)));
   stats.filter = filter.name;
