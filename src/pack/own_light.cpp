@@ -9,8 +9,10 @@ namespace fragtrace {
 
 namespace {
 
-/// The share of what is seen from which on emission leaves it dark.
-constexpr double kMostlyDark = 0.5;
+/// Emission leaves a scene dark where more than this share of what is seen is darker than that part of middle
+/// grey.
+constexpr double kMostlyDark = 0.75;
+constexpr double kDim = 1.0 / 8.0;
 
 /// A lamp of intensity 0 is none.
 bool isOn(const Light& light) { return glm::compMax(light.intensity) > 0.0f; }
@@ -46,7 +48,7 @@ FileLight decideLight(const SeenScene& first, const Camera& camera, double aspec
   light.asWritten = estimate.meanOfLampLit(1.0);
   light.mean = estimate.meanLuminance(light.lampScale);
   const double asShown = light.byLamps ? std::exp2(exposureFor(light.mean)) : 1.0;
-  light.dark = estimate.darkShare(light.lampScale, kMiddleGrey * kTooDark / asShown);
+  light.dark = estimate.darkShare(light.lampScale, kMiddleGrey * (light.byLamps ? kTooDark / asShown : kDim));
   light.smoothMetal = estimate.smoothMetal;
   if (!light.byLamps && light.dark > kMostlyDark) light.own = OwnLight::Dim;
   return light;

@@ -52,7 +52,21 @@ std::string percent(double share) { return std::to_string(std::lround(100.0 * sh
 
 }  // namespace
 
-FileLight fileLightOf(const RenderOptions& options, const Scene& scene, const Bvh* tree,
+namespace {
+
+/// Lamps that are too bright are read as radiometric beside surroundings that the user chose: these light
+/// what the lamps then leave dark, and an exposure for the lamps would hide them.
+FileLight besideSurroundings(FileLight light, const RenderOptions& options) {
+  const bool tooBright = light.byLamps && light.asWritten > kTooBright * kMiddleGrey;
+  const bool asWritten = light.lampScale == 1.0 && options.light.lampUnits == LampUnits::Auto;
+  if (!hasMap(options) || !tooBright || !asWritten) return light;
+  light.lampScale = 1.0 / kLumensPerWatt;
+  light.mean *= light.lampScale;
+  return light;
+}
+
+/// As fileLightOf(), by the file alone.
+FileLight lightOfFile(const RenderOptions& options, const Scene& scene, const Bvh* tree,
                       std::shared_ptr<KeptDocument>* document) {
   if (staysDark(options, scene)) return {.own = OwnLight::None};
   if (hasMap(options) && scene.lightSources.empty()) return {};  // nothing hangs on its emission
@@ -70,6 +84,13 @@ FileLight fileLightOf(const RenderOptions& options, const Scene& scene, const Bv
   plain.limits.strict = false;
   const Scene standing = loadGltf(plain.scene, gltfOptionsOf(plain), document);
   return decideByFirstView(standing, buildSceneBvh(standing), options.light.lampUnits);
+}
+
+}  // namespace
+
+FileLight fileLightOf(const RenderOptions& options, const Scene& scene, const Bvh* tree,
+                      std::shared_ptr<KeptDocument>* document) {
+  return besideSurroundings(lightOfFile(options, scene, tree, document), options);
 }
 
 void setLampScale(Scene& scene, double lampScale) {
@@ -124,7 +145,8 @@ void sayWhoLights(const RenderOptions& options, const FileLight& light) {
   const std::string who =
       light.byLamps ? "the file's own lamps light it" : "the file's own emission lights it";
   if (light.dark > kNoticed)
-    say(options, who + ", and leave " + percent(light.dark) + " of what is seen dark (--studio adds light)");
+    say(options, who + (light.byLamps ? ", and leave " : ", and leaves ") + percent(light.dark) +
+                     " of what is seen dark (--studio adds light)");
   else if (light.byLamps && light.smoothMetal > kMuchMetal)
     say(options, who + ", and its smooth metal has nothing to reflect but them (--studio adds surroundings)");
   else if (options.output.verbose)
