@@ -271,12 +271,15 @@ int runSheet(SheetOptions options) {
   OutputOptions& out = options.render.output;
   if (out.progress == ProgressForm::Json) reportAsJson(out.quiet);
   // The page of the sheet blends so.
+  if (!options.render.light.background)
+    say(options.render, "warning: --no-background: a sheet has no alpha, and is white behind its models");
   if (out.alpha == AlphaOf::Auto && !options.render.light.background) out.alpha = AlphaOf::Display;
   if (!options.render.camera.resolution) options.render.camera.resolution = kCellSize;
   Sheet sheet{options, fs::path(out.file) += ".cells", {}, {}};
   const fs::path top = options.folder.lexically_normal();
   findModels(options.render, top, top, sheet.models);
-  if (sheet.models.empty()) throw InputError(options.folder.string() + ": holds no .gltf or .glb");
+  if (sheet.models.empty())
+    throw InputError(options.folder.string() + ": holds no .gltf or .glb; links are not followed");
   for (Model& model : sheet.models) model.cell.picture = sheet.folder / (model.cell.name + ".png");
   return leave(drawAll(sheet));
 }

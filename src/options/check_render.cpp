@@ -66,7 +66,8 @@ void settleShop(const RawRender& raw, RenderOptions& o) {
                         !none({"--fill", "--camera", "--camera-index", "--camera-position",
                                "--camera-parallel-scale", "--lens-shift"});
   if (!isFramed) o.camera.overrides.fill = 0.85;
-  if (none({"--alpha"}) && !o.light.background) o.output.alpha = AlphaOf::Display;
+  if (none({"--alpha"}) && !o.light.background && holdsDisplayAlpha(o.output.file))
+    o.output.alpha = AlphaOf::Display;
   if (raw.hasQuality && none(kOwnQuality) && o.light.reuse != LightReuse::Spatial)
     o.sampling.quality = Quality::Good;
   o.light.transparentGlass = true;

@@ -44,7 +44,11 @@ constexpr const char* kNoSky = "there is no --sky";
 
 constexpr VainRow kRows[] = {
     {"--fps",
-     [](const Options& o) { return !o.output.sequence.frames && !isVideo(o) && o.camera.shutter <= 0.0; },
+     [](const Options& o) {
+       const bool isFrame =
+           o.selection.animationTime.has_value();  // or a picture of its time, which has no use of it
+       return !o.output.sequence.frames && !isFrame && !isVideo(o) && o.camera.shutter <= 0.0;
+     },
      "goes with --frames, --shutter, or with a video"},
     {"--background-blur", [](const Options& o) { return o.light.hdriFile.empty() && !o.light.sky.on; },
      "there is no --hdri-file and no --sky to blur"},
