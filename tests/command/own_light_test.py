@@ -123,6 +123,16 @@ def screen_that_is_all():
     return Model(glowing(1)).box((1, 0.6, 0.1))
 
 
+def dim_lamp():
+    """A floor at about a thirtieth of middle grey."""
+    return Model(GREY, glowing(1)).plate(2).box((0.2, 0.02, 0.2), 1, translation=[0, 1, 0])
+
+
+def bright_lamp():
+    """A plate about 20 times as bright as middle grey; divided by 683, it is farther from that."""
+    return Model(GREY).plate(0.5).lamp("point", 24, translation=[0, 1, 0]).camera(translation=[0, 0.8, 1], rotation=[-0.3, 0, 0, 0.954])
+
+
 class OwnLight(Case):
     def drawn(self, model, *options, name="x.png"):
         scene = model if isinstance(model, Path) else model.gltf.write(self.folder / "scene.gltf")
@@ -132,7 +142,7 @@ class OwnLight(Case):
         return brightness(self.folder / "x.png")
 
     def test_the_studio_joins_emission_that_leaves_the_model_dark(self):
-        for make in (headlight, filament, label, led, black_emitter):
+        for make in (headlight, filament, label, led, black_emitter, dim_lamp):
             said = self.drawn(make())
             self.assertRegex(said, rf"the scene's emission leaves \d+ % of what is seen dark: {STUDIO}", make.__name__)
             self.assertNotIn("warning", said)
@@ -149,6 +159,15 @@ class OwnLight(Case):
         lamps = floor_turned_down().lamp("point", 50000, translation=[0, 2, 0]).box((1, 1, 1)).gltf.write(self.folder / "lamps.gltf")
         for options in ([], ["--hide", "1"], ["--hide", "3"], ["--set", "/extensions/KHR_lights_punctual/lights/1/intensity=1"]):
             self.assertIn("they are divided by 683", self.drawn(lamps, *options), options)
+
+    def test_an_exposure_for_lamps_does_not_hide_surroundings_that_the_user_adds(self):
+        self.assertIn("have an exposure of -", self.drawn(bright_lamp()))
+        for options in (["--studio"], ["--shop"]):
+            said = self.drawn(bright_lamp(), *options)
+            self.assertNotIn("exposure", said)
+            self.assertIn("they are divided by 683", said)
+            self.assertGreater(self.brightness(), 60)
+        self.assertIn("have an exposure of -", self.drawn(bright_lamp(), "--studio", "--lamp-units", "photometric"))
 
     def test_lamps_that_leave_something_dark_are_named(self):
         said = self.drawn(lamp_below_a_floor())

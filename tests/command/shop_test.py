@@ -120,6 +120,18 @@ class Alpha(PageCase):
             rows = self.png(scene, *FRONT, "--spp", 32, *page, "--denoise", "variance", "--no-dither")
             self.assertLess(statistics.stdev(pixel[1] for pixel in inner(rows)), 4, page)
 
+    def test_outlines_of_a_filtered_cut_out_have_no_dots(self):
+        """Colours there are those of the ball around them, whatever the filter makes of colour and alpha apart."""
+        exr = self.exr(self.ball(MATT | {"doubleSided": True}), "--studio", "--shadow-catcher", "bottom", "--no-background", "--spp", 64, "--denoise", "variance")
+        color = {kind: [[red / alpha if alpha > 0 else 0 for red, alpha in zip(*rows)] for rows in zip(exr.layers[kind + "R"], exr.layers[kind + "A"])]
+                 for kind in ("", "noisy.")}
+        outline = [(x, y) for y in range(1, 47) for x in range(1, 47) if 0 < exr.layers["noisy.A"][y][x] < 1 and exr.layers["noisy.R"][y][x] > 0]
+        self.assertGreater(len(outline), 40)
+        for x, y in outline:
+            around = [color["noisy."][v][u] for v in (y - 1, y, y + 1) for u in (x - 1, x, x + 1) if color["noisy."][v][u] > 0]
+            self.assertGreater(color[""][y][x], 0.999 * min(around), (x, y))
+            self.assertLess(color[""][y][x], 1.001 * max(around), (x, y))
+
     def glass(self, color=(1, 1, 1), roughness=0.0, ior=1.0):
         return {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": roughness, "baseColorFactor": [*color, 1]},
                 "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": ior}}, "doubleSided": True}
