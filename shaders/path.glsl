@@ -38,6 +38,7 @@ const uint kEmitterDimension = 6u;
 const uint kCasterDimension = 7u;
 const uint kSplatDimension = 8u;    // dimension within a bounce
 const uint kSplatLensDimensions = 9u;  // dimensions 9 and 10 within a bounce
+const uint kPassedOnDimensions = 0x40000000u;  // hashed; one per single-sided surface
 const uint kSurvivalDimension = 11u;   // dimension within a bounce
 
 TreeFrame treeFrame() { return TreeFrame(frame.treeRounding, frame.leafCount); }

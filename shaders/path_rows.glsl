@@ -18,7 +18,8 @@ const int kRowShadowHit = 9;        // the hit of the shadow ray, or of a suspen
 // The last surfaces that the ray and the shadow ray have passed: distance and slot of each; a suspended traversal has
 // its two groups instead of the second.
 const int kRowTMin = 10;
-// free, instance of the row of the shadow ray's hit, instance that is walked, medium of the shadow ray
+// single-sided surfaces that a light path has met, instance of the row of the shadow ray's hit, instance that is walked,
+// medium of the shadow ray
 const int kRowCrossings = 11;
 // kResumable:
 const int kRowSuspended = 12;       // node of the traversal, light sample, more flags, visits
@@ -70,7 +71,7 @@ void savePath(Path p, int row, bool begins) {
   if (kPassingRows) {
     Traversal t = p.traversal;
     pathStates[row + kRowTMin] = uvec4(floatBitsToUint(t.tMin), uint(t.tMinSlot), 0u, 0u);
-    pathStates[row + kRowCrossings] = uvec4(0u, uint(t.hitInstance), uint(t.instance), p.shadowMedium);
+    pathStates[row + kRowCrossings] = uvec4(kLightPaths ? uint(p.fromLight.singleSided) : 0u, uint(t.hitInstance), uint(t.instance), p.shadowMedium);
   }
 }
 
@@ -181,7 +182,8 @@ Path resumePath(int row, uint key) {
   if (kLightPaths) {
     vec4 l = uintBitsToFloat(readPathStates(row + kRowLight));
     vec4 m = uintBitsToFloat(readPathStates(row + kRowLight + 1));
-    p.fromLight = LightPath(l.xyz, m.z, m.w, (a.z & 32u) != 0u, m.xy, l.w, floatBitsToUint(p.radiance.x));
+    p.fromLight = LightPath(l.xyz, m.z, m.w, (a.z & 32u) != 0u, m.xy, l.w, floatBitsToUint(p.radiance.x),
+                            int(readPathStates(row + kRowCrossings).x));
     p.radiance = vec3(0.0);
   }
   if (kTransparentGlass) p.before = uintBitsToFloat(readPathStates(row + kRowBefore).xyz);

@@ -55,6 +55,7 @@ struct LightPath {
   vec2 splatPixel;   // the place in the picture at which the camera sees the point of the shadow ray
   float waiting;     // sum of the light that the camera may see later; one part waits as the shadow ray (reservoir)
   uint chain;        // a hash of the surfaces that it has met, and of their sides
+  int singleSided;   // single-sided surfaces met so far that could have scattered it
 };
 
 struct Path {
@@ -133,7 +134,7 @@ Path newPath() {
   p.shadowMedium = kPrimitiveNone;
   p.aovWeight = vec3(kAov == kAovDiffuse || kAov == kAovSpecular ? 0.0 : 1.0);
   if (kAov == kAovGuides) p.guide = Guide(vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(0.0, 0.0, 1.0));
-  if (kLightPaths) p.fromLight = LightPath(vec3(0.0), 0.0, 0.0, false, vec2(0.0), 0.0, 0u);
+  if (kLightPaths) p.fromLight = LightPath(vec3(0.0), 0.0, 0.0, false, vec2(0.0), 0.0, 0u, 0);
   p.contribution = vec3(0.0);
   p.hitSlot = -1;
   p.hitT = 0.0;

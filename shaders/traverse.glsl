@@ -5,12 +5,6 @@
 #include "literals.glsl"
 #include "tree/meet.glsl"
 
-/// The lowest number of a child in a group.
-int firstOf(uint group) { return int(0x12131210u >> (group >> 26 & 30u)) & 3; }
-
-/// The index of its child 0; also that of an end, which is negative.
-int baseOf(uint group) { return int(group << 5) >> 5; }
-
 /// One step from an inner node: to the nearest child that is hit, else to the next one of the group, else to what the
 /// stack holds. `there` false: nothing changes. kFrontToBack: boxes behind the hit are discarded; else children in
 /// fixed order, and only the ray's own limit discards. Boxes are padded, so that rounding in the slab test cannot lose

@@ -190,8 +190,11 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   bool singleSided = isSingleSided(s.material, flags);
   if (singleSided && !s.front) return p;
   bool mayScatter = !unlit && (caster || scattered);
-  bool passes = singleSided &&
-                (!mayScatter || chanceAt(chanceKey(p.sampler, p.bounce), p.hitSlot, p.hitInstance, p.hitT) < kPassedOn);
+  bool passes = singleSided;
+  if (singleSided && mayScatter) {
+    passes = hashFloat(p.sampler, kPassedOnDimensions + uint(p.fromLight.singleSided)) < kPassedOn;
+    p.fromLight.singleSided += 1;
+  }
   if (passes) return passOn(p, s, mayScatter ? 1.0 / kPassedOn : 1.0);
   if (unlit) return p;
   if (singleSided) p.throughput /= 1.0 - kPassedOn;

@@ -6,9 +6,9 @@
 uint chanceKey(Sampler s, int bounce) { return mixBits(s.key + bitfieldReverse(s.reversed)) + mixBits(uint(bounce)); }
 
 /// The random number of a ray's meeting with a primitive: the same in whatever order the ray meets its primitives. A
-/// sphere is met at two distances.
-float chanceAt(uint key, int slot, int instance, float t) {
-  return unitFloat(randomBits(key, mixBits(uint(slot) + mixBits(uint(instance))) ^ floatBitsToUint(t)));
+/// sphere is met twice, from the front and from the back.
+float chanceAt(uint key, int slot, int instance, bool front) {
+  return unitFloat(randomBits(key, 2u * uint(slot) + (front ? 1u : 0u) + mixBits(uint(instance))));
 }
 
 /// Returns true if the ray goes through the traversal's hit.
@@ -18,5 +18,5 @@ bool letsPass(Traversal hit, vec3 origin, vec3 direction) {
   float alpha = alphaAt(s.material, flags, baseColorAt(s.material, s.texcoords, s.color).a);
   if ((flags & kMaterialMask) != 0u) return alpha == 0.0;
   if ((flags & kMaterialBlend) == 0u) return false;
-  return kIdAov ? alpha < 0.5 : chanceAt(hit.key, hit.slot, hit.hitInstance, hit.t) >= alpha;
+  return kIdAov ? alpha < 0.5 : chanceAt(hit.key, hit.slot, hit.hitInstance, s.front) >= alpha;
 }

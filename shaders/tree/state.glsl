@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The state of a traversal. It is a value that can stop at a step limit and continue in a later draw.
 
+/// The lowest number of a child in a group.
+int firstOf(uint group) { return int(0x12131210u >> (group >> 26 & 30u)) & 3; }
+
+/// The index of its child 0; also that of an end, which is negative.
+int baseOf(uint group) { return int(group << 5) >> 5; }
+
 /// The state of a traversal.
 struct Traversal {
   int node;     // next inner node, kTraversalDone, or kInstanceEnd; iterative: next block of leaves
