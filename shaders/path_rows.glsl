@@ -71,7 +71,8 @@ void savePath(Path p, int row, bool begins) {
   if (kPassingRows) {
     Traversal t = p.traversal;
     pathStates[row + kRowTMin] = uvec4(floatBitsToUint(t.tMin), uint(t.tMinSlot), 0u, 0u);
-    pathStates[row + kRowCrossings] = uvec4(kLightPaths ? uint(p.fromLight.singleSided) : 0u, uint(t.hitInstance), uint(t.instance), p.shadowMedium);
+    uint met = kLightPaths ? uint(p.fromLight.singleSided) : 0u;
+    pathStates[row + kRowCrossings] = uvec4(met, uint(t.hitInstance), uint(t.instance), p.shadowMedium);
   }
 }
 
