@@ -18,8 +18,8 @@ const int kRowShadowHit = 9;        // the hit of the shadow ray, or of a suspen
 // The last surfaces that the ray and the shadow ray have passed: distance and slot of each; a suspended traversal has
 // its two groups instead of the second.
 const int kRowTMin = 10;
-// single-sided surfaces that a light path has met, instance of the row of the shadow ray's hit, instance that is walked,
-// medium of the shadow ray
+// single-sided surfaces that a light path has met, instance of the row of the shadow ray's hit, instance that is
+// walked, medium of the shadow ray
 const int kRowCrossings = 11;
 // kResumable:
 const int kRowSuspended = 12;       // node of the traversal, light sample, more flags, visits
