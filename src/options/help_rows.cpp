@@ -123,6 +123,7 @@ OptionHelp helpOf(std::string_view name, const char* topic) {
 
 std::vector<std::string_view> namesOfHelpRows() {
   std::vector<std::string_view> names;
+  names.reserve(std::size(kHelpRows));
   for (const HelpRow& row : kHelpRows) names.push_back(row.name);
   return names;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/errors.h"
 #include "options/option_row.h"
@@ -137,10 +138,8 @@ OptionRow fadeRow() {
   return row;
 }
 
-}  // namespace
-
-std::vector<OptionRow> lightRows() {
-  constexpr OptionTraits kScene{.effect = Effect::Picture, .renewal = Renewal::Scene};
+/// How lights are sampled.
+std::vector<OptionRow> lightSampleRows() {
   constexpr OptionTraits kEstimator{.effect = Effect::Noise, .renewal = Renewal::Program};
   return {
       choice("--light-selection",
@@ -158,6 +157,11 @@ std::vector<OptionRow> lightRows() {
              "light that these throw on rough surfaces; auto does where there are both",
              FRAGTRACE_MEMBER(light.caustics), kCausticsNames,
              {.effect = Effect::Picture, .renewal = Renewal::Program}),
+  };
+}
+
+std::vector<OptionRow> environmentRows() {
+  return {
       word("--hdri-file",
            "equirectangular environment map: .hdr, .exr, .pfm, or, without bright lights, .png, .jpg",
            FRAGTRACE_MEMBER(light.hdriFile),
@@ -187,6 +191,12 @@ std::vector<OptionRow> lightRows() {
              "dark shows edges",
              FRAGTRACE_MEMBER(light.studioLook), kStudioLookNames,
              {.effect = Effect::Picture, .renewal = Renewal::Scene}),
+  };
+}
+
+/// What a page has: shadow, ground and background.
+std::vector<OptionRow> pageRows() {
+  return {
       shopRow(),
       catcherRow(),
       catcherHeightRow(),
@@ -204,6 +214,13 @@ std::vector<OptionRow> lightRows() {
             "what the camera sees where there is no surface, instead of the environment map; it lights "
             "nothing; a .png or .jpg shows this very colour, whatever --exposure and --tone-map are",
             FRAGTRACE_MEMBER(light.backgroundColor), kMostIntensity, {.effect = Effect::Picture}),
+  };
+}
+
+/// The file's own light, and what replaces it.
+std::vector<OptionRow> ownLightRows() {
+  constexpr OptionTraits kScene{.effect = Effect::Picture, .renewal = Renewal::Scene};
+  return {
       choice("--default-light",
              "what lights a scene that has no light of its own: {}; white comes from all sides, and studio "
              "is the environment of --studio",
@@ -217,6 +234,15 @@ std::vector<OptionRow> lightRows() {
           "watts; auto decides by what the first view shows",
           FRAGTRACE_MEMBER(light.lampUnits), kLampUnitsNames, kScene),
   };
+}
+
+}  // namespace
+
+std::vector<OptionRow> lightRows() {
+  std::vector<OptionRow> rows = lightSampleRows();
+  for (auto* const part : {&environmentRows, &pageRows, &ownLightRows})
+    std::ranges::move(part(), std::back_inserter(rows));
+  return rows;
 }
 
 }  // namespace fragtrace
