@@ -345,6 +345,22 @@ void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film) {
   loaded.view = makeView(options, loaded, loaded.camera);
 }
 
+namespace {
+
+/// Adds what hangs on the camera, and warns of what it leaves out.
+void addByCamera(LoadedScene& loaded, const RenderOptions& options) {
+  if (loaded.strays > 0)
+    loaded.scene.warnings.push_back(
+        "the default view leaves out " + countText(loaded.strays, "point") +
+        " of the scene, far away from all others; --fit moves the camera until all are in the picture");
+  addGround(loaded.scene, options, loaded.scene.bounds);
+  addStrokes(loaded.scene, loaded.camera, loaded.size, options.camera.lineWidth);
+  checkCatcherPlace(options, loaded.scene);
+  checkFogDepth(options, loaded.scene);
+}
+
+}  // namespace
+
 LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress,
                       FilmOf film, SceneBefore before) {
   const auto step = [&](const std::string& name, double fraction) {
@@ -390,14 +406,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   if (apart) settleLight(nullptr);
   if (early) settleEnvironment();
   aim(loaded, options, film);
-  if (loaded.strays > 0)
-    loaded.scene.warnings.push_back(
-        "the default view leaves out " + countText(loaded.strays, "point") +
-        " of the scene, far away from all others; --fit moves the camera until all are in the picture");
-  addGround(loaded.scene, options, loaded.scene.bounds);
-  addStrokes(loaded.scene, loaded.camera, loaded.size, options.camera.lineWidth);
-  checkCatcherPlace(options, loaded.scene);
-  checkFogDepth(options, loaded.scene);
+  addByCamera(loaded, options);
   stats.scene = describe(scene);
   if (opens) {
     step("reading the motion", 0.4);
