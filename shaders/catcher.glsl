@@ -90,7 +90,7 @@ Path beginShadow(Path p) {
   return p;
 }
 
-/// What a solid absorbs on the way of the caught path's ray to a surface that lets it pass.
+/// Dims the caught path by what a solid absorbs on its ray's way to a surface that lets it pass.
 Path passSolid(Path p, Surface s) {
   uint solid = solidBefore(p.medium, s, false);
   if (solid != kPrimitiveNone)

@@ -20,7 +20,7 @@ const int kRowShadowHit = 9;        // the hit of the shadow ray, or of a suspen
 const int kRowTMin = 10;
 // single-sided surfaces that a light path has met, instance of the row of the shadow ray's hit, instance that is
 // walked, medium of the shadow ray
-const int kRowCrossings = 11;
+const int kRowInstances = 11;
 // kResumable:
 const int kRowSuspended = 12;       // node of the traversal, light sample, more flags, visits
 const int kRowStack = 13;
@@ -40,8 +40,11 @@ uint scatteringsOf(Path p) { return uint(p.bounce) | (kCaustics ? uint(p.prefix)
 /// Both counts in a word: roulette ends a path long before either is 65,535.
 uint bounceCounts(Path p) { return uint(p.freeBounces) | (kThroughGlass ? uint(p.straightBounces) << 16 : 0u); }
 
+/// Returns the count of scatteringsOf().
+int bounceIn(uint scatterings) { return int(kCaustics ? scatterings & 0x1fffffffu : scatterings); }
+
 Path withCounts(Path p, uint scatterings, uint freeBounces) {
-  p.bounce = int(kCaustics ? scatterings & 0x1fffffffu : scatterings);
+  p.bounce = bounceIn(scatterings);
   p.prefix = int(kCaustics ? scatterings >> 29 : 0u);
   p.freeBounces = int(kThroughGlass ? freeBounces & 0xffffu : freeBounces);
   p.straightBounces = int(kThroughGlass ? freeBounces >> 16 : 0u);
@@ -72,7 +75,7 @@ void savePath(Path p, int row, bool begins) {
     Traversal t = p.traversal;
     pathStates[row + kRowTMin] = uvec4(floatBitsToUint(t.tMin), uint(t.tMinSlot), 0u, 0u);
     uint met = kLightPaths ? uint(p.fromLight.singleSided) : 0u;
-    pathStates[row + kRowCrossings] = uvec4(met, uint(t.hitInstance), uint(t.instance), p.shadowMedium);
+    pathStates[row + kRowInstances] = uvec4(met, uint(t.hitInstance), uint(t.instance), p.shadowMedium);
   }
 }
 
@@ -113,7 +116,7 @@ Path loadPath(int row, uint key) {
     p.hitInstance = int(a.w);
   }
   if (kDimsLate) {
-    p.shadowMedium = readPathStates(row + kRowCrossings).w;
+    p.shadowMedium = readPathStates(row + kRowInstances).w;
     p.traversal.tMin = uintBitsToFloat(readPathStates(row + kRowTMin).x);
   }
   return p;
@@ -129,7 +132,7 @@ Path loadShadow(Path p, int row) {
   p.traversal.t = uintBitsToFloat(a.x);
   p.traversal.slot = int(a.y);
   p.traversal.weights = uintBitsToFloat(a.zw);
-  p.traversal.hitInstance = kInstances ? int(readPathStates(row + kRowCrossings).y) : -1;
+  p.traversal.hitInstance = kInstances ? int(readPathStates(row + kRowInstances).y) : -1;
   return p;
 }
 
@@ -184,7 +187,7 @@ Path resumePath(int row, uint key) {
     vec4 l = uintBitsToFloat(readPathStates(row + kRowLight));
     vec4 m = uintBitsToFloat(readPathStates(row + kRowLight + 1));
     p.fromLight = LightPath(l.xyz, m.z, m.w, (a.z & 32u) != 0u, m.xy, l.w, floatBitsToUint(p.radiance.x),
-                            int(readPathStates(row + kRowCrossings).x));
+                            int(readPathStates(row + kRowInstances).x));
     p.radiance = vec3(0.0);
   }
   if (kTransparentGlass) p.before = uintBitsToFloat(readPathStates(row + kRowBefore).xyz);
@@ -197,7 +200,7 @@ Path resumePath(int row, uint key) {
   p.traversal.tMinSlot = int(a.y);
   p.traversal.group = a.z;
   p.traversal.leaves = a.w;
-  if (kInstances) p.traversal.instance = int(readPathStates(row + kRowCrossings).z);
+  if (kInstances) p.traversal.instance = int(readPathStates(row + kRowInstances).z);
   p.traversal.extends = p.phase == kPhaseExtend;
   p.traversal.both = kLightPaths && p.phase == kPhaseExtend;
   p.traversal.tie = p.phase == kPhaseExtend ? p.tie : 0.0;

@@ -122,7 +122,7 @@ Wave passShadows(Wave v, uint left, TreeFrame tree) {
     p.phase = kPhaseShadow;
     p = settleShadow(p);
     if (kThroughGlass || kDimsLate) pathStates[row + kRowContribution].xyz = floatBitsToUint(p.contribution);
-    if (kDimsLate) pathStates[row + kRowCrossings].w = p.shadowMedium;
+    if (kDimsLate) pathStates[row + kRowInstances].w = p.shadowMedium;
     uint bit = 1u << k;
     v.waiting |= bit;
     if (p.phase == kPhaseShadow) {
@@ -233,7 +233,7 @@ Wave settleRay(Wave v, Traversal t, int current, bool isShadow) {
   if (kPassing || !isShadow) {
     pathStates[row + (isShadow ? kRowShadowHit : kRowHit)] = metBy(t);
     if (kInstances && !isShadow) pathStates[row + kRowContribution].w = uint(t.hitInstance);
-    if (kInstances && isShadow) pathStates[row + kRowCrossings].y = uint(t.hitInstance);
+    if (kInstances && isShadow) pathStates[row + kRowInstances].y = uint(t.hitInstance);
   }
   return v;
 }
@@ -264,8 +264,7 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
       if (kCoincident) t.extends = !isShadow;
       if (kTestsAlpha) {
         uvec4 counts = readPathStates(row + kRowCounts);
-        int bounce = withCounts(newPath(), counts.z, counts.w).bounce;
-        t.key = chanceKey(makeSampler(keyOf(v, current), counts.x), bounce);
+        t.key = chanceKey(makeSampler(keyOf(v, current), counts.x), bounceIn(counts.z));
       }
       if (kPassing) {
         uvec4 tMins = readPathStates(row + kRowTMin);

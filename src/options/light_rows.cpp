@@ -138,7 +138,7 @@ OptionRow fadeRow() {
   return row;
 }
 
-/// How lights are sampled.
+/// Returns the rows of how lights are sampled.
 std::vector<OptionRow> lightSampleRows() {
   constexpr OptionTraits kEstimator{.effect = Effect::Noise, .renewal = Renewal::Program};
   return {
@@ -194,7 +194,7 @@ std::vector<OptionRow> environmentRows() {
   };
 }
 
-/// What a page has: shadow, ground and background.
+/// Returns the rows of what a page has: shadow, ground and background.
 std::vector<OptionRow> pageRows() {
   return {
       shopRow(),
@@ -217,7 +217,7 @@ std::vector<OptionRow> pageRows() {
   };
 }
 
-/// The file's own light, and what replaces it.
+/// Returns the rows of the file's own light, and of what replaces it.
 std::vector<OptionRow> ownLightRows() {
   constexpr OptionTraits kScene{.effect = Effect::Picture, .renewal = Renewal::Scene};
   return {

@@ -45,8 +45,8 @@ constexpr const char* kNoSky = "there is no --sky";
 constexpr VainRow kRows[] = {
     {"--fps",
      [](const Options& o) {
-       const bool isFrame =
-           o.selection.animationTime.has_value();  // or a picture of its time, which has no use of it
+       // The options of a frame have its time instead of --frames.
+       const bool isFrame = o.selection.animationTime.has_value();
        return !o.output.sequence.frames && !isFrame && !isVideo(o) && o.camera.shutter <= 0.0;
      },
      "goes with --frames, --shutter, or with a video"},

@@ -2,23 +2,19 @@
 #include "gltf/build/least_alpha.h"
 
 #include <algorithm>
-#include <array>
 #include <string_view>
 
+#include "image/format.h"
 #include "scene/scene.h"
 
 namespace fragtrace {
 
 bool mayHaveAlpha(std::span<const uint8_t> encoded) {
-  constexpr std::array<uint8_t, 3> kJpeg{0xff, 0xd8, 0xff};
-  constexpr std::array<uint8_t, 8> kPng{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   constexpr size_t kColorType = 25;  // in the header, which comes first (PNG specification, 11.2.1)
   constexpr uint8_t kAlphaChannel = 4;
-  const auto begins = [&](auto& magic) {
-    return encoded.size() >= magic.size() && std::ranges::equal(encoded.first(magic.size()), magic);
-  };
-  if (begins(kJpeg)) return false;
-  if (!begins(kPng) || encoded.size() <= kColorType) return true;
+  const std::optional<ImageFormat> format = formatOfBytes(encoded);
+  if (format == ImageFormat::Jpeg) return false;
+  if (format != ImageFormat::Png || encoded.size() <= kColorType) return true;
   // A colour, or the colours of a palette, may be transparent by a chunk that stands before the pixels.
   const std::string_view bytes(reinterpret_cast<const char*>(encoded.data()), encoded.size());
   const size_t pixels = bytes.find("IDAT");
@@ -27,8 +23,10 @@ bool mayHaveAlpha(std::span<const uint8_t> encoded) {
 }
 
 void settleLeastAlpha(Scene& scene) {
+  const auto isOpaque = [](const Material& m) { return m.alphaMode == AlphaMode::Opaque; };
+  if (std::ranges::all_of(scene.materials, isOpaque)) return;
   for (Material& m : scene.materials) {
-    if (m.alphaMode == AlphaMode::Opaque || !m.baseColorTexture.present()) continue;
+    if (isOpaque(m) || !m.baseColorTexture.present()) continue;
     const EncodedImage& image = scene.images[scene.textures[m.baseColorTexture.texture].image];
     if (mayHaveAlpha(image.bytes)) m.leastAlpha = 0.0f;
   }
