@@ -214,17 +214,20 @@ Image decodeFloats(Bytes bytes, ImageFormat format) {
   return image;
 }
 
-void decodeTexels(Bytes bytes, ImageFormat format, int width, int height, std::span<uint16_t> rgba) {
+void decodeTexels(Bytes bytes, ImageFormat format, int width, int height, int bits, std::span<uint8_t> rgba) {
   if (format != ImageFormat::Png && format != ImageFormat::Jpeg) refuseFormat();
   int w = 0;
   int h = 0;
   int stored = 0;
-  const Texels texels(stbi_load_16_from_memory(bytes.data(), int(bytes.size()), &w, &h, &stored, 4),
+  const auto load = [&](auto function) -> void* {
+    return function(bytes.data(), int(bytes.size()), &w, &h, &stored, 4);
+  };
+  const Texels texels(bits == 16 ? load(stbi_load_16_from_memory) : load(stbi_load_from_memory),
                       &stbi_image_free);
   if (!texels) refuseByStb();
-  if (w != width || h != height || rgba.size() != size_t(w) * size_t(h) * 4)
+  if (w != width || h != height || rgba.size() != size_t(w) * size_t(h) * 4 * size_t(bits / 8))
     throw std::runtime_error("its size is not what its header says");
-  std::copy_n(static_cast<const uint16_t*>(texels.get()), rgba.size(), rgba.data());
+  std::copy_n(static_cast<const uint8_t*>(texels.get()), rgba.size(), rgba.data());
 }
 
 std::vector<uint8_t> encodeBytes(int width, int height, int channelCount, int bits, Bytes values,

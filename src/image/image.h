@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "image/format.h"
@@ -45,12 +46,13 @@ struct Image {
   const float* pixel(int x, int y) const { return values.data() + (size_t(y) * width + x) * channels.size(); }
 };
 
-/// 16 bits per channel, RGBA, unassociated alpha, not yet decoded from its transfer curve; the first row is
-/// the top.
+/// RGBA, unassociated alpha, not yet decoded from its transfer curve; the first row is the top. A channel has
+/// 8 bits, or 16 where the file has more than 8.
 struct TexelImage {
   int width = 0;
   int height = 0;
-  std::span<const uint16_t> rgba;      ///< width * height * 4; missing channels: grey to RGB, alpha 65535
+  /// Holds width * height * 4 values. Missing channels: grey to RGB, alpha 1.
+  std::variant<std::span<const uint8_t>, std::span<const uint16_t>> rgba;
   std::shared_ptr<const void> memory;  ///< keeps the values alive
 };
 

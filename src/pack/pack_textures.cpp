@@ -34,6 +34,15 @@ const CurveTable& curveTable(TransferCurve curve) {
   return srgb;
 }
 
+/// The texels with 16 bits a channel.
+TexelImage widened(TexelImage texels) {
+  const auto* narrow = std::get_if<std::span<const uint8_t>>(&texels.rgba);
+  if (narrow == nullptr) return texels;
+  const auto wide = std::make_shared<std::vector<uint16_t>>(narrow->begin(), narrow->end());
+  for (uint16_t& value : *wide) value *= 257;
+  return {texels.width, texels.height, std::span<const uint16_t>(*wide), wide};
+}
+
 uint32_t wrapFlags(Wrap wrap, uint32_t clamp, uint32_t mirror) {
   return wrap == Wrap::ClampToEdge ? clamp : wrap == Wrap::MirroredRepeat ? mirror : 0u;
 }
@@ -72,7 +81,7 @@ const PlacedTexels& TexturePacker::place(uint32_t image, TransferCurve curve) {
   const EncodedImage& encoded = scene_.images[image];
   TexelImage texels;
   try {
-    texels = decodeTexels(encoded.bytes, nameOf(encoded));
+    texels = widened(decodeTexels(encoded.bytes, nameOf(encoded)));
   } catch (const InputError& error) {
     if (!whyNoPictures().empty()) throw;
     if (std::ranges::find(broken_, error.what()) == broken_.end()) broken_.emplace_back(error.what());
@@ -98,10 +107,11 @@ glm::dvec4 TexturePacker::append(const TexelImage& texels, TransferCurve curve) 
   const CurveTable& alpha = curveTable(TransferCurve::Linear);
   glm::dvec4 sum(0.0);
   const size_t first = texels_.size();
-  texels_.resize(first + texels.rgba.size() / 2);
+  const auto rgba = std::get<std::span<const uint16_t>>(texels.rgba);
+  texels_.resize(first + rgba.size() / 2);
   uint32_t* word = texels_.data() + first;
-  for (size_t i = 0; i < texels.rgba.size(); i += 4) {
-    const uint16_t* t = &texels.rgba[i];
+  for (size_t i = 0; i < rgba.size(); i += 4) {
+    const uint16_t* t = &rgba[i];
     *word++ = uint32_t(color.half[t[0]]) | uint32_t(color.half[t[1]]) << 16;
     *word++ = uint32_t(color.half[t[2]]) | uint32_t(alpha.half[t[3]]) << 16;
     sum += glm::dvec4(color.linear[t[0]], color.linear[t[1]], color.linear[t[2]], alpha.linear[t[3]]);
@@ -112,6 +122,7 @@ glm::dvec4 TexturePacker::append(const TexelImage& texels, TransferCurve curve) 
 glm::dvec4 TexturePacker::appendScaled(const TexelImage& texels, TransferCurve curve, glm::ivec2 size) {
   const CurveTable& color = curveTable(curve);
   const CurveTable& alpha = curveTable(TransferCurve::Linear);
+  const auto rgba = std::get<std::span<const uint16_t>>(texels.rgba);
   const auto begin = [](int i, int from, int to) { return int(int64_t(i) * from / to); };
   glm::dvec4 total(0.0);
   for (int y = 0; y < size.y; ++y) {
@@ -123,7 +134,7 @@ glm::dvec4 TexturePacker::appendScaled(const TexelImage& texels, TransferCurve c
       glm::vec4 sum(0.0f);
       for (int v = top; v < bottom; ++v) {
         for (int u = left; u < right; ++u) {
-          const uint16_t* t = &texels.rgba[(size_t(v) * size_t(texels.width) + size_t(u)) * 4];
+          const uint16_t* t = &rgba[(size_t(v) * size_t(texels.width) + size_t(u)) * 4];
           sum += glm::vec4(color.linear[t[0]], color.linear[t[1]], color.linear[t[2]], alpha.linear[t[3]]);
         }
       }

@@ -31,11 +31,12 @@ void decodeKtx2(const fragtrace::ImageHeader& header, const uint8_t* data, size_
                                .format = header.format,
                                .width = header.width,
                                .height = header.height,
-                               .channelCount = header.channelCount};
+                               .channelCount = header.channelCount,
+                               .bits = header.texelBits};
   std::vector<uint8_t> input(sizeof request + size);
   std::memcpy(input.data(), &request, sizeof request);
   std::memcpy(input.data() + sizeof request, data, size);
-  std::vector<uint8_t> room(size_t(header.width) * size_t(header.height) * 4 * sizeof(uint16_t));
+  std::vector<uint8_t> room(size_t(header.width) * size_t(header.height) * 4);
   WorkOutput output{room};
   fragtraceWork(input, output);
   if (output.used != room.size()) std::abort();

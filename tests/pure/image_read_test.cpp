@@ -21,10 +21,16 @@ using Encoded = std::span<const uint8_t>;
 
 constexpr uint16_t from8(int value) { return uint16_t(value * 257); }
 
-Texels texelsOf(Encoded bytes) {
-  const TexelImage image = decodeTexels(bytes, "sample");
-  return {image.rgba.begin(), image.rgba.end()};
+/// The texels with 16 bits a channel, whatever they are kept in.
+Texels texelsOf(const TexelImage& image) {
+  if (const auto* wide = std::get_if<std::span<const uint16_t>>(&image.rgba))
+    return {wide->begin(), wide->end()};
+  Texels texels;
+  for (const uint8_t value : std::get<std::span<const uint8_t>>(image.rgba)) texels.push_back(from8(value));
+  return texels;
 }
+
+Texels texelsOf(Encoded bytes) { return texelsOf(decodeTexels(bytes, "sample")); }
 
 std::string errorOf(Encoded bytes) {
   try {
@@ -49,13 +55,24 @@ TEST(ImageTexels, SixteenBitPngKeepsEveryBit) {
             (Texels{0x1234, 0x1234, 0x1234, 65535, 0xfedc, 0xfedc, 0xfedc, 65535}));
 }
 
+TEST(ImageTexels, TexelsHaveSixteenBitsOnlyWhereTheFileHasMoreThanEight) {
+  const auto isWide = [](Encoded bytes) {
+    return std::holds_alternative<std::span<const uint16_t>>(decodeTexels(bytes, "sample").rgba);
+  };
+  for (const Encoded wide : {Encoded(samples::kRgb16Png), Encoded(samples::kGrey16Png)})
+    EXPECT_TRUE(isWide(wide));
+  for (const Encoded narrow :
+       {Encoded(samples::kRgba8Png), Encoded(samples::kGrey1Png), Encoded(samples::kPalettePng),
+        Encoded(samples::kGreyJpeg), Encoded(samples::kRgbaWebP)})
+    EXPECT_FALSE(isWide(narrow));
+}
+
 TEST(ImageTexels, GreyBecomesRgbAndTheFirstRowIsTheTop) {
   const TexelImage image = decodeTexels(samples::kGrey8Png, "sample");
   EXPECT_EQ(image.width, 2);
   EXPECT_EQ(image.height, 2);
-  EXPECT_EQ(Texels(image.rgba.begin(), image.rgba.end()),
-            (Texels{0, 0, 0, 65535, from8(128), from8(128), from8(128), 65535, 65535, 65535, 65535, 65535,
-                    from8(1), from8(1), from8(1), 65535}));
+  EXPECT_EQ(texelsOf(image), (Texels{0, 0, 0, 65535, from8(128), from8(128), from8(128), 65535, 65535, 65535,
+                                     65535, 65535, from8(1), from8(1), from8(1), 65535}));
 }
 
 TEST(ImageTexels, OneBitPngIsBlackAndWhite) {

@@ -27,21 +27,22 @@ uint32_t littleEndian(Bytes bytes, size_t at, size_t count) {
   return value;
 }
 
-ImageHeader checked(ImageFormat format, int64_t width, int64_t height, int channelCount) {
+ImageHeader checked(ImageFormat format, int64_t width, int64_t height, int channelCount, int texelBits = 8) {
   checkImageSize(width, height, channelCount);
-  return {format, int(width), int(height), channelCount};
+  return {format, int(width), int(height), channelCount, {}, {}, texelBits};
 }
 
 ImageHeader pngHeader(Bytes bytes) {
   // PNG specification, 11.2.2: IHDR is the first chunk, 8 bytes behind the signature.
-  constexpr size_t kWidthAt = 16, kEnd = 24;
+  constexpr size_t kWidthAt = 16, kBitsAt = 24, kEnd = 25;
   if (bytes.size() < kEnd || !isCompletePng(bytes)) refuseTruncated();
   if (std::string_view(reinterpret_cast<const char*>(bytes.data()) + 12, 4) != "IHDR")
     throw std::runtime_error("the PNG header is wrong");
   const auto bigEndian = [&](size_t at) {
     return int64_t(bytes[at]) << 24 | bytes[at + 1] << 16 | bytes[at + 2] << 8 | bytes[at + 3];
   };
-  return checked(ImageFormat::Png, bigEndian(kWidthAt), bigEndian(kWidthAt + 4), kMostTextureChannels);
+  return checked(ImageFormat::Png, bigEndian(kWidthAt), bigEndian(kWidthAt + 4), kMostTextureChannels,
+                 bytes[kBitsAt] == 16 ? 16 : 8);
 }
 
 ImageHeader jpegHeader(Bytes bytes) {
@@ -204,8 +205,8 @@ ImageHeader hdrHeader(Bytes bytes) {
   form.pixelsAt = bytes.size() - text.size();
   // A run says at most how often a pixel of four bytes is repeated, so that each line has one.
   constexpr int64_t kLeastOfALine = 4;
-  ImageHeader header = form.columns ? checked(ImageFormat::Hdr, lineCount, lineLength, 3)
-                                    : checked(ImageFormat::Hdr, lineLength, lineCount, 3);
+  ImageHeader header = form.columns ? checked(ImageFormat::Hdr, lineCount, lineLength, 3, 16)
+                                    : checked(ImageFormat::Hdr, lineLength, lineCount, 3, 16);
   header.hdr = form;
   if (int64_t(text.size()) < lineCount * kLeastOfALine) refuseTruncated();
   return header;

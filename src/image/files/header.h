@@ -34,6 +34,7 @@ struct ImageHeader {
   int channelCount = 0;    ///< the largest number of channels after decoding; of an .exr, of all parts
   glm::ivec2 overscan{0};  ///< size of the data windows of an .exr of which a part is outside; 0: none is
   HdrForm hdr = {};
+  int texelBits = 16;  ///< bits of a channel of its texels: 8 or 16
 };
 
 /// Returns how many values a decoder may hold at once.

@@ -108,7 +108,7 @@ ImageHeader readKtx2Header(Bytes bytes) {
   checkMetadata(partOf(bytes, header.metadataOffset, header.metadataLength));
   partOf(bytes, header.globalOffset, header.globalLength);
   if (partOf(bytes, header.levelOffset, header.levelLength).empty()) refuse("its level 0 is empty");
-  return {ImageFormat::Ktx2, int(header.width), int(header.height), kMostTextureChannels};
+  return {ImageFormat::Ktx2, int(header.width), int(header.height), kMostTextureChannels, {}, {}, 8};
 }
 
 }  // namespace fragtrace

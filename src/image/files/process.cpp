@@ -41,7 +41,8 @@ WorkResult decode(PictureTask task, Bytes bytes, const ImageHeader& header, uint
                                .format = header.format,
                                .width = header.width,
                                .height = header.height,
-                               .channelCount = header.channelCount};
+                               .channelCount = header.channelCount,
+                               .bits = task == PictureTask::DecodeTexels ? header.texelBits : 0};
   Worker& codec = header.format == ImageFormat::Ktx2 ? ktx2Worker() : worker();
   return codec.perform({asMessage(request), bytes}, room,
                        {.memoryBytes = kLibrary + 4 * bytes.size() + 16 * values,
@@ -101,12 +102,13 @@ Image decodeByProcess(Bytes bytes, const ImageHeader& asShown) {
 
 TexelImage decodeTexelsByProcess(Bytes bytes, const ImageHeader& header) {
   const uint64_t values = uint64_t(header.width) * uint64_t(header.height) * 4;
-  const WorkResult result = decode(PictureTask::DecodeTexels, bytes, header, values * sizeof(uint16_t));
-  if (result.output.size() != values * sizeof(uint16_t)) refuseAnswer();
-  return {header.width,
-          header.height,
-          {reinterpret_cast<const uint16_t*>(result.output.data()), values},
-          result.memory};
+  const uint64_t size = values * uint64_t(header.texelBits) / 8;
+  const WorkResult result = decode(PictureTask::DecodeTexels, bytes, header, size);
+  if (result.output.size() != size) refuseAnswer();
+  TexelImage texels{header.width, header.height, result.output, result.memory};
+  if (header.texelBits == 16)
+    texels.rgba = std::span(reinterpret_cast<const uint16_t*>(result.output.data()), values);
+  return texels;
 }
 
 const std::string& whyNoPictures() { return worker().whyNot(); }

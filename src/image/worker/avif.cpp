@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -55,7 +56,7 @@ void check(const HeifError& error) {
 
 }  // namespace
 
-void decodeAvif(std::span<const uint8_t> bytes, int width, int height, std::span<uint16_t> rgba) {
+void decodeAvif(std::span<const uint8_t> bytes, int width, int height, std::span<uint8_t> rgba) {
   const auto context = owned(found<HeifContext*()>("heif_context_alloc")(), "heif_context_free");
   check(found<HeifError(HeifContext*, const void*, size_t, const void*)>(
       "heif_context_read_from_memory_without_copy")(context.get(), bytes.data(), bytes.size(), nullptr));
@@ -76,8 +77,8 @@ void decodeAvif(std::span<const uint8_t> bytes, int width, int height, std::span
       image.get(), kHeifInterleaved, &stride);
   if (plane == nullptr) throw std::runtime_error("libheif gives no pixels");
   const size_t row = size_t(width) * 4;
-  for (size_t i = 0; i < rgba.size(); ++i)
-    rgba[i] = uint16_t(plane[i / row * size_t(stride) + i % row] * 257);
+  for (int y = 0; y < height; ++y)
+    std::copy_n(plane + ptrdiff_t(y) * stride, row, rgba.begin() + ptrdiff_t(y) * ptrdiff_t(row));
 }
 
 }  // namespace fragtrace

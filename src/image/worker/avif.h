@@ -8,8 +8,9 @@
 
 namespace fragtrace {
 
-/// Fills `rgba`, which holds width x height texels. Throws std::runtime_error where the picture has another
-/// size, and where there is no libheif, or none with a decoder of AV1: then the reason names the package.
-void decodeAvif(std::span<const uint8_t> bytes, int width, int height, std::span<uint16_t> rgba);
+/// Fills `rgba`, which holds width x height texels of 8 bits. Throws std::runtime_error where the picture has
+/// another size, and where there is no libheif, or none with a decoder of AV1: then the reason names the
+/// package.
+void decodeAvif(std::span<const uint8_t> bytes, int width, int height, std::span<uint8_t> rgba);
 
 }  // namespace fragtrace

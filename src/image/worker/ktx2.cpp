@@ -2,10 +2,8 @@
 // The worker's module for KTX2 textures: by Binomial's transcoder, which scripts/setup ktx2 fetches.
 #include <basisu_transcoder.h>
 
-#include <algorithm>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "base/message.h"
 #include "base/worker/module.h"
@@ -22,7 +20,7 @@ bool isRedAndGreen(const basist::ktx2_transcoder& file) {
 
 }  // namespace
 
-/// Level 0 as 16 bits per channel, of which 8 are known.
+/// Level 0 as 8 bits per channel.
 extern "C" void fragtraceWork(std::span<const uint8_t> input, WorkOutput& output) {
   if (input.empty()) return basist::basisu_transcoder_init();
   const auto request = takeMessage<PictureMessage>(input);
@@ -33,7 +31,9 @@ extern "C" void fragtraceWork(std::span<const uint8_t> input, WorkOutput& output
   if (int64_t(file.get_width()) != request.width || int64_t(file.get_height()) != request.height)
     throw std::runtime_error("its size is not what its header says");
   const uint32_t texels = file.get_width() * file.get_height();
-  std::vector<uint8_t> values(size_t(texels) * 4);
+  const std::span<uint8_t> values = output.room;
+  if (request.bits != 8 || values.size() != size_t(texels) * 4)
+    throw std::runtime_error("its texels have 8 bits");
   if (!file.transcode_image_level(0, 0, 0, values.data(), texels,
                                   basist::transcoder_texture_format::cTFRGBA32))
     throw std::runtime_error("its level 0 is broken");
@@ -43,9 +43,7 @@ extern "C" void fragtraceWork(std::span<const uint8_t> input, WorkOutput& output
       values[i + 2] = 0;
     }
   }
-  std::vector<uint16_t> wide(values.size());
-  std::ranges::transform(values, wide.begin(), [](uint8_t value) { return uint16_t(value * 257); });
-  output.append({reinterpret_cast<const uint8_t*>(wide.data()), wide.size() * sizeof(uint16_t)});
+  output.used = values.size();
 }
 
 }  // namespace fragtrace

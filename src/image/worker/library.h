@@ -15,9 +15,10 @@ namespace fragtrace {
 /// All channels as floats; values as stored, alpha unassociated in 8 and 16 bit formats.
 Image decodeFloats(std::span<const uint8_t> bytes, ImageFormat format);
 
-/// Fills `rgba`, which holds width x height texels; throws when the picture has another size.
-void decodeTexels(std::span<const uint8_t> bytes, ImageFormat format, int width, int height,
-                  std::span<uint16_t> rgba);
+/// Fills `rgba`, which holds width x height texels with 8 or 16 bits a channel; throws when the picture has
+/// another size.
+void decodeTexels(std::span<const uint8_t> bytes, ImageFormat format, int width, int height, int bits,
+                  std::span<uint8_t> rgba);
 
 /// Interleaved RGB, or RGBA with unassociated alpha, of 8 bits as .png or .jpg, of 16 as .png.
 std::vector<uint8_t> encodeBytes(int width, int height, int channelCount, int bits,

@@ -21,7 +21,8 @@ struct PictureMessage {
   int32_t width = 0;  ///< to decode a picture: the width of the whole that its header promises
   int32_t height = 0;
   int32_t channelCount = 0;  ///< to decode a picture: the largest number of channels
-  /// With EncodeBytes: bits of a channel, 8 or 16. With EncodeFloats: 16 if some channels are half.
+  /// With DecodeTexels and EncodeBytes: bits of a channel, 8 or 16. With EncodeFloats: 16 if some channels
+  /// are half.
   int32_t bits = 0;
   int32_t numberCount = 0;   ///< attributes that are numbers, the last of the texts
   Placement placement = {};  ///< a whole of width 0: none

@@ -26,8 +26,7 @@ void decodeFloatsInto(WorkOutput& output, const PictureMessage& request, Bytes i
 }
 
 void decodeTexelsInto(WorkOutput& output, const PictureMessage& request, Bytes input) {
-  decodeTexels(input, request.format, request.width, request.height,
-               {reinterpret_cast<uint16_t*>(output.room.data()), output.room.size() / sizeof(uint16_t)});
+  decodeTexels(input, request.format, request.width, request.height, request.bits, output.room);
   output.used = output.room.size();
 }
 

@@ -4,6 +4,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <regex>
 #include <stdexcept>
@@ -123,13 +124,13 @@ std::map<std::string, std::vector<float>> numberAttributes(const OIIO::ImageSpec
 }
 
 /// OpenImageIO 2.4 multiplies WebP's colour by its alpha, whatever it is asked. Divides it again, as well as
-/// the 8 bits left allow; colour under alpha 0 is lost.
+/// the 8 bits left allow; colour under alpha 0 is lost. `half` is what rounds a value of this type.
 template <typename Value>
-void unassociate(std::span<Value> values, double one) {
+void unassociate(std::span<Value> values, double one, double half) {
   for (size_t first = 0; first < values.size(); first += 4) {
     const double alpha = values[first + 3] / one;
     for (size_t c = first; c < first + 3 && alpha > 0; ++c)
-      values[c] = Value(std::min(values[c] / alpha, one));
+      values[c] = Value(std::min(values[c] / alpha + half, one));
   }
 }
 
@@ -194,6 +195,23 @@ Image readParts(OpenPicture& picture) {
   return image;
 }
 
+template <typename Value>
+void readTexels(OpenPicture& picture, std::span<Value> rgba) {
+  constexpr Value kOne = std::numeric_limits<Value>::max();
+  const int stored = picture.spec.nchannels;
+  const OIIO::stride_t pixelStride = 4 * sizeof(Value);
+  picture.read(OIIO::BaseTypeFromC<Value>::value, rgba.data(), pixelStride, pixelStride * picture.spec.width);
+  if (picture.input->format_name() == std::string_view("webp") && stored == 4)
+    unassociate<Value>(rgba, kOne, 0.5);
+
+  // Spread what is stored at the front of each texel: Y, YA or RGB.
+  for (size_t first = 0; first < rgba.size() && stored < 4; first += 4) {
+    Value* texel = rgba.data() + first;
+    texel[3] = stored == 2 ? texel[1] : kOne;
+    if (stored <= 2) texel[1] = texel[2] = texel[0];
+  }
+}
+
 }  // namespace
 
 Image decodeFloats(std::span<const uint8_t> bytes, ImageFormat format) {
@@ -206,32 +224,24 @@ Image decodeFloats(std::span<const uint8_t> bytes, ImageFormat format) {
   image.channels = spec.channelnames;
   image.values.resize(size_t(image.width) * size_t(image.height) * image.channelCount());
   picture.read(OIIO::TypeFloat, image.values.data(), OIIO::AutoStride, OIIO::AutoStride);
-  if (format == ImageFormat::WebP && spec.nchannels == 4) unassociate<float>(image.values, 1);
+  if (format == ImageFormat::WebP && spec.nchannels == 4) unassociate<float>(image.values, 1, 0);
   return image;
 }
 
-void decodeTexels(std::span<const uint8_t> bytes, ImageFormat format, int width, int height,
-                  std::span<uint16_t> rgba) {
+void decodeTexels(std::span<const uint8_t> bytes, ImageFormat format, int width, int height, int bits,
+                  std::span<uint8_t> rgba) {
+  if (rgba.size() != size_t(width) * size_t(height) * 4 * size_t(bits / 8))
+    throw std::runtime_error("the worker process got a broken request");
   if (format == ImageFormat::Avif) return decodeAvif(bytes, width, height, rgba);
   OpenPicture picture(bytes, format);
   const int stored = picture.spec.nchannels;
   if (stored > 4) throw std::runtime_error("it has more than four channels");
   if (picture.spec.width != width || picture.spec.height != height)
     throw std::runtime_error("its size is not what its header says");
-  const OIIO::stride_t pixelStride = 4 * sizeof(uint16_t);
-  picture.read(OIIO::TypeUInt16, rgba.data(), pixelStride, pixelStride * width);
-  if (format == ImageFormat::WebP && stored == 4) unassociate<uint16_t>(rgba, 65535);
-
-  // Spread what is stored at the front of each texel: Y, YA or RGB.
-  for (size_t first = 0; first < rgba.size(); first += 4) {
-    uint16_t* texel = rgba.data() + first;
-    if (stored <= 2) {
-      texel[3] = stored == 2 ? texel[1] : uint16_t(65535);
-      texel[1] = texel[2] = texel[0];
-    } else if (stored == 3) {
-      texel[3] = 65535;
-    }
-  }
+  if (bits == 8)
+    readTexels(picture, rgba);
+  else
+    readTexels(picture, std::span(reinterpret_cast<uint16_t*>(rgba.data()), rgba.size() / sizeof(uint16_t)));
 }
 
 // Writing
