@@ -11,10 +11,9 @@ const uint kTexcoordsBinding = 4u;     // 1 vec4 per vertex: TEXCOORD_0, TEXCOOR
 const uint kTangentsBinding = 5u;      // 1 vec4 per vertex
 const uint kColorsBinding = 6u;        // 1 vec4 per vertex
 const uint kMaterialsBinding = 7u;     // kMaterialRows uvec4 per material
-// 1 uvec2 per texel: RGBA as linear half floats; behind all textures the grid: its table, 1 texel per brick (brickEntry
-// of media/volume.glsl), and the bricks: each has kBrickTexels texels of 4 densities, then, if the grid emits, 1 texel
-// of radiance per voxel
-const uint kTexelsBinding = 8u;
+// The grid of densities: its table, 1 uvec2 per brick (brickEntry of media/volume.glsl), and the bricks: each has
+// kBrickTexels uvec2s of 4 densities, then, if the grid emits, 1 of radiance per voxel
+const uint kBricksBinding = 8u;
 const uint kEmittersBinding = 9u;      // kEmitterRows uvec4 per emitter
 const uint kLightsBinding = 10u;       // kLightRows vec4 per punctual light
 // 1 vec4 per texel: radiance, pdf over the area of the map (mean 1); behind them those of the backdrop, if there is
@@ -187,8 +186,9 @@ const uint kMaterialHoldsLamps = 512u;  // a solid inside of which punctual ligh
 
 const int kMostCasters = 16;  // balls round what makes caustics
 
-// Texture slot row: first texel, width | height << 16, flags, row of its transform among the materials or 0. A
-// transform is two rows of a matrix.
+// Texture slot row: place of its picture, width | height << 16, flags, row of its transform among the materials or 0. A
+// transform is two rows of a matrix. The place is the first word of a buffer, or x | y << 16 of a layer; which buffer or
+// layer is in the upper half of the flags.
 const uint kTexturePresent = 1u;
 const uint kTextureLinear = 2u;
 const uint kTextureTexcoord1 = 4u;
@@ -196,6 +196,12 @@ const uint kTextureClampU = 8u;
 const uint kTextureMirrorU = 16u;
 const uint kTextureClampV = 32u;
 const uint kTextureMirrorV = 64u;
+const uint kTextureWide = 128u;  // its texels have 16 bits a channel
+const uint kTexturePlaceShift = 16u;
+// Pictures lie in up to this many buffers of words (tune/texels_words.glsl), whose image units are behind those of the
+// scene buffers; or in array textures (tune/texels_arrays.glsl), whose three units are behind those of reservoirs.
+const uint kMostTexelBuffers = 8u;
+const uint kTexelImageBase = kSceneImageBase + kSceneBufferCount;
 
 // The table of a row of the environment has half as many steps as the row has texels, but at least one and at most
 // these.
@@ -258,6 +264,7 @@ const float kReuseRadius = 16.0f;
 const uint kReservoirBits = 0xffffff00u;
 const uint kReservoirUnit = 256u;
 const uint kReservoirTextures = kSceneBufferCount;
+const uint kTexelTextures = kReservoirTextures + 2u;
 const float kLightPoint = 0.0f;
 const float kLightSpot = 1.0f;
 const float kLightDirectional = 2.0f;
@@ -336,7 +343,7 @@ struct Volume {
   vec4 toBricksZ;
   vec4 medium;      // albedo of one scattering, anisotropy
   vec4 extinction;  // extinction at the largest density (1 / local space); factor of the radiance, 0: no emission
-  ivec4 table;      // numbers of bricks along X, Y, Z; the first texel of the table
+  ivec4 table;      // numbers of bricks along X, Y, Z; 0
 };
 const int kBrickTexels = 128;
 const int kMostVolumeSteps = 1024;  // limit of steps of one walk through the grid

@@ -18,7 +18,7 @@ uint materialFlags(uint material) { return materialRow(material, kMaterialMaps).
 vec4 baseColorAt(uint material, vec4 texcoords, vec4 vertexColor) {
   vec4 color = materialFloats(material, kMaterialBaseColor);
   if (kVertexColors) color *= vertexColor;
-  if (kBaseColorTexture) color *= sampleTexture(textureSlot(material, kSlotBaseColor), texcoords);
+  if (kBaseColorTexture) color *= sampleTexture(textureSlot(material, kSlotBaseColor), texcoords, true);
   return color;
 }
 
@@ -32,7 +32,7 @@ float alphaAt(uint material, uint flags, float alpha) {
 vec3 emissionAt(uint material, vec4 texcoords) {
   if (!kEmission) return vec3(0.0);
   vec3 radiance = materialFloats(material, kMaterialEmission).rgb;
-  if (kEmissionTexture) radiance *= sampleTexture(textureSlot(material, kSlotEmission), texcoords).rgb;
+  if (kEmissionTexture) radiance *= sampleTexture(textureSlot(material, kSlotEmission), texcoords, true).rgb;
   return radiance;
 }
 
@@ -57,12 +57,12 @@ SurfaceMaterial materialAt(uint material, vec3 baseColor, vec4 texcoords) {
   m.ior = surface.z;
   m.transmission = kTransmission ? surface.w : 0.0;
   if (kMetallicRoughnessTexture) {
-    vec4 texel = sampleTexture(textureSlot(material, kSlotMetallicRoughness), texcoords);
+    vec4 texel = sampleTexture(textureSlot(material, kSlotMetallicRoughness), texcoords, false);
     m.metallic *= texel.b;
     m.roughness *= texel.g;
   }
   if (kTransmission && kTransmissionTexture) {
-    m.transmission *= sampleTexture(textureSlot(material, kSlotTransmission), texcoords).r;
+    m.transmission *= sampleTexture(textureSlot(material, kSlotTransmission), texcoords, false).r;
   }
   m.specular = 0.0;
   m.dielectricF0 = vec3(0.0);
@@ -71,8 +71,8 @@ SurfaceMaterial materialAt(uint material, vec3 baseColor, vec4 texcoords) {
   if (kSpecular || kSpecularGlossiness) {
     specular = materialFloats(material, kMaterialSpecular);
     if (kSpecularTexture) {
-      specular.a *= sampleTexture(textureSlot(material, kSlotSpecular), texcoords).a;
-      vec4 texel = sampleTexture(textureSlot(material, kSlotSpecularColor), texcoords);
+      specular.a *= sampleTexture(textureSlot(material, kSlotSpecular), texcoords, false).a;
+      vec4 texel = sampleTexture(textureSlot(material, kSlotSpecularColor), texcoords, true);
       specular.rgb *= texel.rgb;
       glossiness = texel.a;
     }

@@ -9,7 +9,7 @@ vec3 anisotropyAt(uint material, vec4 texcoords) {
   if (kAnisotropyTexture) {
     uvec4 slot = textureSlot(material, kSlotAnisotropy);
     if ((slot.z & kTexturePresent) != 0u) {
-      vec3 texel = sampleTexture(slot, texcoords).rgb;
+      vec3 texel = sampleTexture(slot, texcoords, false).rgb;
       vec2 d = texel.xy * 2.0 - 1.0;
       float squared = dot(d, d);
       direction = squared > 1e-8 ? d * inversesqrt(squared) : direction;
@@ -38,8 +38,8 @@ Bsdf addFilm(Bsdf b, uint material, vec4 texcoords) {
   b.filmIndex = row.y;
   float place = 1.0;
   if (kIridescenceTexture) {
-    b.film *= sampleTexture(textureSlot(material, kSlotIridescence), texcoords).r;
-    place = sampleTexture(textureSlot(material, kSlotIridescenceThickness), texcoords).g;
+    b.film *= sampleTexture(textureSlot(material, kSlotIridescence), texcoords, false).r;
+    place = sampleTexture(textureSlot(material, kSlotIridescenceThickness), texcoords, false).g;
   }
   b.filmThickness = mix(row.z, row.w, place);
   return b;
@@ -50,8 +50,8 @@ Bsdf addDiffuseTransmission(Bsdf b, uint material, vec4 texcoords) {
   b.diffuseThrough = row.w;
   b.throughColor = row.rgb;
   if (kDiffuseTransmissionTexture) {
-    b.diffuseThrough *= sampleTexture(textureSlot(material, kSlotDiffuseTransmission), texcoords).a;
-    b.throughColor *= sampleTexture(textureSlot(material, kSlotDiffuseTransmissionColor), texcoords).rgb;
+    b.diffuseThrough *= sampleTexture(textureSlot(material, kSlotDiffuseTransmission), texcoords, false).a;
+    b.throughColor *= sampleTexture(textureSlot(material, kSlotDiffuseTransmissionColor), texcoords, true).rgb;
   }
   return b;
 }
@@ -64,8 +64,8 @@ Bsdf addThinScattering(Bsdf b, uint material, vec4 texcoords) {
   if (b.solid || strength <= 0.0) return b;
   vec4 scatter = materialFloats(material, kMaterialScatter);
   if (kThinScatteringTexture) {
-    strength *= sampleTexture(textureSlot(material, kSlotScatterStrength), texcoords).a;
-    scatter.rgb *= sampleTexture(textureSlot(material, kSlotMultiscatterColor), texcoords).rgb;
+    strength *= sampleTexture(textureSlot(material, kSlotScatterStrength), texcoords, false).a;
+    scatter.rgb *= sampleTexture(textureSlot(material, kSlotMultiscatterColor), texcoords, true).rgb;
   }
   float scattered = b.glass * strength;
   float through = scattered * (0.5 + 0.5 * scatter.w);
@@ -84,8 +84,8 @@ const float kLeastSheenRoughness = 0.05;
 Bsdf addSheen(Bsdf b, uint material, vec4 texcoords) {
   vec4 row = materialFloats(material, kMaterialSheen);
   if (kSheenTexture) {
-    row.rgb *= sampleTexture(textureSlot(material, kSlotSheenColor), texcoords).rgb;
-    row.a *= sampleTexture(textureSlot(material, kSlotSheenRoughness), texcoords).a;
+    row.rgb *= sampleTexture(textureSlot(material, kSlotSheenColor), texcoords, true).rgb;
+    row.a *= sampleTexture(textureSlot(material, kSlotSheenRoughness), texcoords, false).a;
   }
   float roughness = max(row.a, kLeastSheenRoughness);
   b.sheenColor = row.rgb;
@@ -97,8 +97,8 @@ Bsdf addSheen(Bsdf b, uint material, vec4 texcoords) {
 vec2 clearcoatAt(uint material, vec4 texcoords) {
   vec2 coat = materialFloats(material, kMaterialClearcoat).xy;
   if (kClearcoatTexture) {
-    coat.x *= sampleTexture(textureSlot(material, kSlotClearcoat), texcoords).r;
-    coat.y *= sampleTexture(textureSlot(material, kSlotClearcoatRoughness), texcoords).g;
+    coat.x *= sampleTexture(textureSlot(material, kSlotClearcoat), texcoords, false).r;
+    coat.y *= sampleTexture(textureSlot(material, kSlotClearcoatRoughness), texcoords, false).g;
   }
   return coat;
 }

@@ -185,7 +185,7 @@ Surface surfaceAt(int slot, int instance, vec3 origin, vec3 direction, float t, 
 /// The normal of a texture, in tangent space. A blue below the middle would point into the surface. The specification
 /// does not allow it; here it counts as the middle.
 vec3 texturedNormal(uvec4 slot, float scale, vec4 texcoords) {
-  vec3 texel = sampleTexture(slot, texcoords).rgb * 2.0 - 1.0;
+  vec3 texel = sampleTexture(slot, texcoords, false).rgb * 2.0 - 1.0;
   return vec3(texel.xy * scale, max(texel.z, 0.0));
 }
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Textures of any size and number, as texels in one buffer. This file filters them: level 0, magnification filter.
+// Textures of any size and number, with their texels as they are in the files. This file filters them: level 0,
+// magnification filter.
 
-vec4 readTexel(int index) {
-  uvec2 t = readTexels(index);
-  return vec4(unpackHalf2x16(t.x), unpackHalf2x16(t.y));
-}
+#include "texels.glsl"
 
 /// Brings a texel coordinate from -1 to twice the size into 0..size-1 by repeating, clamping or mirroring. It does not
 /// divide, because llvmpipe divides integers lane by lane.
@@ -17,8 +15,9 @@ int wrapTexel(int x, int size, bool clamped, bool mirrored) {
   return clamped ? clamp(x, 0, size - 1) : m;
 }
 
-/// Samples the texture of a slot row (layout.glsl). A slot without a texture gives white.
-vec4 sampleTexture(uvec4 slot, vec4 texcoords) {
+/// Samples the texture of a slot row (layout.glsl), whose colours are encoded by sRGB or linear. A slot without a
+/// texture gives white.
+vec4 sampleTexture(uvec4 slot, vec4 texcoords, bool srgb) {
   uint flags = slot.z;
   if ((flags & kTexturePresent) == 0u) return vec4(1.0);
   vec2 uv = (flags & kTextureTexcoord1) != 0u ? texcoords.zw : texcoords.xy;
@@ -42,10 +41,9 @@ vec4 sampleTexture(uvec4 slot, vec4 texcoords) {
   vec2 f = linear ? position - base : vec2(0.0);
   int x0 = wrapTexel(int(base.x), size.x, clampU, mirrorU);
   int x1 = linear ? wrapTexel(int(base.x) + 1, size.x, clampU, mirrorU) : x0;
-  int y0 = wrapTexel(int(base.y), size.y, clampV, mirrorV) * size.x;
-  int y1 = linear ? wrapTexel(int(base.y) + 1, size.y, clampV, mirrorV) * size.x : y0;
-  int first = int(slot.x);
-  vec4 top = mix(readTexel(first + y0 + x0), readTexel(first + y0 + x1), f.x);
-  vec4 bottom = mix(readTexel(first + y1 + x0), readTexel(first + y1 + x1), f.x);
+  int y0 = wrapTexel(int(base.y), size.y, clampV, mirrorV);
+  int y1 = linear ? wrapTexel(int(base.y) + 1, size.y, clampV, mirrorV) : y0;
+  vec4 top = mix(readTexel(slot, ivec2(x0, y0), srgb), readTexel(slot, ivec2(x1, y0), srgb), f.x);
+  vec4 bottom = mix(readTexel(slot, ivec2(x0, y1), srgb), readTexel(slot, ivec2(x1, y1), srgb), f.x);
   return mix(top, bottom, f.y);
 }

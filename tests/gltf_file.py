@@ -14,13 +14,15 @@ def data_uri(kind, data):
     return f"data:{kind};base64," + base64.b64encode(data).decode()
 
 
-def png(width, height, rgba):
-    """Makes a PNG with 8 bits per channel."""
+def png(width, height, rgba, bits=8):
+    """Makes a PNG with 8 or 16 bits per channel."""
     def chunk(name, data):
         return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
 
-    rows = b"".join(b"\0" + bytes(rgba[4 * width * y:4 * width * (y + 1)]) for y in range(height))
-    header = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
+    values = struct.pack(f">{len(rgba)}{'B' if bits == 8 else 'H'}", *rgba)
+    size = len(values) // height
+    rows = b"".join(b"\0" + values[size * y:size * (y + 1)] for y in range(height))
+    header = struct.pack(">IIBBBBB", width, height, bits, 6, 0, 0, 0)
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
 
 

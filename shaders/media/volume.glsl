@@ -21,9 +21,9 @@ vec3 inBricks(Volume v, vec3 place, float w) {
          w * vec3(v.toBricksX.w, v.toBricksY.w, v.toBricksZ.w);
 }
 
-/// Entry of the table: the brick's first texel, counted from the table on, or 0 where it is empty; its majorant.
+/// Entry of the table: the brick's first texel, or 0 where it is empty; its majorant.
 uvec2 brickEntry(Volume v, ivec3 brick) {
-  return readTexels(v.table.w + (brick.z * v.table.y + brick.y) * v.table.x + brick.x);
+  return readBricks((brick.z * v.table.y + brick.y) * v.table.x + brick.x);
 }
 
 bool isInTable(Volume v, ivec3 brick) {
@@ -41,7 +41,7 @@ ivec2 findVoxel(Volume v, ivec3 voxel) {
 float voxelDensity(Volume v, ivec3 voxel) {
   ivec2 found = findVoxel(v, voxel);
   if (found.x == 0) return 0.0f;
-  uvec2 texel = readTexels(v.table.w + found.x + (found.y >> 2));
+  uvec2 texel = readBricks(found.x + (found.y >> 2));
   vec2 pair = unpackHalf2x16((found.y & 2) != 0 ? texel.y : texel.x);
   return (found.y & 1) != 0 ? pair.y : pair.x;
 }
@@ -58,7 +58,7 @@ ivec3 drawVoxel(vec3 place, uint bits) {
 vec3 volumeRadiance(Volume v, vec3 point, uint bits) {
   ivec2 found = findVoxel(v, drawVoxel(inBricks(v, point, 1.0f), bits));
   if (found.x == 0) return vec3(0.0f);
-  uvec2 texel = readTexels(v.table.w + found.x + kBrickTexels + found.y);
+  uvec2 texel = readBricks(found.x + kBrickTexels + found.y);
   return v.extinction.y * vec3(unpackHalf2x16(texel.x), unpackHalf2x16(texel.y).x);
 }
 

@@ -9,7 +9,7 @@ namespace fragtrace {
 
 namespace {
 
-bool hasTwoWords(uint32_t binding) { return binding == layout::kTexelsBinding; }
+bool hasTwoWords(uint32_t binding) { return binding == layout::kBricksBinding; }
 
 int64_t texelBytes(uint32_t binding) { return hasTwoWords(binding) ? 8 : 16; }
 
@@ -48,12 +48,6 @@ ReadLimits readLimits() {
                           driverLimit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE), driverLimit(GL_MAX_IMAGE_UNITS)};
   checkGl("asking for the driver's limits");
   return limits;
-}
-
-int64_t mostTexelBytes(BufferReads wanted, const ReadLimits& limits) {
-  const auto most = [&](BufferReads reads) { return mostBytes(reads, layout::kTexelsBinding, limits); };
-  return wanted == BufferReads::Auto ? std::max(most(BufferReads::Ssbo), most(BufferReads::Image))
-                                     : most(wanted);
 }
 
 ReadChoice chooseReads(BufferReads wanted, bool software, const GpuScene& scene, const ReadLimits& limits) {

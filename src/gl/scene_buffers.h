@@ -43,9 +43,6 @@ struct ReadLimits {
 /// The limits of the current context.
 ReadLimits readLimits();
 
-/// Bytes of texels that can be read in the way asked for; for Auto, in the way that reads the most.
-int64_t mostTexelBytes(BufferReads wanted, const ReadLimits& limits);
-
 struct ReadChoice {
   BufferReads reads = BufferReads::Ssbo;
   std::string fallback;  ///< why it is not the read that is fastest on this driver; empty when it is

@@ -16,6 +16,8 @@ std::vector<OptionRow> deviceRows() {
              kBackendNames, {.effect = Effect::Method, .renewal = Renewal::Program, .kept = true}),
       choice("--buffer-reads", "how the shader reads the scene", FRAGTRACE_MEMBER(device.bufferReads),
              kBufferReadsNames, kProgram),
+      choice("--texture-reads", "how the shader reads textures: as words of buffers, or from array textures",
+             FRAGTRACE_MEMBER(device.textureReads), kTextureReadsNames, kLoading),
       choice("--dispatch", "which shader stage runs the tracer", FRAGTRACE_MEMBER(device.dispatch),
              kDispatchNames, kProgram),
       choice("--tune", "which kind of driver the shaders' text suits; the picture is the same",

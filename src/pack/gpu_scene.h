@@ -10,6 +10,7 @@
 
 #include "bvh/bvh.h"
 #include "image/image.h"
+#include "pack/texture_plan.h"
 #include "scene/scene.h"
 #include "scene/sky/map_sun.h"
 #include "scene/sky/sky.h"
@@ -55,11 +56,25 @@ float environmentChance(const LightShare& share, double intensity);
 /// The probability that a light path begins at the sun.
 float sunChance(const LightShare& share, double intensity);
 
-/// A grid of densities among the texels.
+/// A decoded picture: its texels in words, of which two are one where it is wide.
+struct PackedPicture {
+  uint32_t image = 0;  ///< index of the scene's image
+  bool wide = false;
+  Words words;
+};
+
+/// What is known of a picture once it was decoded: mean colour and alpha, linear, if its values are numbers
+/// and if they are colours in sRGB.
+struct PictureFacts {
+  bool isBroken = false;  ///< it cannot be decoded
+  glm::vec4 meanNumber{1.0f};
+  glm::vec4 meanColor{1.0f};
+};
+
+/// A grid of densities in its array.
 struct PackedGrid {
   glm::dmat4 fromFile{1.0};  ///< maps the file's space to bricks of the table
   glm::ivec3 bricks{0};      ///< size of the table
-  uint32_t firstTexel = 0;   ///< first texel of the table
   double largest = 0.0;      ///< density
   double brightest = 0.0;    ///< radiance
 };
@@ -84,6 +99,8 @@ struct GpuScene {
       0.0f};  ///< irradiance by the environment of a plane that faces up, for shadow catchers
   /// The arrays that are the same as packed before: these are empty here.
   std::array<bool, layout::kSceneBufferCount> unchanged{};
+  TexturePlan textures{};
+  std::vector<PackedPicture> pictures{};      ///< of the plan; none where they are as packed before
   std::vector<std::string> brokenPictures{};  ///< why pictures cannot be decoded, a line for each
 
   size_t bytes() const;
@@ -96,13 +113,16 @@ struct KeptArrays;
 /// Told how many of how many pictures of the scene have been decoded. From any thread.
 using DecodeProgress = std::function<void(size_t decoded, size_t count)>;
 
-/// Packs the arrays that the variant reads. Textures wider or higher than `textureSide` are scaled down. The
-/// tree may be a plain list of leaves without nodes (iterative traversal). Textures that cannot be
-/// decoded are lost (settleLostTextures()); throws InputError where none can be. Pictures in `kept` are not
-/// packed again (GpuScene::unchanged); those that are packed are added to it.
+/// Packs the arrays that the variant reads, with the pictures of a plan that holds all of them. The tree may
+/// be a plain list of leaves without nodes (iterative traversal). Textures that cannot be decoded are lost
+/// (settleLostTextures()); throws InputError where none can be. Pictures in `kept` by the same plan are not
+/// packed again; those that are packed are added to it.
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
-                   const ShaderVariant& variant, int textureSide = kLargestTextureSide,
-                   KeptArrays* kept = nullptr, const DecodeProgress& progress = {});
+                   const ShaderVariant& variant, const TexturePlan& plan, KeptArrays* kept = nullptr,
+                   const DecodeProgress& progress = {});
+/// Does the same where pictures have endless room.
+GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
+                   const ShaderVariant& variant);
 
 /// Packs the surroundings alone, for a scene that is there: all other arrays are unchanged.
 GpuScene packSurroundings(const Bvh& bvh, const Environment& environment, const ShaderVariant& variant,

@@ -4,32 +4,22 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "pack/gpu_scene.h"
+#include "pack/texture_plan.h"
 #include "scene/scene.h"
 
 namespace fragtrace {
 
-/// The place of a picture among the texels, and its mean linear colour and alpha. One that cannot be decoded
-/// has no size.
-struct PlacedTexels {
-  uint32_t first = 0;
-  int width = 0;
-  int height = 0;
-  glm::vec4 mean{1.0f};
-};
-/// The key is the index of the scene's image, and the transfer curve.
-using PlacedTextures = std::map<std::pair<uint32_t, TransferCurve>, PlacedTexels>;
-
 struct KeptArrays {
   std::vector<std::pair<std::string, size_t>> images;  ///< names and sizes of the images packed
-  PlacedTextures textures;
-  const VolumeGrid* grid = nullptr;  ///< grid behind the arrays; it is only compared
+  TexturePlan textures;
+  std::vector<PictureFacts> pictures;  ///< by the index of the scene's image; empty: none was packed
+  const VolumeGrid* grid = nullptr;    ///< grid behind the arrays; it is only compared
   PackedGrid densities;
   struct KeptEnvironment {
     glm::ivec2 size{0};

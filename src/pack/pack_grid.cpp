@@ -50,10 +50,9 @@ size_t texelsOf(const VolumeGrid& grid) {
   return tableTexelsOf(grid) + grid.values.size() / kBrickVoxels * texelsPerBrick(grid);
 }
 
-PackedGrid appendGrid(const VolumeGrid& grid, Words& texels) {
+PackedGrid packGrid(const VolumeGrid& grid, Words& texels) {
   PackedGrid packed;
   packed.bricks = grid.bricks + 1;
-  packed.firstTexel = uint32_t(texels.size() / 2);
   packed.largest = grid.largest;
   packed.brightest = grid.brightest;
   const glm::dmat4 toBricks = glm::scale(glm::dmat4(1.0), glm::dvec3(1.0 / kBrickSide));
@@ -65,7 +64,7 @@ PackedGrid appendGrid(const VolumeGrid& grid, Words& texels) {
   for (size_t i = 0; i < stored; ++i) largest[i] = largestOf(&grid.values[i * kBrickVoxels]);
   const auto tableTexels = uint32_t(tableTexelsOf(grid));
   const auto perBrick = uint32_t(texelsPerBrick(grid));
-  texels.reserve(texels.size() + 2 * texelsOf(grid));
+  texels.reserve(2 * texelsOf(grid));
 
   for (int z = -1; z < grid.bricks.z; ++z) {
     for (int y = -1; y < grid.bricks.y; ++y) {

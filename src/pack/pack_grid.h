@@ -9,8 +9,8 @@ namespace fragtrace {
 /// Texels of 8 bytes that a grid takes on the device.
 size_t texelsOf(const VolumeGrid& grid);
 
-/// Appends the grid's table, which is larger by a brick before the first along each axis, and its bricks
-/// (shaders/media/volume.glsl).
-PackedGrid appendGrid(const VolumeGrid& grid, Words& texels);
+/// Fills an array with the grid's table, which is larger by a brick before the first along each axis, and its
+/// bricks (shaders/media/volume.glsl).
+PackedGrid packGrid(const VolumeGrid& grid, Words& texels);
 
 }  // namespace fragtrace

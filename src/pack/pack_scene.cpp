@@ -106,17 +106,6 @@ std::vector<uint32_t> solidFlags(const Scene& scene) {
   return flags;
 }
 
-/// Rows of traitRows(), looked up once.
-const std::array<const TraitRow*, layout::kSlotCount>& traitsOfSlots() {
-  static_assert(kTextureRefs.size() == layout::kSlotCount + 1);  // occlusion has no slot
-  static const auto rows = [] {
-    std::array<const TraitRow*, layout::kSlotCount> found{};
-    for (size_t slot = 0; slot < found.size(); ++slot) found[slot] = &traitOfTexture(kTextureRefs[slot].ref);
-    return found;
-  }();
-  return rows;
-}
-
 /// The rows of extensions.
 void appendLayers(Words& words, const Material& m, TexturePacker& textures) {
   appendRow(words,
@@ -136,10 +125,8 @@ void appendLayers(Words& words, const Material& m, TexturePacker& textures) {
 Words slotsOf(const Material& m, const TraitSet& traits, TexturePacker& textures) {
   Words words;
   for (uint32_t slot = 0; slot < layout::kSlotCount; ++slot) {
-    const auto& [ref, curve] = kTextureRefs[slot];
-    const TraitRow& row = *traitsOfSlots()[slot];
-    const bool read = has(traits, row.trait) && isOfMaterial(row, m, Coordinates{});
-    const glm::uvec4 use = read ? textures.slot(m.*ref, curve) : glm::uvec4(0u);
+    const glm::uvec4 use =
+        readsTexture(slot, m, traits) ? textures.slot(m.*kTextureRefs[slot].ref) : glm::uvec4(0u);
     words.insert(words.end(), {use.x, use.y, use.z, use.w});
   }
   return words;
@@ -222,7 +209,7 @@ std::vector<glm::vec3> meanRadiance(const Scene& scene, const TraitSet& traits, 
 size_t GpuScene::bytes() const {
   size_t words = 0;
   for (const Words& buffer : buffers) words += buffer.size();
-  return words * sizeof(uint32_t);
+  return words * sizeof(uint32_t) + (pictures.empty() ? 0 : textures.bytes());
 }
 
 size_t GpuScene::geometryBytes() const {
@@ -327,6 +314,36 @@ void packMaterials(const Scene& scene, const Bvh& bvh, const ShaderVariant& vari
   if (has(variant.traits, Trait::ObjectNumbers)) appendObjectNumbers(scene, bvh, materials);
 }
 
+/// Decodes the pictures of the plan, unless they are on the device by the same plan.
+TexturePacker packTextures(const Scene& scene, const TexturePlan& plan, KeptArrays* kept,
+                           const DecodeProgress& progress, GpuScene& packed) {
+  const bool keeps =
+      kept != nullptr && kept->images == imagesOf(scene) && kept->textures.places == plan.places;
+  TexturePacker textures(scene, plan, keeps ? kept->pictures : std::vector<PictureFacts>(), progress);
+  packed.textures = plan;
+  packed.pictures = textures.takePictures();
+  packed.brokenPictures = textures.takeBroken();
+  if (kept == nullptr) return textures;
+  kept->images = imagesOf(scene);
+  kept->textures = plan;
+  kept->pictures = textures.facts();
+  return textures;
+}
+
+/// The grid of densities, unless it is on the device.
+void packVolume(const Scene& scene, const TraitSet& traits, KeptArrays* kept, GpuScene& packed) {
+  const VolumeGrid* grid = has(traits, Trait::DensityGrid) ? scene.volume.grid.get() : nullptr;
+  if (kept != nullptr && grid != nullptr && kept->grid == grid) {
+    packed.unchanged[layout::kBricksBinding] = true;
+    packed.densities = kept->densities;
+    return;
+  }
+  if (grid != nullptr) packed.densities = packGrid(*grid, packed.buffers[layout::kBricksBinding]);
+  if (kept == nullptr) return;
+  kept->grid = grid;
+  kept->densities = packed.densities;
+}
+
 /// Tree, leaves, faces and vertices, unless they are on the device as they are.
 void packGeometry(const Scene& scene, const Bvh& bvh, const TraitSet& traits, bool kept, GpuScene& packed) {
   using namespace layout;
@@ -356,7 +373,7 @@ GpuScene packSurroundings(const Bvh& bvh, const Environment& environment, const 
 }
 
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
-                   const ShaderVariant& variant, int textureSide, KeptArrays* kept,
+                   const ShaderVariant& variant, const TexturePlan& plan, KeptArrays* kept,
                    const DecodeProgress& progress) {
   using namespace layout;
   GpuScene packed;
@@ -365,14 +382,10 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   packed.leafCount = uint32_t(bvh.leaves.size());
   packed.segments = segmentsOf(scene, bvh);
   const double radius = radiusOf(bvh);
-  const bool keepsGeometry = kept != nullptr && kept->geometry;
-  packGeometry(scene, bvh, traits, keepsGeometry, packed);
+  packGeometry(scene, bvh, traits, kept != nullptr && kept->geometry, packed);
 
   // Step: lights; the environment shares light samples with the rest by power.
-  const VolumeGrid* grid = has(traits, Trait::DensityGrid) ? scene.volume.grid.get() : nullptr;
-  if (kept != nullptr && (kept->images != imagesOf(scene) || kept->grid != grid))
-    *kept = {imagesOf(scene), {}, grid, {}, kept->environment, kept->geometry};
-  TexturePacker textures(scene, textureSide, kept != nullptr ? kept->textures : PlacedTextures(), progress);
+  TexturePacker textures = packTextures(scene, plan, kept, progress, packed);
   const std::vector<glm::vec3> radiance = meanRadiance(scene, traits, textures);
   std::vector<uint32_t> slots;
   if (has(traits, Trait::EmissiveTriangles)) slots = leafSlots(scene, bvh);
@@ -398,23 +411,13 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   }
 
   packMaterials(scene, bvh, variant, emitters.materialPdf, casters, textures, packed);
-  packed.brokenPictures = textures.takeBroken();
-  if (kept != nullptr && (keepsGeometry || !kept->textures.empty())) {
-    if (!textures.allKnown()) {  // one that no picture before has shown: all of them are placed again
-      kept->textures.clear();
-      kept->geometry = false;
-      if (!packed.unchanged[kEnvironmentBinding]) kept->environment.reset();
-      return packScene(scene, bvh, environment, variant, textureSide, kept, progress);
-    }
-    packed.unchanged[kTexelsBinding] = true;
-    packed.densities = kept->densities;
-    return packed;
-  }
-  packed.buffers[kTexelsBinding] = textures.takeTexels();
-  if (grid != nullptr) packed.densities = appendGrid(*grid, packed.buffers[kTexelsBinding]);
-  if (kept != nullptr) kept->textures = textures.placed();
-  if (kept != nullptr) kept->densities = packed.densities;
+  packVolume(scene, traits, kept, packed);
   return packed;
+}
+
+GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
+                   const ShaderVariant& variant) {
+  return packScene(scene, bvh, environment, variant, planTextures(scene, variant.traits));
 }
 
 }  // namespace fragtrace

@@ -14,155 +14,150 @@ namespace fragtrace {
 
 namespace {
 
-struct CurveTable {
-  std::vector<uint16_t> half;
-  std::vector<float> linear;
-
-  explicit CurveTable(TransferCurve curve) : half(65536), linear(65536) {
-    for (int i = 0; i < 65536; ++i) {
-      const double x = i / 65535.0;
-      linear[i] = float(curve == TransferCurve::Srgb ? decodeSrgb(x) : x);
-      half[i] = glm::packHalf1x16(linear[i]);
+/// The linear values of all stored ones.
+template <typename Value>
+const std::vector<float>& linearValues(TransferCurve curve) {
+  constexpr size_t kCount = size_t(std::numeric_limits<Value>::max()) + 1;
+  const auto make = [](bool srgb) {
+    std::vector<float> values(kCount);
+    for (size_t i = 0; i < kCount; ++i) {
+      const double x = double(i) / double(kCount - 1);
+      values[i] = float(srgb ? decodeSrgb(x) : x);
     }
-  }
-};
-
-const CurveTable& curveTable(TransferCurve curve) {
-  static const CurveTable linear(TransferCurve::Linear);
+    return values;
+  };
+  static const std::vector<float> linear = make(false);
   if (curve == TransferCurve::Linear) return linear;
-  static const CurveTable srgb(TransferCurve::Srgb);
+  static const std::vector<float> srgb = make(true);
   return srgb;
 }
 
-/// The texels with 16 bits a channel.
-TexelImage widened(TexelImage texels) {
-  const auto* narrow = std::get_if<std::span<const uint8_t>>(&texels.rgba);
-  if (narrow == nullptr) return texels;
-  const auto wide = std::make_shared<std::vector<uint16_t>>(narrow->begin(), narrow->end());
-  for (uint16_t& value : *wide) value *= 257;
-  return {texels.width, texels.height, std::span<const uint16_t>(*wide), wide};
+TransferCurve curveOf(TransferCurve ofColor, size_t channel) {
+  return channel < 3 ? ofColor : TransferCurve::Linear;
+}
+
+template <typename Value>
+Value stored(double linear, TransferCurve curve) {
+  constexpr double kOne = std::numeric_limits<Value>::max();
+  return Value(std::lround((curve == TransferCurve::Srgb ? encodeSrgb(linear) : linear) * kOne));
 }
 
 uint32_t wrapFlags(Wrap wrap, uint32_t clamp, uint32_t mirror) {
   return wrap == Wrap::ClampToEdge ? clamp : wrap == Wrap::MirroredRepeat ? mirror : 0u;
 }
 
-/// Scales the size down until both sides are at most `side`.
-glm::ivec2 within(glm::ivec2 size, int side) {
-  const int larger = std::max(size.x, size.y);
-  if (larger <= side) return size;
-  const double scale = double(side) / larger;
-  return glm::max(glm::ivec2(glm::round(glm::dvec2(size) * scale)), glm::ivec2(1));
+/// How often each channel has each value.
+template <typename Value>
+using Histogram = std::array<std::vector<uint32_t>, 4>;
+
+template <typename Value>
+glm::vec4 meanOf(std::span<const Value> rgba, TransferCurve curve) {
+  std::array<std::vector<uint32_t>, 4> counts;
+  for (auto& channel : counts) channel.resize(size_t(std::numeric_limits<Value>::max()) + 1);
+  for (size_t i = 0; i < rgba.size(); ++i) ++counts[i & 3][rgba[i]];
+  glm::dvec4 sum(0.0);
+  for (size_t channel = 0; channel < 4; ++channel) {
+    const std::vector<float>& linear = linearValues<Value>(curveOf(curve, channel));
+    for (size_t i = 0; i < linear.size(); ++i) sum[int(channel)] += double(counts[channel][i]) * linear[i];
+  }
+  return glm::vec4(sum / double(std::max<size_t>(rgba.size() / 4, 1)));
 }
 
-/// The bytes of all pictures of the scene, each scaled down to at most `side`.
-int64_t bytesWithin(const Scene& scene, int side) {
-  constexpr int64_t kTexelBytes = 8;
-  int64_t sum = 0;
-  for (const EncodedImage& image : scene.images) {
-    const glm::ivec2 size = within({image.width, image.height}, side);
-    sum += int64_t(size.x) * size.y * kTexelBytes;
+/// Each texel is the mean of those that it replaces, in linear light, rounded to their bits again.
+template <typename Value>
+std::vector<Value> scaled(std::span<const Value> rgba, glm::ivec2 from, glm::ivec2 to, TransferCurve curve) {
+  const auto begin = [](int i, int stored, int drawn) { return int(int64_t(i) * stored / drawn); };
+  std::vector<Value> result;
+  result.reserve(size_t(to.x) * size_t(to.y) * 4);
+  for (int y = 0; y < to.y; ++y) {
+    const int top = begin(y, from.y, to.y);
+    const int bottom = std::max(begin(y + 1, from.y, to.y), top + 1);
+    for (int x = 0; x < to.x; ++x) {
+      const int left = begin(x, from.x, to.x);
+      const int right = std::max(begin(x + 1, from.x, to.x), left + 1);
+      glm::dvec4 sum(0.0);
+      for (int v = top; v < bottom; ++v) {
+        for (int u = left; u < right; ++u) {
+          const Value* t = &rgba[(size_t(v) * size_t(from.x) + size_t(u)) * 4];
+          for (size_t c = 0; c < 4; ++c) sum[int(c)] += linearValues<Value>(curveOf(curve, c))[t[c]];
+        }
+      }
+      sum /= double((bottom - top) * (right - left));
+      for (size_t c = 0; c < 4; ++c) result.push_back(stored<Value>(sum[int(c)], curveOf(curve, c)));
+    }
   }
-  return sum;
+  return result;
+}
+
+/// The words of a picture's texels: the values as they are in memory.
+template <typename Value>
+Words wordsOf(std::span<const Value> rgba) {
+  Words words(rgba.size_bytes() / sizeof(uint32_t));
+  std::copy_n(reinterpret_cast<const uint8_t*>(rgba.data()), rgba.size_bytes(),
+              reinterpret_cast<uint8_t*>(words.data()));
+  return words;
 }
 
 }  // namespace
 
-int textureSideWithin(const Scene& scene, int64_t mostBytes) {
-  int side = kLargestTextureSide;
-  while (side > 1 && bytesWithin(scene, side) > mostBytes) side = side * 3 / 4;
-  return side;
+TexturePacker::TexturePacker(const Scene& scene, const TexturePlan& plan, std::vector<PictureFacts> known,
+                             const DecodeProgress& progress)
+    : scene_(scene), plan_(plan), facts_(std::move(known)) {
+  if (!facts_.empty()) return;
+  facts_.resize(plan.places.size());
+  const auto isUsed = [](const TexturePlace& place) { return place.size.x > 0; };
+  const auto count = size_t(std::ranges::count_if(plan.places, isUsed));
+  size_t decoded = 0;
+  for (uint32_t image = 0; image < plan.places.size(); ++image) {
+    if (!isUsed(plan.places[image])) continue;
+    decode(image);
+    if (progress) progress(++decoded, count);
+  }
 }
 
-const PlacedTexels& TexturePacker::place(uint32_t image, TransferCurve curve) {
-  const auto [entry, isNew] = placed_.try_emplace({image, curve});
-  PlacedTexels& placed = entry->second;
-  if (!isNew) return placed;
+void TexturePacker::decode(uint32_t image) {
   const EncodedImage& encoded = scene_.images[image];
+  const TexturePlace& place = plan_.places[image];
+  PictureFacts& facts = facts_[image];
   TexelImage texels;
   try {
-    texels = widened(decodeTexels(encoded.bytes, nameOf(encoded)));
+    texels = decodeTexels(encoded.bytes, nameOf(encoded));
   } catch (const InputError& error) {
     if (!whyNoPictures().empty()) throw;
     if (std::ranges::find(broken_, error.what()) == broken_.end()) broken_.emplace_back(error.what());
-    return placed;
+    facts.isBroken = true;
+    return;
   }
-  placed.first = uint32_t(texels_.size() / 2);
-  const glm::ivec2 stored(texels.width, texels.height);
-  const glm::ivec2 size =
-      within(encoded.width > 0 ? glm::ivec2(encoded.width, encoded.height) : stored, side_);
-  placed.width = size.x;
-  placed.height = size.y;
-  const size_t count = size_t(placed.width) * size_t(placed.height);
-  if (texels_.empty()) texels_.reserve(size_t(bytesWithin(scene_, side_)) / sizeof(uint32_t));
-  const glm::dvec4 sum = size == stored ? append(texels, curve) : appendScaled(texels, curve, size);
-  ++decoded_;
-  if (progress_) progress_(std::min(decoded_, scene_.images.size()), scene_.images.size());
-  placed.mean = glm::vec4(sum / double(std::max<size_t>(count, 1)));
-  return placed;
+  const glm::ivec2 size(texels.width, texels.height);
+  std::visit(
+      [&](auto rgba) {
+        facts.meanNumber = meanOf(rgba, TransferCurve::Linear);
+        facts.meanColor = meanOf(rgba, TransferCurve::Srgb);
+        const TransferCurve curve = place.isColor ? TransferCurve::Srgb : TransferCurve::Linear;
+        pictures_.push_back({image, place.wide, {}});
+        pictures_.back().words = size == place.size
+                                     ? wordsOf(rgba)
+                                     : wordsOf(decltype(rgba)(scaled(rgba, size, place.size, curve)));
+      },
+      texels.rgba);
 }
 
-glm::dvec4 TexturePacker::append(const TexelImage& texels, TransferCurve curve) {
-  const CurveTable& color = curveTable(curve);
-  const CurveTable& alpha = curveTable(TransferCurve::Linear);
-  glm::dvec4 sum(0.0);
-  const size_t first = texels_.size();
-  const auto rgba = std::get<std::span<const uint16_t>>(texels.rgba);
-  texels_.resize(first + rgba.size() / 2);
-  uint32_t* word = texels_.data() + first;
-  for (size_t i = 0; i < rgba.size(); i += 4) {
-    const uint16_t* t = &rgba[i];
-    *word++ = uint32_t(color.half[t[0]]) | uint32_t(color.half[t[1]]) << 16;
-    *word++ = uint32_t(color.half[t[2]]) | uint32_t(alpha.half[t[3]]) << 16;
-    sum += glm::dvec4(color.linear[t[0]], color.linear[t[1]], color.linear[t[2]], alpha.linear[t[3]]);
-  }
-  return sum;
-}
-
-glm::dvec4 TexturePacker::appendScaled(const TexelImage& texels, TransferCurve curve, glm::ivec2 size) {
-  const CurveTable& color = curveTable(curve);
-  const CurveTable& alpha = curveTable(TransferCurve::Linear);
-  const auto rgba = std::get<std::span<const uint16_t>>(texels.rgba);
-  const auto begin = [](int i, int from, int to) { return int(int64_t(i) * from / to); };
-  glm::dvec4 total(0.0);
-  for (int y = 0; y < size.y; ++y) {
-    const int top = begin(y, texels.height, size.y);
-    const int bottom = begin(y + 1, texels.height, size.y);
-    for (int x = 0; x < size.x; ++x) {
-      const int left = begin(x, texels.width, size.x);
-      const int right = begin(x + 1, texels.width, size.x);
-      glm::vec4 sum(0.0f);
-      for (int v = top; v < bottom; ++v) {
-        for (int u = left; u < right; ++u) {
-          const uint16_t* t = &rgba[(size_t(v) * size_t(texels.width) + size_t(u)) * 4];
-          sum += glm::vec4(color.linear[t[0]], color.linear[t[1]], color.linear[t[2]], alpha.linear[t[3]]);
-        }
-      }
-      const glm::vec4 mean = sum / float((bottom - top) * (right - left));
-      texels_.push_back(glm::packHalf2x16(glm::vec2(mean)));
-      texels_.push_back(glm::packHalf2x16(glm::vec2(mean.z, mean.w)));
-      total += glm::dvec4(mean);
-    }
-  }
-  return total;
-}
-
-glm::uvec4 TexturePacker::slot(const TextureRef& ref, TransferCurve curve) {
+glm::uvec4 TexturePacker::slot(const TextureRef& ref) {
   if (!ref.present()) return glm::uvec4(0u);
   const Texture& texture = scene_.textures[ref.texture];
-  if (texture.image == kMissIndex) return glm::uvec4(0u);
-  const PlacedTexels& placed = place(texture.image, curve);
-  if (placed.width == 0) return glm::uvec4(0u);
-  uint32_t flags = layout::kTexturePresent;
+  if (texture.image == kMissIndex || facts_[texture.image].isBroken) return glm::uvec4(0u);
+  const TexturePlace& place = plan_.places[texture.image];
+  uint32_t flags = layout::kTexturePresent | place.number << layout::kTexturePlaceShift;
+  if (place.wide) flags |= layout::kTextureWide;
   if (texture.linear) flags |= layout::kTextureLinear;
   if (ref.texcoord == 1) flags |= layout::kTextureTexcoord1;
   flags |= wrapFlags(texture.wrapU, layout::kTextureClampU, layout::kTextureMirrorU);
   flags |= wrapFlags(texture.wrapV, layout::kTextureClampV, layout::kTextureMirrorV);
-  return {placed.first, uint32_t(placed.width) | uint32_t(placed.height) << 16, flags,
+  return {place.first, uint32_t(place.size.x) | uint32_t(place.size.y) << 16, flags,
           ref.transformed() ? transformRow(ref.transform) : 0u};
 }
 
-glm::vec3 TexturePacker::meanRadiance(const Material& m) {
+glm::vec3 TexturePacker::meanRadiance(const Material& m) const {
   const glm::vec3 mean(this->mean(m.emissiveTexture, TransferCurve::Srgb));
   const Material settled = withoutBroken(m);
   return settled.emissiveFactor * settled.emissiveStrength * mean;
@@ -172,9 +167,8 @@ Material TexturePacker::withoutBroken(Material m) const {
   bool isBroken = false;
   for (const TextureRefRow& row : kTextureRefs) {
     TextureRef& ref = m.*row.ref;
-    if (!ref.present()) continue;
-    const auto placed = placed_.find({scene_.textures[ref.texture].image, row.curve});
-    if (placed == placed_.end() || placed->second.width > 0) continue;
+    if (!ref.present() || scene_.textures[ref.texture].image == kMissIndex) continue;
+    if (!facts_[scene_.textures[ref.texture].image].isBroken) continue;
     ref = {.lost = true};
     isBroken = true;
   }
@@ -197,9 +191,21 @@ void TexturePacker::appendTransforms(Words& materials) const {
   }
 }
 
-glm::vec4 TexturePacker::mean(const TextureRef& ref, TransferCurve curve) {
+glm::vec4 TexturePacker::mean(const TextureRef& ref, TransferCurve curve) const {
   if (!ref.present() || scene_.textures[ref.texture].image == kMissIndex) return glm::vec4(1.0f);
-  return place(scene_.textures[ref.texture].image, curve).mean;
+  const PictureFacts& facts = facts_[scene_.textures[ref.texture].image];
+  return curve == TransferCurve::Srgb ? facts.meanColor : facts.meanNumber;
+}
+
+glm::vec4 texelOf(const PackedPicture& picture, size_t texel, TransferCurve curve) {
+  const auto valueOf = [&](auto zero) {
+    using Value = decltype(zero);
+    const auto* rgba = reinterpret_cast<const Value*>(picture.words.data()) + 4 * texel;
+    glm::vec4 value;
+    for (size_t c = 0; c < 4; ++c) value[int(c)] = linearValues<Value>(curveOf(curve, c))[rgba[c]];
+    return value;
+  };
+  return picture.wide ? valueOf(uint16_t{}) : valueOf(uint8_t{});
 }
 
 }  // namespace fragtrace

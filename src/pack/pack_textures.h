@@ -3,35 +3,26 @@
 
 #include "image/image.h"
 #include "pack/gpu_scene.h"
-#include "pack/kept_arrays.h"
+#include "pack/texture_plan.h"
 
 namespace fragtrace {
 
-/// Returns the largest width and height at which all of the scene's pictures together take at most
-/// `mostBytes`.
-int textureSideWithin(const Scene& scene, int64_t mostBytes);
-
-/// Decodes textures on demand into one array of texels (RGBA as linear half floats). An image is decoded once
-/// for each transfer curve with which the scene uses it.
+/// Decodes the pictures of a plan, and writes the rows of materials that use them.
 class TexturePacker {
  public:
-  /// Pictures wider or higher than `side` are scaled down to it. The array already holds `known`, of a scene
-  /// with the same images; as long as no other picture is asked for, nothing is decoded.
-  TexturePacker(const Scene& scene, int side, PlacedTextures known = {}, DecodeProgress progress = {})
-      : scene_(scene),
-        side_(side),
-        placed_(std::move(known)),
-        known_(placed_.size()),
-        progress_(std::move(progress)) {}
+  /// Decodes each picture that has a place. `known` are facts of the same pictures, which were decoded
+  /// before: then nothing is decoded. Throws InputError where no picture can be decoded.
+  TexturePacker(const Scene& scene, const TexturePlan& plan, std::vector<PictureFacts> known = {},
+                const DecodeProgress& progress = {});
 
   /// The slot row (shaders/layout.glsl) of a use of a texture; all zero for none.
-  glm::uvec4 slot(const TextureRef& ref, TransferCurve curve);
+  glm::uvec4 slot(const TextureRef& ref);
 
   /// Mean of a texture's linear colour and alpha, 1 for none.
-  glm::vec4 mean(const TextureRef& ref, TransferCurve curve);
+  glm::vec4 mean(const TextureRef& ref, TransferCurve curve) const;
 
   /// Mean radiance of a material.
-  glm::vec3 meanRadiance(const Material& m);
+  glm::vec3 meanRadiance(const Material& m) const;
 
   /// The material with textures as lost whose pictures could not be decoded.
   Material withoutBroken(Material m) const;
@@ -39,30 +30,23 @@ class TexturePacker {
   /// Appends the rows of the transforms, which come after those of all materials.
   void appendTransforms(Words& materials) const;
 
-  Words takeTexels() { return std::move(texels_); }
-  const PlacedTextures& placed() const { return placed_; }
+  std::vector<PackedPicture> takePictures() { return std::move(pictures_); }
   std::vector<std::string> takeBroken() { return std::move(broken_); }
-  /// Returns true if all were known.
-  bool allKnown() const { return placed_.size() == known_; }
+  const std::vector<PictureFacts>& facts() const { return facts_; }
 
  private:
-  const PlacedTexels& place(uint32_t image, TransferCurve curve);
-  /// Both append the texels and return the sum of their linear colours.
-  glm::dvec4 append(const TexelImage& texels, TransferCurve curve);
-  /// Each texel is the mean of those that it replaces, in linear light.
-  glm::dvec4 appendScaled(const TexelImage& texels, TransferCurve curve, glm::ivec2 size);
-
-  const Scene& scene_;
-  int side_;
-  PlacedTextures placed_;
-  size_t known_;
-  DecodeProgress progress_;
-  size_t decoded_ = 0;
-  std::vector<std::string> broken_;  ///< the reasons
+  void decode(uint32_t image);
   uint32_t transformRow(const TextureTransform& transform);
 
+  const Scene& scene_;
+  const TexturePlan& plan_;
+  std::vector<PictureFacts> facts_;
+  std::vector<PackedPicture> pictures_;
+  std::vector<std::string> broken_;  ///< the reasons
   std::vector<TextureTransform> transforms_;
-  Words texels_;
 };
+
+/// The linear colour and alpha of a texel of a picture, by its number in the picture.
+glm::vec4 texelOf(const PackedPicture& picture, size_t texel, TransferCurve curve);
 
 }  // namespace fragtrace

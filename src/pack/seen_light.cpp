@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
-#include <glm/gtc/packing.hpp>
 #include <glm/gtx/component_wise.hpp>
 
 #include "base/parallel.h"
@@ -67,7 +66,8 @@ struct SurfacePoint {
 
 /// A textured surface that emits: its picture, coarse.
 struct EmissivePicture {
-  glm::uvec4 slot{0u};
+  const PackedPicture* picture = nullptr;
+  glm::ivec2 size{0};
   glm::vec3 mean{0.0f};  ///< radiance
 };
 
@@ -98,7 +98,7 @@ class LightEstimator {
   const Scene& scene_;
   ExactTracer tracer_;
   std::vector<EmissivePicture> pictures_;  ///< by material
-  Words texels_;
+  std::vector<PackedPicture> texels_;
   std::vector<Emitter> emitters_;
 };
 
@@ -128,13 +128,22 @@ LightEstimator::LightEstimator(const SeenScene& seen)
         areas[size_t(&m - scene_.materials.data())] += area;
     }
     if (adds) break;
-    TexturePacker packer(scene_, kSide);
+    TraitSet traits;
+    traits.set(size_t(Trait::EmissionTexture), seen.readsTextures);
+    const TexturePlan plan = planTextures(scene_, traits, {.side = kSide});
+    TexturePacker packer(scene_, plan);
+    texels_ = packer.takePictures();
     for (size_t i = 0; i < areas.size(); ++i) {
       if (areas[i] <= 0.0) continue;
       const Material& m = scene_.materials[i];
-      pictures_[i] = {packer.slot(m.emissiveTexture, TransferCurve::Srgb), packer.meanRadiance(m)};
+      pictures_[i].mean = packer.meanRadiance(m);
+      if (!m.emissiveTexture.present()) continue;
+      const uint32_t image = scene_.textures[m.emissiveTexture.texture].image;
+      const auto found = std::ranges::find(texels_, image, &PackedPicture::image);
+      if (found == texels_.end()) continue;
+      pictures_[i].picture = &*found;
+      pictures_[i].size = plan.places[image].size;
     }
-    texels_ = packer.takeTexels();
   }
 }
 
@@ -192,21 +201,19 @@ glm::dvec3 LightEstimator::between(const SurfacePoint& from, const glm::dvec3& t
   return glm::dvec3(0.0);
 }
 
-/// The texel that the place of a texture lies in, as bits of half floats.
-glm::vec3 coarseTexel(const Words& texels, const glm::uvec4& slot, const glm::vec2& uv) {
-  const auto along = [&](float x, int count, uint32_t clamps, uint32_t mirrors) {
-    if ((slot.z & clamps) != 0) return std::clamp(int(std::floor(x * float(count))), 0, count - 1);
+/// The linear colour of the texel that the place of a texture lies in.
+glm::vec3 coarseTexel(const EmissivePicture& emissive, const Texture& texture, const glm::vec2& uv) {
+  const auto along = [](float x, int count, Wrap wrap) {
+    if (wrap == Wrap::ClampToEdge) return std::clamp(int(std::floor(x * float(count))), 0, count - 1);
     const float turns = std::floor(x);
     float part = x - turns;
-    if ((slot.z & mirrors) != 0 && std::fmod(std::abs(turns), 2.0f) == 1.0f) part = 1.0f - part;
+    if (wrap == Wrap::MirroredRepeat && std::fmod(std::abs(turns), 2.0f) == 1.0f) part = 1.0f - part;
     return std::clamp(int(part * float(count)), 0, count - 1);
   };
-  const int width = int(slot.y & 0xffffu);
-  const int height = int(slot.y >> 16);
-  const int x = along(uv.x, width, layout::kTextureClampU, layout::kTextureMirrorU);
-  const int y = along(uv.y, height, layout::kTextureClampV, layout::kTextureMirrorV);
-  const size_t word = 2 * (size_t(slot.x) + size_t(y) * size_t(width) + size_t(x));
-  return {glm::unpackHalf2x16(texels[word]), glm::unpackHalf2x16(texels[word + 1]).x};
+  const int x = along(uv.x, emissive.size.x, texture.wrapU);
+  const int y = along(uv.y, emissive.size.y, texture.wrapV);
+  const size_t texel = size_t(y) * size_t(emissive.size.x) + size_t(x);
+  return glm::vec3(texelOf(*emissive.picture, texel, TransferCurve::Srgb));
 }
 
 glm::dvec3 LightEstimator::emissionAt(uint32_t primitive, const glm::dvec3& place) const {
@@ -215,7 +222,7 @@ glm::dvec3 LightEstimator::emissionAt(uint32_t primitive, const glm::dvec3& plac
   const Vertices& vertices = scene_.vertices;
   const std::vector<glm::vec2>& uv =
       m.emissiveTexture.texcoord == 1 ? vertices.texcoord1 : vertices.texcoord0;
-  if (picture.slot.y == 0u || primitive >= scene_.triangles.size() || uv.empty())
+  if (picture.picture == nullptr || primitive >= scene_.triangles.size() || uv.empty())
     return glm::dvec3(picture.mean);
   const Triangle& t = scene_.triangles[primitive];
   const auto [a, b, c] = cornersOf<glm::dvec3>(scene_, t);
@@ -226,7 +233,8 @@ glm::dvec3 LightEstimator::emissionAt(uint32_t primitive, const glm::dvec3& plac
   const double w = glm::dot(glm::cross(b - a, place - a), normal) / size;
   const glm::vec2 at =
       float(1.0 - v - w) * uv[t.vertex.x] + float(v) * uv[t.vertex.y] + float(w) * uv[t.vertex.z];
-  const glm::vec3 texel = coarseTexel(texels_, picture.slot, m.emissiveTexture.transform.of(at));
+  const glm::vec3 texel =
+      coarseTexel(picture, scene_.textures[m.emissiveTexture.texture], m.emissiveTexture.transform.of(at));
   return glm::dvec3(m.emissiveFactor) * double(m.emissiveStrength) * glm::dvec3(texel);
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kBlock = 8;          // pixels a side that share one number of samples
+constexpr int kBlockSide = 8;      // pixels a side that share one number of samples
 constexpr int kTile = 256;         // pixels per side of one draw
 constexpr int kFirstSamples = 32;  // samples of each half
 
@@ -69,9 +69,11 @@ struct Blocks {
 
   explicit Blocks(glm::ivec2 pictureSize)
       : picture(pictureSize),
-        size((pictureSize + (kBlock - 1)) / kBlock),
+        size((pictureSize + (kBlockSide - 1)) / kBlockSide),
         blocks(size_t(size.x) * size_t(size.y)) {}
-  Block& ofPixel(int x, int y) { return blocks[size_t(y / kBlock) * size_t(size.x) + size_t(x / kBlock)]; }
+  Block& ofPixel(int x, int y) {
+    return blocks[size_t(y / kBlockSide) * size_t(size.x) + size_t(x / kBlockSide)];
+  }
 };
 
 void weigh(Blocks& blocks, const FilmPixels& pixels, const std::vector<double>& errors, double noise) {

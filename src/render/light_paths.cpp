@@ -16,7 +16,7 @@ constexpr int kSoftwarePathsPerLane = 16;
 constexpr int kMargin = 4;  // pixels about the film; filters reach 2
 
 /// Samples of a sequence that have kPixelsPerPath: a picture that moves has few more.
-constexpr int kFirstSamples = 4;
+constexpr int kFirstLightSamples = 4;
 /// The small picture in which measurePixelsPerPath() measures.
 constexpr double kPilotPixels = 1024.0;
 constexpr int kPilotSamples = 16;
@@ -57,7 +57,7 @@ bool Renderer::addLightPaths(Film& film, const View& view, int passes, const GoO
   const glm::ivec2 whole = view.placement ? view.placement->whole : film.size();
   uint64_t before = 0;  // paths of the tiles before this one
   for (int pass = 0; pass < passes; ++pass) {
-    const bool first = view.sampleOffset + pass < kFirstSamples;
+    const bool first = view.sampleOffset + pass < kFirstLightSamples;
     if (!first && film.pixelsPerPath() == 0) {
       film.setPixelsPerPath(view.pixelsPerPath > 0 ? view.pixelsPerPath
                                                    : measurePixelsPerPath(view, whole, goOn, false));
@@ -98,7 +98,7 @@ int Renderer::measurePixelsPerPath(const View& view, glm::ivec2 picture, const G
   View pilot = view;
   pilot.placement.reset();
   pilot.seed = kPilotSeed;
-  pilot.sampleOffset = kFirstSamples;
+  pilot.sampleOffset = kFirstLightSamples;
   const GoOn stays = [&](double) { return goOn(0.0); };
   const auto drawCameraPaths = [&] {
     for (int i = 0; i < kPilotSamples; ++i) {

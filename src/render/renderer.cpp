@@ -66,7 +66,7 @@ layout::Volume packVolume(const Volume& volume, const PackedGrid& grid, const Lo
       glm::vec4(volume.source.color.value_or(glm::vec3(1.0f)), float(volume.source.anisotropy.value_or(0.0)));
   packed.extinction = glm::vec4(volume.source.density.value_or(1.0) * grid.largest * space.unit,
                                 volume.source.emission.value_or(0.0) * grid.brightest, 0.0, 0.0);
-  packed.table = glm::ivec4(grid.bricks, int(grid.firstTexel));
+  packed.table = glm::ivec4(grid.bricks, 0);
   return packed;
 }
 
@@ -99,11 +99,13 @@ Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads, Pr
   progressMapped_ =
       static_cast<const layout::Progress*>(glMapNamedBufferRange(progressRead_.name(), 0, kBytes, kRead));
   checkGl("making buffers");
+  textures_.replace(scene);
   describeScene(scene);
 }
 
 void Renderer::replaceScene(GpuScene scene) {
   buffers_.replace(scene);
+  textures_.replace(scene);
   describeScene(scene);
 }
 
@@ -178,6 +180,7 @@ DrawTarget Renderer::begin(const RenderPass& pass) {
   uploadFrame(0, sizeof frame_);
   pass.film.bind();
   buffers_.bind();
+  textures_.bind();
   const glm::ivec2 size = pass.film.size();
   glNamedFramebufferParameteri(target.framebuffer.name(), GL_FRAMEBUFFER_DEFAULT_WIDTH, size.x);
   glNamedFramebufferParameteri(target.framebuffer.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, size.y);

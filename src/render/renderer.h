@@ -14,6 +14,7 @@
 #include "gl/gl.h"
 #include "gl/program.h"
 #include "gl/scene_buffers.h"
+#include "gl/scene_textures.h"
 #include "image/region.h"
 #include "pack/guiding.h"
 #include "render/draw_plan.h"
@@ -119,6 +120,7 @@ class Renderer {
   /// are drawn: guiding stays as it was trained.
   void replaceArrays(GpuScene scene) {
     buffers_.replace(scene);
+    textures_.replace(scene);
     if (guidingPhotons_ > 0) buffers_.writeLastLights(lobes_);
   }
 
@@ -271,6 +273,7 @@ class Renderer {
 
   ProgramCache programs_;
   SceneBuffers buffers_;
+  SceneTextures textures_;
   std::map<ShaderVariant, Pace> paces_;
   Pace* pace_ = nullptr;  ///< pace of the variant that draws
   layout::Frame frame_{};

@@ -30,8 +30,9 @@ inline constexpr uint32_t kMissIndex = 0xffffffffu;
 struct EncodedImage {
   std::string name;  ///< a file path, or the place
   std::vector<uint8_t> bytes;
-  int width = 0;  ///< the decoded picture is scaled down to this; 0: it is not
+  int width = 0;  ///< the decoded picture is scaled down to this
   int height = 0;
+  int texelBits = 8;    ///< bits of a channel on the device: 8 or 16
   std::string place{};  ///< "scene.gltf: /images/0"
 };
 
@@ -41,8 +42,10 @@ inline std::string nameOf(const EncodedImage& image) {
   return isFile ? image.name + " (" + image.place + ")" : image.name;
 }
 
-/// The bytes of a picture on the device: four half floats per texel.
-inline size_t texelBytes(const EncodedImage& image) { return size_t(image.width) * size_t(image.height) * 8; }
+/// The bytes of a picture on the device.
+inline size_t texelBytes(const EncodedImage& image) {
+  return size_t(image.width) * size_t(image.height) * 4 * size_t(image.texelBits / 8);
+}
 
 enum class Wrap : uint8_t { Repeat, ClampToEdge, MirroredRepeat };
 

@@ -10,7 +10,7 @@
 #include "gl/driver_choice.h"
 #include "gl/schedule.h"
 #include "pack/literals.h"
-#include "pack/pack_textures.h"
+#include "pack/texture_plan.h"
 #include "scene/light_spread.h"
 #include "session/file_light.h"
 #include "session/outputs.h"
@@ -46,6 +46,11 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
   variant.literals = literalScene(loaded.scene, loaded.bvh, packed, variant);
 }
 
+void useTextures(const TexturePlan& textures, ShaderVariant& variant) {
+  variant.textureArrays = textures.reads == TexelReads::Arrays;
+  variant.texelBuffers = std::max(int(textures.sizes.size()), 1);
+}
+
 namespace {
 
 /// Settles the parts of a picture's variant that the packed scene and the driver decide. Returns why the
@@ -54,6 +59,7 @@ std::string settleVariant(ShaderVariant& variant, const LoadedScene& loaded, con
                           const RenderOptions& options, const Context& context, BufferReads reads) {
   useLiterals(loaded, packed, options, variant);
   variant.reads = reads;
+  useTextures(packed.textures, variant);
   variant.dispatch =
       chooseDispatch(options.device.dispatch, context, variant.traversal == TraversalMethod::Literals);
   variant.gpu = isForGpu(options.device.tune, context);
@@ -75,10 +81,13 @@ Phase buildProgram(ProgramCache& programs, const ShaderVariant& variant) {
 }
 
 /// Returns a hash of the hashes of all arrays. `arrays` already has those of unchanged arrays.
-uint64_t sceneHash(const GpuScene& scene, std::array<uint64_t, layout::kSceneBufferCount>& arrays) {
-  for (size_t i = 0; i < arrays.size(); ++i) {
+uint64_t sceneHash(const GpuScene& scene, ArrayHashes& arrays) {
+  for (size_t i = 0; i < scene.buffers.size(); ++i) {
     if (!scene.unchanged[i]) arrays[i] = hashOf(scene.buffers[i]);
   }
+  std::vector<uint64_t> pictures;
+  for (const PackedPicture& picture : scene.pictures) pictures.push_back(hashOf(picture.words));
+  if (!pictures.empty()) arrays.back() = hashOf(pictures);
   return hashOf(arrays);
 }
 
@@ -224,11 +233,27 @@ void settleVariants(Tracer& tracer, const LoadedScene& loaded, const GpuScene& p
   for (ShaderVariant& aov : tracer.aovs) {
     useLiterals(loaded, packed, options, aov);
     aov.reads = tracer.reads;
+    useTextures(packed.textures, aov);
     aov.dispatch = chooseDispatch(options.device.dispatch, context, false);
     aov.gpu = isForGpu(options.device.tune, context);
   }
   stats.variant = variantName(tracer.variant);
   stats.countsWork = tracer.variant.countsWork;
+}
+
+/// Places the pictures of textures, and warns of those that are scaled down, unless the places serve that the
+/// scene before had.
+void planTextures(Tracer& tracer, const LoadedScene& loaded, const ShaderVariant& everything,
+                  const RenderOptions& options, const Context& context, Statistics& stats) {
+  if (holdsTextures(tracer.textures, loaded.scene, everything.traits)) return;
+  const TextureRoom room = textureRoom(options.device.textureReads, context);
+  tracer.textures = planTextures(loaded.scene, everything.traits, room);
+  const ShrunkTextures& shrunk = tracer.textures.shrunk;
+  if (shrunk.count == 0) return;
+  stats.warnings.push_back(countText(shrunk.count, "texture") + " of up to " + std::to_string(shrunk.from) +
+                           " pixels a side are scaled down to " + std::to_string(shrunk.to) +
+                           ": together they are larger than what this driver reads");
+  say(options, "warning: " + stats.warnings.back());
 }
 
 /// Warns of pictures that could not be decoded, or refuses them.
@@ -258,11 +283,13 @@ void describe(Statistics& stats, const Context& context, const GpuScene& packed,
 /// Builds the picture's program while its scene is being packed, unless the scene may become part of its
 /// text. Where buffers turn out too large for the fastest reads, another one is built later.
 std::optional<Phase> buildAhead(ProgramCache& programs, ShaderVariant variant, const LoadedScene& loaded,
-                                const RenderOptions& options, const Context& context) {
+                                const RenderOptions& options, const Context& context,
+                                const TexturePlan& textures) {
   const bool asked = options.device.traversal == TraversalMethod::Literals;
   const bool large = loaded.scene.triangles.size() > kLeastBesideLarge;
   if (asked || !large) return std::nullopt;
-  const GpuScene unknown;
+  GpuScene unknown;
+  unknown.textures = textures;
   const BufferReads reads =
       chooseReads(options.device.bufferReads, context.software, unknown, readLimits()).reads;
   settleVariant(variant, loaded, unknown, options, context, reads);
@@ -281,23 +308,19 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
                   Statistics& stats, bool withHash, std::optional<ProgramCache> before) {
   Tracer tracer;
   const ShaderVariant everything = chooseVariants(tracer, loaded, options, stats);
-  tracer.textureSide =
-      textureSideWithin(loaded.scene, mostTexelBytes(options.device.bufferReads, readLimits()));
-  if (tracer.textureSide < kLargestTextureSide) {
-    say(options, "warning: the textures are larger than what this driver reads; those wider or higher than " +
-                     std::to_string(tracer.textureSide) + " pixels are scaled down");
-  }
+  planTextures(tracer, loaded, everything, options, context, stats);
   ProgramCache programs =
       before ? std::move(*before) : ProgramCache(shaderSource(options.device.shaderFolder));
   Phase packing;  // outlives the thread that sets it
   std::future<GpuScene> packedLater = std::async(kThreadIfGranted, [&] {
     PhaseTimer timer("pack", "second");
-    GpuScene scene = packScene(loaded.scene, loaded.bvh, loaded.environment, everything, tracer.textureSide,
+    GpuScene scene = packScene(loaded.scene, loaded.bvh, loaded.environment, everything, tracer.textures,
                                &tracer.kept, loaded.decoding);
     packing = timer.end();
     return scene;
   });
-  const std::optional<Phase> ahead = buildAhead(programs, tracer.variant, loaded, options, context);
+  const std::optional<Phase> ahead =
+      buildAhead(programs, tracer.variant, loaded, options, context, tracer.textures);
   GpuScene packed = packedLater.get();
   sayBroken(options, packed, stats);
   describe(stats, context, packed, packing);
@@ -322,16 +345,17 @@ void replaceScene(Tracer& tracer, const Context& context, const LoadedScene& loa
                   const RenderOptions& options, Statistics& stats, bool surfacesAlone) {
   const ShaderVariant everything = chooseVariants(tracer, loaded, options, stats);
   PhaseTimer timer("pack");
+  planTextures(tracer, loaded, everything, options, context, stats);
   tracer.kept.geometry = surfacesAlone;
-  GpuScene packed = packScene(loaded.scene, loaded.bvh, loaded.environment, everything, tracer.textureSide,
+  GpuScene packed = packScene(loaded.scene, loaded.bvh, loaded.environment, everything, tracer.textures,
                               &tracer.kept, loaded.decoding);
   tracer.kept.geometry = false;
   sayBroken(options, packed, stats);
   describe(stats, context, packed, timer.end());
-  const std::array<uint64_t, layout::kSceneBufferCount> before = tracer.arrayHashes;
+  const ArrayHashes before = tracer.arrayHashes;
   if (tracer.sceneHash != 0) {
     tracer.sceneHash = sceneHash(packed, tracer.arrayHashes);
-    for (size_t i = 0; i < before.size(); ++i)
+    for (size_t i = 0; i < packed.unchanged.size(); ++i)
       packed.unchanged[i] = packed.unchanged[i] || before[i] == tracer.arrayHashes[i];
   }
   settleVariants(tracer, loaded, packed, options, context, stats);

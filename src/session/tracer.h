@@ -11,19 +11,22 @@
 
 namespace fragtrace {
 
+/// Hashes of the packed arrays, and of all pictures.
+using ArrayHashes = std::array<uint64_t, layout::kSceneBufferCount + 1>;
+
 /// The scene on the device, and the variant that the options ask for.
 struct Tracer {
   ShaderVariant variant;
   std::vector<ShaderVariant> aovs;  ///< the layers' variants, in the order of options.aovs
   std::unique_ptr<Renderer> renderer;
-  double programMs = 0.0;  ///< time to build the variant's program
-  uint64_t sceneHash = 0;  ///< hash of all that was uploaded; only for .exr and checkpoints, which keep it
-  KeptArrays kept;         ///< arrays that the next scene of a sequence need not upload
-  std::array<uint64_t, layout::kSceneBufferCount> arrayHashes{};  ///< set if sceneHash is
-  Words materials;  ///< the packed materials; only with light groups, which scale the light
-  Words lights;     ///< the same of punctual lights
+  double programMs = 0.0;     ///< time to build the variant's program
+  uint64_t sceneHash = 0;     ///< hash of all that was uploaded; only for .exr and checkpoints, which keep it
+  KeptArrays kept;            ///< arrays that the next scene of a sequence need not upload
+  ArrayHashes arrayHashes{};  ///< set if sceneHash is
+  Words materials;            ///< the packed materials; only with light groups, which scale the light
+  Words lights;               ///< the same of punctual lights
   BufferReads reads = BufferReads::Auto;
-  int textureSide = kLargestTextureSide;
+  TexturePlan textures;
 };
 
 /// A scene that is small enough becomes part of the shader's text, unless another traversal was asked for, or
@@ -31,6 +34,9 @@ struct Tracer {
 /// Throws UsageError.
 void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const RenderOptions& options,
                  ShaderVariant& variant);
+
+/// Reads texels in a variant from where the plan places them.
+void useTextures(const TexturePlan& textures, ShaderVariant& variant);
 
 /// Packs and uploads what the variants need; by default with the hash where the options' output keeps it.
 /// `programs` may be built already, from the same shader folder. Throws InputError, RenderError.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shader/assemble.h"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <set>
@@ -8,6 +9,8 @@
 
 #include "base/errors.h"
 #include "base/split.h"
+#include "base/text.h"
+#include "image/display/tone_map.h"
 #include "shader/layout.h"
 #include "shader/stack_text.h"
 
@@ -18,7 +21,7 @@ namespace {
 /// Scene buffers by binding; layout.glsl has k...Binding of each.
 constexpr std::array<std::string_view, layout::kSceneBufferCount> kSceneBuffers{
     "Nodes",  "Leaves",   "Faces",  "Normals",     "Texcoords",           "Tangents", "Colors", "Materials",
-    "Texels", "Emitters", "Lights", "Environment", "EnvironmentInversion"};
+    "Bricks", "Emitters", "Lights", "Environment", "EnvironmentInversion"};
 
 /// "Nodes": "nodesBuffer".
 std::string variableOf(std::string_view name) {
@@ -29,7 +32,7 @@ std::string variableOf(std::string_view name) {
 
 /// The function that reads a buffer, readNodes() and so on, for the kind of buffer that the variant names.
 std::string readOf(std::string_view name, BufferReads reads, bool counts) {
-  const bool two = name == "Texels";  // words
+  const bool two = name == "Bricks";  // words
   const std::string type = two ? "uvec2" : "uvec4";
   const std::string variable = variableOf(name);
   const std::string binding = "k" + std::string(name) + "Binding";
@@ -61,6 +64,25 @@ std::string readsText(const ShaderVariant& variant) {
   std::string text;
   for (const std::string_view name : kSceneBuffers) text += readOf(name, variant.reads, variant.countsWork);
   return text;
+}
+
+/// The buffers of texels, the function that reads a word of them, and the table of sRGB
+/// (shaders/tune/texels_words.glsl).
+std::string texelWordsText(int buffers) {
+  std::string text;
+  std::string value;
+  for (int i = 0; i < buffers; ++i) {
+    const std::string number = std::to_string(i);
+    text += "layout(r32ui, binding = kTexelImageBase + " + number +
+            "u) uniform readonly restrict uimageBuffer texels" + number + ";\n";
+    const std::string read = "imageLoad(texels" + number + ", index).x;\n";
+    value += i == 0 ? "  uint word = " + read : "  if (unit == " + number + "u) word = " + read;
+  }
+  text += "uint readTexelWord(uint unit, int index) {\n" + value + "  return word;\n}\n";
+  text += "const float kSrgbValues[257] = float[257](";
+  for (int i = 0; i <= 256; ++i)
+    text += (i > 0 ? ", " : "") + formatted("%.9g", decodeSrgb(std::min(i, 255) / 255.0));
+  return text + ");\n";
 }
 
 /// The buffer of path states, which the tracer writes as pathStates[], and readPathStates(). imageUnit:
@@ -111,6 +133,9 @@ struct Assembly {
     if (name == "read.glsl") return readsText(variant);
     if (name == "frame.glsl")
       return fileText(variant.gpu ? "tune/frame_uniform.glsl" : "tune/frame_variable.glsl");
+    if (name == "texels.glsl")
+      return fileText(variant.textureArrays ? "tune/texels_arrays.glsl" : "tune/texels_words.glsl");
+    if (name == "texel_words.glsl") return texelWordsText(variant.texelBuffers);
     if (name == "work/count.glsl" && !variant.countsWork) return "";
     if (name == "shutter/camera.glsl" && !has(variant.traits, Trait::MovingCamera)) return "";
     if (name == "media/fog_block.glsl" && !has(variant.traits, Trait::Fog)) return "";

@@ -38,6 +38,10 @@ inline constexpr std::array<std::string_view, 3> kBackendNames{"auto", "egl", "o
 /// are the same, only bound in another way.
 enum class BufferReads : uint8_t { Auto, Ssbo, Image, Texel };
 inline constexpr std::array<std::string_view, 4> kBufferReadsNames{"auto", "ssbo", "image", "texel"};
+
+/// How the shader reads texels; Auto means words on software, array textures on GPUs.
+enum class TextureReads : uint8_t { Auto, Words, Arrays };
+inline constexpr std::array<std::string_view, 3> kTextureReadsNames{"auto", "words", "arrays"};
 /// The stage of the pipeline that runs the tracer: one fragment or one compute invocation a pixel.
 enum class Dispatch : uint8_t { Auto, Fragment, Compute };
 inline constexpr std::array<std::string_view, 3> kDispatchNames{"auto", "fragment", "compute"};
@@ -257,6 +261,7 @@ struct DeviceOptions {
   Instancing instancing = Instancing::Auto;
   Backend backend = Backend::Auto;
   BufferReads bufferReads = BufferReads::Auto;
+  TextureReads textureReads = TextureReads::Auto;
   Dispatch dispatch = Dispatch::Auto;
   Tune tune = Tune::Auto;
   VectorWidth vectorWidth = VectorWidth::Auto;

@@ -120,6 +120,11 @@ std::span<const TraitRow> traitRows() {  // NOLINT(readability-function-size): a
              return std::ranges::any_of(kTextureRefs,
                                         [&](const TextureRefRow& t) { return (m.*t.ref).transformed(); });
            }},
+      {.trait = Trait::WideTextures,
+       .name = "wide-textures",
+       .constant = "kWideTextures",
+       .absence = "no texture of 16 bits",
+       .needs = setOf({Trait::Texcoords})},
       {.trait = Trait::Clearcoat,
        .name = "clearcoat",
        .constant = "kClearcoat",

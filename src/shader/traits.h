@@ -29,6 +29,7 @@ enum class Trait : uint8_t {
   SpecularTexture,
   SpecularGlossiness,
   TextureTransforms,
+  WideTextures,
   Clearcoat,
   ClearcoatTexture,
   ClearcoatNormal,

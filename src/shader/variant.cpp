@@ -78,7 +78,8 @@ void dropTraits(const StageSet& stages, bool countsVisits, Surroundings surround
   // Scattered rays find a constant environment.
   if (gi && surroundings == Surroundings::DefaultLight) drop(traits, {Trait::EnvironmentSampling});
   const auto looksUp = [&](const TraitRow& row) { return readsTexcoords(row) && has(traits, row.trait); };
-  if (std::ranges::none_of(traitRows(), looksUp)) drop(traits, {Trait::Texcoords, Trait::TextureTransforms});
+  if (std::ranges::none_of(traitRows(), looksUp))
+    drop(traits, {Trait::Texcoords, Trait::TextureTransforms, Trait::WideTextures});
   drop(traits, {Trait::SmoothSurfaces, Trait::ObjectNumbers});  // only layers read these
 }
 
@@ -192,6 +193,8 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop, 
   mark(Trait::Slivers, hasSlivers(scene));
   mark(Trait::Coincident,
        std::ranges::any_of(scene.triangles, [](const Triangle& t) { return t.reach > 0; }));
+  mark(Trait::WideTextures,
+       std::ranges::any_of(scene.images, [](const EncodedImage& image) { return image.texelBits > 8; }));
   mark(Trait::DensityGrid, scene.volume.grid != nullptr);
   mark(Trait::MovingCamera, scene.motion.camera);
   mark(Trait::MovingSurfaces, scene.motion.segments > 0);
@@ -320,7 +323,10 @@ ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& pre
     keep(Trait::SpecularGlossiness);
     if (glossiness) keep(Trait::SpecularTexture);
   }
-  if (roughnessTexture) keep(Trait::TextureTransforms);
+  if (roughnessTexture) {
+    keep(Trait::TextureTransforms);
+    keep(Trait::WideTextures);
+  }
   if (roughnessTexture || aov == Aov::Texcoords) keep(Trait::Texcoords);
   if (follows) keep(Trait::SmoothSurfaces);
   if (follows) keep(Trait::Scattering);

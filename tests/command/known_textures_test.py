@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Squares whose textures repeat, clamp or mirror, linear and nearest, transformed: each pixel is a mean of what the specification says."""
+"""Each value of a texture, each wrap and filter, sizes of all kinds, read as words and from arrays: pixels are what the specification says."""
 import math
 import random
 
@@ -15,11 +15,19 @@ OFFSET, ROTATION, SCALE = (0.4, -0.3), 0.2, (1.2, 0.9)  # the numbers of KHR_tex
 FIRST, LAST = -0.9, 1.3  # texture coordinates over a square, before the transform
 
 
+READS = ("words", "arrays")
+# Mesa's software driver decodes the sRGB of array textures by a polynomial.
+LARGEST_ERROR = {"words": 1e-6, "arrays": 1.5e-3}
+
+
+def linear(x):
+    return x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055)**2.4
+
+
 def texture():
     """Returns the red of the texels, and the same as linear light."""
     numbers = random.Random(3)
     texels = [[numbers.randrange(256) for _ in range(TEXELS)] for _ in range(TEXELS)]
-    linear = lambda x: x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055)**2.4
     return texels, [[linear(t / 255) for t in row] for row in texels]
 
 
@@ -45,6 +53,62 @@ def sampled(light, u, v, wrap, kind):
 
 
 class KnownTextures(Case):
+    def square(self, reads, images, materials, uv, *options, side=16):
+        """Draws a square for each material, from the left to the right, with `side` pixels each. Returns rows of colours."""
+        count = len(materials)
+        gltf = Gltf(materials=materials, textures=[{"source": i, "sampler": 0} for i in range(len(images))], samplers=[{"magFilter": FILTERS["nearest"]}],
+                    images=[{"uri": data_uri("image/png", image)} for image in images],
+                    cameras=[{"type": "orthographic", "orthographic": {"xmag": count, "ymag": 1, "zfar": 10, "znear": 0.1}}])
+        position, indices = gltf.accessor(SQUARE), gltf.accessor(TWO_TRIANGLES, "H")
+        first, last = uv
+        uvs = gltf.accessor([(first, last), (last, last), (last, first), (first, first)])
+        for i in range(count):
+            gltf.node(mesh=gltf.mesh(indices, position=position, texcoord_0=uvs, material=i), translation=[2 * i - count + 1, 0, 0])
+        gltf.node(camera=0, translation=[0, 0, 5])
+        path = gltf.write(self.folder / "square.gltf")
+        return self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", f"{count * side},{side}", "--spp", 1, "--texture-reads", reads, *options)
+
+    def test_each_value(self):
+        """256 of 8 bits, and of 16 bits those next to them, as colours."""
+        for reads in READS:
+            for bits, values in ((8, range(256)), (16, [v * 257 for v in range(256)]), (16, [v * 257 + 129 for v in range(255)] + [1])):
+                texels = [n for v in values for n in (v, values[0], v, values[-1])]
+                colour = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
+                picture = self.square(reads, [png(16, 16, texels, bits)], colour, (0, 1), "--stage", "flat")
+                for i, value in enumerate(values):
+                    expected = linear(value / (2**bits - 1))
+                    pixel = picture[i // 16][i % 16]
+                    self.assertLessEqual(abs(pixel[0] - expected), 7e-6 if reads == "words" and bits == 16 else LARGEST_ERROR[reads], (reads, bits, value))
+                    self.assertEqual(pixel[0], pixel[2])
+
+    def test_numbers(self):
+        """Normals are no colours: no curve is decoded."""
+        numbers = random.Random(4)
+        for reads in READS:
+            for bits in (8, 16):
+                one = 2**bits - 1
+                texels = [n for _ in range(256) for n in (numbers.randrange(one), numbers.randrange(one), numbers.randrange(one * 3 // 4, one), one)]
+                picture = self.square(reads, [png(16, 16, texels, bits)], [{"normalTexture": {"index": 0}}], (0, 1), "--stage", "normal-maps", "--debug-view", "normal")
+                for i in range(256):
+                    normal = [2 * n / one - 1 for n in texels[4 * i:4 * i + 3]]
+                    length = math.hypot(*normal)
+                    for got, expected in zip(picture[i // 16][i % 16], normal):
+                        self.assertLess(abs(got - linear(0.5 + 0.5 * expected / length)), 2e-6, (reads, bits, i))
+
+    def test_sizes(self):
+        """No picture shows at the borders of another, however they lie in memory."""
+        sizes = [(1, 1), (3, 5), (1, 16384), (16384, 1), (1023, 2), (2, 1025), (17, 31), (256, 256)]
+        shades = [20 + 30 * i for i in range(len(sizes))]
+        images = [png(w, h, [shade, 255 - shade, shade, 255] * (w * h)) for (w, h), shade in zip(sizes, shades)]
+        materials = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": i}}} for i in range(len(sizes))]
+        for reads in READS:
+            picture = self.square(reads, images, materials, (-2.3, 3.1), "--stage", "flat", side=32)
+            for i, shade in enumerate(shades):
+                for row in picture:
+                    for pixel in row[32 * i:32 * i + 32]:
+                        self.assertLess(abs(pixel[0] - linear(shade / 255)), LARGEST_ERROR[reads], sizes[i])
+                        self.assertLess(abs(pixel[1] - linear(1 - shade / 255)), LARGEST_ERROR[reads], sizes[i])
+
     def test_each_wrap_and_filter(self):
         texels, light = texture()
         kinds = [(wrap, kind) for wrap in WRAPS for kind in FILTERS]
@@ -61,7 +125,11 @@ class KnownTextures(Case):
             gltf.node(mesh=gltf.mesh(indices, position=position, texcoord_0=uv, material=i), translation=[2 * i - count + 1, 0, 0])
         gltf.node(camera=0, translation=[0, 0, 5])
         path = gltf.write(self.folder / "textures.gltf")
-        picture = self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", f"{count * SIDE},{SIDE}", "--spp", 256, "--stage", "flat")
+        for reads in READS:
+            picture = self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", f"{count * SIDE},{SIDE}", "--spp", 256, "--stage", "flat", "--texture-reads", reads)
+            self.check(picture, light, kinds)
+
+    def check(self, picture, light, kinds):
         points = [(LAST - FIRST) * (i + 0.5) / (SIDE * PARTS) + FIRST for i in range(SIDE * PARTS)]
         for square, (wrap, kind) in enumerate(kinds):
             apart = 0.0

@@ -137,7 +137,7 @@ TEST_P(Layout, SceneBuffersHaveTheirBindingsAndRows) {
       {"TangentsBlock", "tangentsBuffer", layout::kTangentsBinding, 16},
       {"ColorsBlock", "colorsBuffer", layout::kColorsBinding, 16},
       {"MaterialsBlock", "materialsBuffer", layout::kMaterialsBinding, 16},
-      {"TexelsBlock", "texelsBuffer", layout::kTexelsBinding, 8},
+      {"BricksBlock", "bricksBuffer", layout::kBricksBinding, 8},
       {"EmittersBlock", "emittersBuffer", layout::kEmittersBinding, 16},
       {"LightsBlock", "lightsBuffer", layout::kLightsBinding, 16},
       {"EnvironmentBlock", "environmentBuffer", layout::kEnvironmentBinding, 16},

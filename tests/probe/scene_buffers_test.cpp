@@ -24,7 +24,7 @@ TEST_P(SceneArrays, AreReadTheFastestWayThatHoldsThem) {
     return chooseReads(wanted, software, sceneWith(binding, bytes), limits);
   };
   const uint32_t rows = layout::kLeavesBinding;   // 16 bytes per texel
-  const uint32_t pairs = layout::kTexelsBinding;  // 8
+  const uint32_t pairs = layout::kBricksBinding;  // 8
   EXPECT_EQ(chosen(rows, 1600, BufferReads::Auto, true).reads, BufferReads::Image);
   EXPECT_EQ(chosen(rows, 1600, BufferReads::Auto, true).fallback, "");
   EXPECT_EQ(chosen(rows, 800, BufferReads::Auto, false).reads, BufferReads::Ssbo);

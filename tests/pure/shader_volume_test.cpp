@@ -28,7 +28,7 @@ namespace {
 using glm::ivec2;      // NOLINT: as the shader has them
 using glm::ivec3;      // NOLINT
 using layout::Volume;  // NOLINT
-uvec2 readTexels(int index) { return {texels[2 * size_t(index)], texels[2 * size_t(index) + 1]}; }
+uvec2 readBricks(int index) { return {texels[2 * size_t(index)], texels[2 * size_t(index) + 1]}; }
 vec2 unpackHalf2x16(uint32_t word) { return glm::unpackHalf2x16(word); }
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
@@ -89,7 +89,7 @@ double densityAt(const VolumeGrid& grid, const dvec3& point) {
 
 layout::Volume shaderVolume(const VolumeGrid& grid, double extinction) {
   texels.clear();
-  const PackedGrid packed = appendGrid(grid, texels);
+  const PackedGrid packed = packGrid(grid, texels);
   const glm::dmat4 voxels = glm::scale(glm::dmat4(1.0), dvec3(1.0 / kSide));
   const glm::dmat4 rows = glm::transpose(packed.fromFile * voxels);
   return {glm::vec4(rows[0]),
@@ -97,7 +97,7 @@ layout::Volume shaderVolume(const VolumeGrid& grid, double extinction) {
           glm::vec4(rows[2]),
           glm::vec4(1.0f),
           {float(extinction), 0.0f, 0.0f, 0.0f},
-          {packed.bricks, int(packed.firstTexel)}};
+          {packed.bricks, 0}};
 }
 
 struct RayCase {

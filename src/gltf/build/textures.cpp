@@ -69,6 +69,7 @@ EncodedImage readImage(Document& document, int index) {
     document.diagnostics.lose(place, "is no picture that a texture may have: PNG, JPEG, WebP, KTX2, AVIF");
   result.width = header.width;
   result.height = header.height;
+  result.texelBits = header.texelBits;
   if (std::max(header.width, header.height) > document.textureSide) {
     const double scale = double(document.textureSide) / std::max(header.width, header.height);
     result.width = std::max(1, int(std::lround(header.width * scale)));

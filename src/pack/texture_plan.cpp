@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "pack/texture_plan.h"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+#include "shader/layout.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr int kLeastLayerSide = 1024;
+
+/// The size scaled down until both sides are at most `side`.
+glm::ivec2 within(glm::ivec2 size, int side) {
+  const int larger = std::max(size.x, size.y);
+  if (larger <= side) return size;
+  const double scale = double(side) / larger;
+  return glm::max(glm::ivec2(glm::round(glm::dvec2(size) * scale)), glm::ivec2(1));
+}
+
+int64_t wordsOf(const TexturePlace& place) {
+  return int64_t(place.size.x) * place.size.y * (place.wide ? 2 : 1);
+}
+
+bool isUsed(const TexturePlace& place) { return place.size.x > 0; }
+
+/// One picture behind the other. Returns false where the room ends.
+bool placeInBuffers(const TextureRoom& room, TexturePlan& plan) {
+  plan.sizes.assign(1, 0);
+  for (TexturePlace& place : plan.places) {
+    if (!isUsed(place)) continue;
+    const int64_t words = wordsOf(place);
+    if (words > room.words) return false;
+    if (plan.sizes.back() + words > room.words) plan.sizes.push_back(0);
+    if (plan.sizes.size() > room.buffers) return false;
+    place.number = uint32_t(plan.sizes.size() - 1);
+    place.first = uint32_t(plan.sizes.back());
+    plan.sizes.back() += words;
+  }
+  return true;
+}
+
+/// Pictures of one array texture in shelves, the highest first. Returns the number of layers.
+uint32_t placeInLayers(std::vector<TexturePlace*>& places, int side) {
+  std::ranges::stable_sort(places, [](const TexturePlace* a, const TexturePlace* b) {
+    return std::pair(a->size.y, a->size.x) > std::pair(b->size.y, b->size.x);
+  });
+  uint32_t layer = 0;
+  glm::ivec2 end{0};
+  int shelf = 0;  // its top
+  for (TexturePlace* place : places) {
+    if (end.x + place->size.x > side) {
+      shelf = end.y;
+      end.x = 0;
+    }
+    if (shelf + place->size.y > side) {
+      ++layer;
+      shelf = end.x = end.y = 0;
+    }
+    place->number = layer;
+    place->first = uint32_t(end.x) | uint32_t(shelf) << 16;
+    end.x += place->size.x;
+    end.y = std::max(end.y, shelf + place->size.y);
+  }
+  return places.empty() ? 0 : layer + 1;
+}
+
+bool placeInArrays(const TextureRoom& room, TexturePlan& plan) {
+  int largest = kLeastLayerSide;
+  for (const TexturePlace& place : plan.places) largest = std::max({largest, place.size.x, place.size.y});
+  plan.layerSide = std::min(int(std::bit_ceil(uint32_t(largest))), room.side);
+  plan.sizes.clear();
+  for (const bool wide : {false, true}) {
+    std::vector<TexturePlace*> places;
+    for (TexturePlace& place : plan.places)
+      if (isUsed(place) && place.wide == wide) places.push_back(&place);
+    plan.sizes.push_back(placeInLayers(places, plan.layerSide));
+  }
+  return std::ranges::max(plan.sizes) <= int64_t(room.layers);
+}
+
+/// Places the pictures, each scaled down to at most `side`.
+bool placeWithin(const std::vector<TexturePlace>& whole, int side, const TextureRoom& room,
+                 TexturePlan& plan) {
+  plan.places = whole;
+  plan.shrunk = {.to = side};
+  for (TexturePlace& place : plan.places) {
+    const int larger = std::max(place.whole.x, place.whole.y);
+    if (larger > 0) place.size = within(place.whole, side);
+    plan.shrunk.count += larger > side ? 1 : 0;
+    plan.shrunk.from = std::max(plan.shrunk.from, larger);
+  }
+  return room.reads == TexelReads::Words ? placeInBuffers(room, plan) : placeInArrays(room, plan);
+}
+
+/// Rows of traitRows(), looked up once.
+const std::array<const TraitRow*, layout::kSlotCount>& traitsOfSlots() {
+  static_assert(kTextureRefs.size() == layout::kSlotCount + 1);  // occlusion has no slot
+  static const auto rows = [] {
+    std::array<const TraitRow*, layout::kSlotCount> found{};
+    for (size_t slot = 0; slot < found.size(); ++slot) found[slot] = &traitOfTexture(kTextureRefs[slot].ref);
+    return found;
+  }();
+  return rows;
+}
+
+/// The pictures that are read, whole, without their places.
+std::vector<TexturePlace> readPictures(const Scene& scene, const TraitSet& traits) {
+  std::vector<TexturePlace> pictures(scene.images.size());
+  forEachPicture(scene, traits, [&](uint32_t index, TransferCurve curve) {
+    const EncodedImage& image = scene.images[index];
+    pictures[index].whole = {image.width, image.height};
+    pictures[index].wide = image.texelBits > 8;
+    pictures[index].isColor |= curve == TransferCurve::Srgb;
+  });
+  return pictures;
+}
+
+}  // namespace
+
+size_t TexturePlan::bytes() const {
+  const auto sum = [&](auto bytesOf) {
+    size_t bytes = 0;
+    for (size_t i = 0; i < sizes.size(); ++i) bytes += size_t(sizes[i]) * bytesOf(i);
+    return bytes;
+  };
+  if (reads == TexelReads::Words) return sum([](size_t) { return sizeof(uint32_t); });
+  const size_t texels = size_t(layerSide) * size_t(layerSide);
+  return sum([&](size_t array) { return texels * (array == 0 ? 4 : 8); });
+}
+
+bool readsTexture(uint32_t slot, const Material& material, const TraitSet& traits) {
+  const TraitRow& row = *traitsOfSlots()[slot];
+  return has(traits, row.trait) && isOfMaterial(row, material, Coordinates{});
+}
+
+void forEachPicture(const Scene& scene, const TraitSet& traits,
+                    const std::function<void(uint32_t image, TransferCurve curve)>& use) {
+  const auto useTexture = [&](const TextureRef& ref, TransferCurve curve) {
+    if (!ref.present() || scene.textures[ref.texture].image == kMissIndex) return;
+    use(scene.textures[ref.texture].image, curve);
+  };
+  for (const Material& m : scene.materials) {
+    for (uint32_t slot = 0; slot < layout::kSlotCount; ++slot)
+      if (readsTexture(slot, m, traits)) useTexture(m.*kTextureRefs[slot].ref, kTextureRefs[slot].curve);
+    if (!m.scattersInside() || !has(traits, Trait::Scattering)) continue;
+    useTexture(m.scatterStrengthTexture, TransferCurve::Linear);
+    useTexture(m.multiscatterColorTexture, TransferCurve::Srgb);
+  }
+}
+
+TexturePlan planTextures(const Scene& scene, const TraitSet& traits, const TextureRoom& room) {
+  const std::vector<TexturePlace> whole = readPictures(scene, traits);
+  TexturePlan plan{.reads = room.reads};
+  if (placeWithin(whole, room.side, room, plan)) return plan;
+  int fits = 1;
+  for (int above = plan.shrunk.from; above - fits > 1;) {
+    const int side = std::midpoint(fits, above);
+    (placeWithin(whole, side, room, plan) ? fits : above) = side;
+  }
+  placeWithin(whole, fits, room, plan);
+  return plan;
+}
+
+bool holdsTextures(const TexturePlan& plan, const Scene& scene, const TraitSet& traits) {
+  const auto holds = [](const TexturePlace& place, const TexturePlace& read) {
+    return read.whole.x == 0 || (place.whole == read.whole && place.wide == read.wide);
+  };
+  return std::ranges::equal(plan.places, readPictures(scene, traits), holds);
+}
+
+}  // namespace fragtrace
