@@ -49,8 +49,8 @@ std::string whyUnconfined() {
 }
 
 void Worker::start() {
-  // If the mutex is locked, the worker has started for somebody's work, which may take long.
-  if (const std::unique_lock lock(mutex_, std::try_to_lock); lock) startLocked();
+  const std::lock_guard lock(mutex_);
+  if (waiting_.empty() && working_ == 0) waiting_.push_back(startOne());
 }
 
 const std::string& Worker::whyNot() {
@@ -73,34 +73,65 @@ WorkResult Worker::perform(std::initializer_list<std::span<const uint8_t>> parts
   auto at = memory->bytes().begin();
   for (const auto& part : parts) at = std::ranges::copy(part, at).out;
 
-  const std::lock_guard lock(mutex_);
-  startLocked();
-  limitChild(*child_, limits.memoryBytes, limits.cpuSeconds);
+  struct Lease {
+    Worker& worker;
+    std::unique_ptr<Child> child;
+    ~Lease() { worker.giveBack(std::move(child)); }
+  } const lease{*this, takeChild()};
+  Child& child = *lease.child;
+  limitChild(child, limits.memoryBytes, limits.cpuSeconds);
   // The processor time ends it; this is for one that sleeps.
   const int patienceMs =
       limits.cpuSeconds == 0 ? -1 : int(std::min(limits.cpuSeconds * 20 + 60, 100'000u)) * 1000;
   WorkReply reply;
-  if (!sendWithFile(child_->socket, asMessage(std::as_const(request)), memory->file()) ||
-      !awaitReply(*child_, asMessage(reply), patienceMs))
-    failLocked(limits);
+  if (!sendWithFile(child.socket, asMessage(std::as_const(request)), memory->file()) ||
+      !awaitReply(child, asMessage(reply), patienceMs))
+    fail(child, limits);
   noteConfinement(reply);
   if (reply.done == 0) throw std::runtime_error(reasonOf(reply));
   if (reply.outputBytes > room) throw std::runtime_error("the worker process sent a broken answer");
   return {memory, memory->bytes().subspan(request.outputOffset(), reply.outputBytes)};
 }
 
-void Worker::startLocked() {
-  if (child_) return;
+std::unique_ptr<Child> Worker::startOne() const {
   try {
-    child_ = startChild("fragtrace_worker", kind_.module);
+    return startChild("fragtrace_worker", kind_.module);
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(std::string(error.what()) + " (" + kind_.advice + ")" + kind_.instead);
   }
 }
 
-void Worker::failLocked(const WorkLimits& limits) {
-  const std::string end = endChild(*child_);
-  child_.reset();
+std::unique_ptr<Child> Worker::takeChild() {
+  std::unique_lock lock(mutex_);
+  while (waiting_.empty()) {
+    try {
+      waiting_.push_back(startOne());
+    } catch (const std::runtime_error&) {
+      if (working_ == 0) throw;
+      freed_.wait(lock);
+    }
+  }
+  std::unique_ptr<Child> child = std::move(waiting_.back());
+  waiting_.pop_back();
+  ++working_;
+  return child;
+}
+
+/// Takes the process back after a request; one that has ended is dropped.
+void Worker::giveBack(std::unique_ptr<Child> child) {
+  const std::lock_guard lock(mutex_);
+  --working_;
+  if (child->process > 0) waiting_.push_back(std::move(child));
+  freed_.notify_all();
+}
+
+void Worker::endSpare() {
+  const std::lock_guard lock(mutex_);
+  if (waiting_.size() > 1) waiting_.resize(1);
+}
+
+void Worker::fail(Child& child, const WorkLimits& limits) const {
+  const std::string end = endChild(child);
   if (end == kLibraryMissing)
     throw std::runtime_error(std::string(kind_.library) + " is not installed (" + kind_.advice + ")" +
                              kind_.instead);

@@ -4,6 +4,7 @@
 // us. A run that needs no such library does not load it.
 #pragma once
 
+#include <condition_variable>
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
@@ -12,6 +13,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/child.h"
 #include "base/shared_memory.h"
@@ -40,14 +42,15 @@ struct WorkResult {
 /// empty: none had. From any thread.
 std::string whyUnconfined();
 
-/// Serves one request after the other. The process starts with the first request, and again when it has died.
+/// Serves each thread that asks by a process of its own, which starts with the request and then waits for the
+/// next one of any thread. Where the system grants no more processes, threads wait for those that there are.
 /// start() and perform() may be called from any thread; they throw std::runtime_error with the bare reason.
 class Worker {
  public:
   explicit Worker(const WorkerKind& kind) : kind_(kind) {}
 
-  /// Starts the process ahead of its first use: this takes a millisecond, the first use up to 0.1 s. Returns
-  /// at once while the process works.
+  /// Starts a process ahead of its first use: this takes a millisecond, the first use up to 0.1 s. Does
+  /// nothing if there is one.
   void start();
 
   /// Why the libraries cannot be used; empty where they can. The first call asks the process.
@@ -59,13 +62,20 @@ class Worker {
   WorkResult perform(std::initializer_list<std::span<const uint8_t>> parts, uint64_t room,
                      const WorkLimits& limits);
 
+  /// Ends the processes that wait, except for one.
+  void endSpare();
+
  private:
-  void startLocked();
-  [[noreturn]] void failLocked(const WorkLimits& limits);
+  std::unique_ptr<Child> startOne() const;
+  std::unique_ptr<Child> takeChild();
+  void giveBack(std::unique_ptr<Child> child);
+  [[noreturn]] void fail(Child& child, const WorkLimits& limits) const;
 
   const WorkerKind& kind_;
   std::mutex mutex_;
-  std::unique_ptr<Child> child_;
+  std::condition_variable freed_;
+  std::vector<std::unique_ptr<Child>> waiting_;
+  int working_ = 0;  ///< processes that serve a request
   std::optional<std::string> whyNot_;
 };
 

@@ -11,6 +11,7 @@
 #include "cli/info_contents.h"
 #include "cli/info_text.h"
 #include "gltf/gltf.h"
+#include "image/files/decode_each.h"
 #include "options/choose.h"
 #include "options/option_row.h"
 #include "options/parse_render.h"
@@ -155,13 +156,12 @@ int inform(const InfoOptions& options) {
     if (!odd.empty()) scene.warnings.push_back(options.render.scene.string() + ": " + odd);
   }
   if (options.decode) {
-    for (const EncodedImage& image : scene.images) {
-      try {
-        decodeTexels(image.bytes, nameOf(image));
-      } catch (const InputError& error) {
-        if (!loading.limits.drawMissingTextures || loading.limits.strict) throw;
-        scene.warnings.emplace_back(error.what());
-      }
+    std::vector<EncodedPicture> pictures;
+    for (const EncodedImage& image : scene.images) pictures.push_back({image.bytes, nameOf(image)});
+    for (std::string& error : decodeEach(pictures, [](size_t, const TexelImage&) {})) {
+      if (error.empty()) continue;
+      if (!loading.limits.drawMissingTextures || loading.limits.strict) throw InputError(error);
+      scene.warnings.push_back(std::move(error));
     }
   }
   const SceneDescription description = describe(scene);

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "base/worker.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string>
+
+#include "base/parallel.h"
 
 namespace fragtrace {
 namespace {
@@ -50,6 +55,34 @@ TEST(Worker, InPythonAnswersInTheSameWords) {
   }
   ::unsetenv("PYTHONPATH");
   std::filesystem::remove_all(folder);
+}
+
+/// Lets this process open only so many more files while it exists.
+class FewFiles {
+ public:
+  explicit FewFiles(int count) {
+    ::getrlimit(RLIMIT_NOFILE, &before_);
+    int last = -1;
+    while (count > 0) count -= ::fcntl(++last, F_GETFD) < 0 ? 1 : 0;
+    const rlimit few{rlim_t(last + 1), before_.rlim_max};
+    ::setrlimit(RLIMIT_NOFILE, &few);
+  }
+  ~FewFiles() { ::setrlimit(RLIMIT_NOFILE, &before_); }
+  FewFiles(const FewFiles&) = delete;
+  FewFiles& operator=(const FewFiles&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+TEST(Worker, ThreadsShareAProcessWhereTheSystemGrantsNoOther) {
+  Worker worker(kEscapes);
+  const std::string input = "/nowhere";
+  const std::span<const uint8_t> bytes(reinterpret_cast<const uint8_t*>(input.data()), input.size());
+  // Each of two threads needs one for its memory; the first process takes two and keeps one.
+  const FewFiles limited(4);
+  const auto work = [&](size_t) { EXPECT_NO_THROW(worker.perform({bytes}, 4096, {.cpuSeconds = 10})); };
+  forEachIndex(100, work, 2);
 }
 
 }  // namespace

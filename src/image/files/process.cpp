@@ -143,4 +143,9 @@ void startImageProcess() noexcept {
   }
 }
 
+void endSpareImageProcesses() {
+  worker().endSpare();
+  ktx2Worker().endSpare();
+}
+
 }  // namespace fragtrace

@@ -38,4 +38,8 @@ std::vector<uint8_t> encodeFloatsByProcess(const Image& image, ImageFormat forma
 /// left for the first use to report.
 void startImageProcess() noexcept;
 
+/// Each thread that decodes has a process of its own, which waits for more work. Ends those that wait, except
+/// for one of each kind.
+void endSpareImageProcesses();
+
 }  // namespace fragtrace
