@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/errors.h"
+
 namespace fragtrace {
 
 namespace {
@@ -46,14 +48,18 @@ TextureRoom textureRoom(TextureReads wanted, const Context& context) {
   return room;
 }
 
-void SceneTextures::makeBuffers(const TexturePlan& plan) {
+TexelMemory SceneTextures::makeBuffers(const TexturePlan& plan) {
+  constexpr GLbitfield kAccess = GL_MAP_READ_BIT | GL_MAP_WRITE_BIT;
+  TexelMemory memory;
   for (const int64_t words : plan.sizes) {
     const auto bytes = GLsizeiptr(std::max<int64_t>(words, 1) * int64_t(sizeof(uint32_t)));
     GlBuffer& buffer = buffers_.emplace_back(makeBuffer());
-    glNamedBufferStorage(buffer.name(), bytes, nullptr, GL_DYNAMIC_STORAGE_BIT);
+    glNamedBufferStorage(buffer.name(), bytes, nullptr, kAccess);
     const GlTexture& view = textures_.emplace_back(makeTexture(GL_TEXTURE_BUFFER));
     glTextureBuffer(view.name(), GL_R32UI, buffer.name());
+    memory.push_back(static_cast<uint32_t*>(glMapNamedBufferRange(buffer.name(), 0, bytes, kAccess)));
   }
+  return memory;
 }
 
 void SceneTextures::makeArrays(const TexturePlan& plan) {
@@ -62,27 +68,43 @@ void SceneTextures::makeArrays(const TexturePlan& plan) {
   textures_.push_back(makeArray(GL_RGBA16, plan.layerSide, plan.sizes[1]));
 }
 
-void SceneTextures::replace(GpuScene& scene) {
-  const TexturePlan& plan = scene.textures;
-  if (scene.pictures.empty()) return;
+TexelMemory SceneTextures::prepare(const TexturePlan& plan) {
   reads_ = plan.reads;
   buffers_.clear();
   textures_.clear();
-  reads_ == TexelReads::Words ? makeBuffers(plan) : makeArrays(plan);
+  TexelMemory memory;
+  if (reads_ == TexelReads::Words)
+    memory = makeBuffers(plan);
+  else
+    makeArrays(plan);
   checkGl("making room for textures");
+  if (std::ranges::find(memory, nullptr) != memory.end()) throw RenderError("textures cannot be mapped");
+  isPrepared_ = true;
+  return memory;
+}
+
+void SceneTextures::replace(GpuScene& scene) {
+  const TexturePlan& plan = scene.textures;
+  if (scene.pictures.empty() && !isPrepared_) return;
+  if (!isPrepared_) {
+    const TexelMemory memory = prepare(plan);
+    for (const PackedPicture& picture : scene.pictures) {
+      const TexturePlace& place = plan.places[picture.image];
+      if (reads_ == TexelReads::Words) std::ranges::copy(picture.words, memory[place.number] + place.first);
+    }
+  }
   for (PackedPicture& picture : scene.pictures) {
     const TexturePlace& place = plan.places[picture.image];
-    if (reads_ == TexelReads::Words) {
-      glNamedBufferSubData(buffers_[place.number].name(), GLintptr(place.first) * GLintptr(sizeof(uint32_t)),
-                           GLsizeiptr(picture.words.size() * sizeof(uint32_t)), picture.words.data());
-    } else {
+    if (reads_ == TexelReads::Arrays) {
       const GlTexture& array = textures_[place.wide ? kWide : kNumbers];
       glTextureSubImage3D(array.name(), 0, GLint(place.first & 0xffffu), GLint(place.first >> 16),
                           GLint(place.number), place.size.x, place.size.y, 1, GL_RGBA,
                           place.wide ? GL_UNSIGNED_SHORT : GL_UNSIGNED_BYTE, picture.words.data());
     }
-    picture.words = Words();
+    picture = {};
   }
+  for (const GlBuffer& buffer : buffers_) glUnmapNamedBuffer(buffer.name());
+  isPrepared_ = false;
   checkGl("uploading textures");
 }
 

@@ -16,16 +16,20 @@ TextureRoom textureRoom(TextureReads wanted, const Context& context);
 /// The pictures of a scene's textures on the device (pack/texture_plan.h).
 class SceneTextures {
  public:
-  /// Uploads the pictures of the scene, each of which is freed then. Without pictures it stays as it is.
-  /// Throws RenderError, also where memory runs out.
+  /// Makes room for the pictures of a plan. Returns where they are to be written, if this can be told: texels
+  /// then never lie in memory twice. Throws RenderError, also where memory runs out.
+  TexelMemory prepare(const TexturePlan& plan);
+  /// Takes the pictures of the scene, into the room that was prepared, or else into room of its own. Frees
+  /// them. Without pictures it stays as it is. Throws the same.
   void replace(GpuScene& scene);
   void bind() const;
 
  private:
-  void makeBuffers(const TexturePlan& plan);
+  TexelMemory makeBuffers(const TexturePlan& plan);
   void makeArrays(const TexturePlan& plan);
 
   TexelReads reads_ = TexelReads::Words;
+  bool isPrepared_ = false;
   std::vector<GlBuffer> buffers_;
   std::vector<GlTexture> textures_;  ///< views of the buffers; or numbers, colours and wide texels
 };

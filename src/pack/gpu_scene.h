@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "bvh/bvh.h"
@@ -56,11 +57,15 @@ float environmentChance(const LightShare& share, double intensity);
 /// The probability that a light path begins at the sun.
 float sunChance(const LightShare& share, double intensity);
 
-/// A decoded picture: its texels in words, of which two are one where it is wide.
+/// Where the buffers of a plan are mapped, in which pictures are then written; empty: they are not.
+using TexelMemory = std::vector<uint32_t*>;
+
+/// A decoded picture: a word for each texel, or two where it is wide.
 struct PackedPicture {
   uint32_t image = 0;  ///< index of the scene's image
   bool wide = false;
-  Words words;
+  std::span<const uint32_t> words{};
+  std::vector<uint32_t> own{};  ///< the words, unless they are in the device's memory already
 };
 
 /// What is known of a picture once it was decoded: mean colour and alpha, linear, if its values are numbers
@@ -119,7 +124,7 @@ using DecodeProgress = std::function<void(size_t decoded, size_t count)>;
 /// packed again; those that are packed are added to it.
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
                    const ShaderVariant& variant, const TexturePlan& plan, KeptArrays* kept = nullptr,
-                   const DecodeProgress& progress = {});
+                   const DecodeProgress& progress = {}, const TexelMemory& memory = {});
 /// Does the same where pictures have endless room.
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
                    const ShaderVariant& variant);

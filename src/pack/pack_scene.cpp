@@ -316,10 +316,10 @@ void packMaterials(const Scene& scene, const Bvh& bvh, const ShaderVariant& vari
 
 /// Decodes the pictures of the plan, unless they are on the device by the same plan.
 TexturePacker packTextures(const Scene& scene, const TexturePlan& plan, KeptArrays* kept,
-                           const DecodeProgress& progress, GpuScene& packed) {
+                           const DecodeProgress& progress, const TexelMemory& memory, GpuScene& packed) {
   const bool keeps =
       kept != nullptr && kept->images == imagesOf(scene) && kept->textures.places == plan.places;
-  TexturePacker textures(scene, plan, keeps ? kept->pictures : std::vector<PictureFacts>(), progress);
+  TexturePacker textures(scene, plan, keeps ? kept->pictures : std::vector<PictureFacts>(), progress, memory);
   packed.textures = plan;
   packed.pictures = textures.takePictures();
   packed.brokenPictures = textures.takeBroken();
@@ -374,7 +374,7 @@ GpuScene packSurroundings(const Bvh& bvh, const Environment& environment, const 
 
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
                    const ShaderVariant& variant, const TexturePlan& plan, KeptArrays* kept,
-                   const DecodeProgress& progress) {
+                   const DecodeProgress& progress, const TexelMemory& memory) {
   using namespace layout;
   GpuScene packed;
   const TraitSet& traits = variant.traits;
@@ -385,7 +385,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   packGeometry(scene, bvh, traits, kept != nullptr && kept->geometry, packed);
 
   // Step: lights; the environment shares light samples with the rest by power.
-  TexturePacker textures = packTextures(scene, plan, kept, progress, packed);
+  TexturePacker textures = packTextures(scene, plan, kept, progress, memory, packed);
   const std::vector<glm::vec3> radiance = meanRadiance(scene, traits, textures);
   std::vector<uint32_t> slots;
   if (has(traits, Trait::EmissiveTriangles)) slots = leafSlots(scene, bvh);

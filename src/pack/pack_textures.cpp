@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/packing.hpp>
+#include <mutex>
 
 #include "base/errors.h"
 #include "image/display/tone_map.h"
+#include "image/files/decode_each.h"
 #include "image/files/process.h"
 #include "pack/words.h"
 
@@ -46,21 +47,21 @@ uint32_t wrapFlags(Wrap wrap, uint32_t clamp, uint32_t mirror) {
   return wrap == Wrap::ClampToEdge ? clamp : wrap == Wrap::MirroredRepeat ? mirror : 0u;
 }
 
-/// How often each channel has each value.
+/// The mean of the texels by both curves, found by how often each channel has each value.
 template <typename Value>
-using Histogram = std::array<std::vector<uint32_t>, 4>;
-
-template <typename Value>
-glm::vec4 meanOf(std::span<const Value> rgba, TransferCurve curve) {
+PictureFacts meansOf(std::span<const Value> rgba) {
   std::array<std::vector<uint32_t>, 4> counts;
   for (auto& channel : counts) channel.resize(size_t(std::numeric_limits<Value>::max()) + 1);
   for (size_t i = 0; i < rgba.size(); ++i) ++counts[i & 3][rgba[i]];
-  glm::dvec4 sum(0.0);
-  for (size_t channel = 0; channel < 4; ++channel) {
-    const std::vector<float>& linear = linearValues<Value>(curveOf(curve, channel));
-    for (size_t i = 0; i < linear.size(); ++i) sum[int(channel)] += double(counts[channel][i]) * linear[i];
-  }
-  return glm::vec4(sum / double(std::max<size_t>(rgba.size() / 4, 1)));
+  const auto meanBy = [&](TransferCurve curve) {
+    glm::dvec4 sum(0.0);
+    for (size_t channel = 0; channel < 4; ++channel) {
+      const std::vector<float>& linear = linearValues<Value>(curveOf(curve, channel));
+      for (size_t i = 0; i < linear.size(); ++i) sum[int(channel)] += double(counts[channel][i]) * linear[i];
+    }
+    return glm::vec4(sum / double(std::max<size_t>(rgba.size() / 4, 1)));
+  };
+  return {.meanNumber = meanBy(TransferCurve::Linear), .meanColor = meanBy(TransferCurve::Srgb)};
 }
 
 /// Each texel is the mean of those that it replaces, in linear light, rounded to their bits again.
@@ -89,55 +90,58 @@ std::vector<Value> scaled(std::span<const Value> rgba, glm::ivec2 from, glm::ive
   return result;
 }
 
-/// The words of a picture's texels: the values as they are in memory.
+/// Copies the values as they are in memory.
 template <typename Value>
-Words wordsOf(std::span<const Value> rgba) {
-  Words words(rgba.size_bytes() / sizeof(uint32_t));
-  std::copy_n(reinterpret_cast<const uint8_t*>(rgba.data()), rgba.size_bytes(),
+void copyTo(std::span<const Value> rgba, std::span<uint32_t> words) {
+  std::copy_n(reinterpret_cast<const uint8_t*>(rgba.data()), std::min(rgba.size_bytes(), words.size_bytes()),
               reinterpret_cast<uint8_t*>(words.data()));
-  return words;
 }
 
 }  // namespace
 
 TexturePacker::TexturePacker(const Scene& scene, const TexturePlan& plan, std::vector<PictureFacts> known,
-                             const DecodeProgress& progress)
+                             const DecodeProgress& progress, const TexelMemory& memory)
     : scene_(scene), plan_(plan), facts_(std::move(known)) {
   if (!facts_.empty()) return;
   facts_.resize(plan.places.size());
-  const auto isUsed = [](const TexturePlace& place) { return place.size.x > 0; };
-  const auto count = size_t(std::ranges::count_if(plan.places, isUsed));
-  size_t decoded = 0;
+  std::vector<EncodedPicture> encoded;
   for (uint32_t image = 0; image < plan.places.size(); ++image) {
-    if (!isUsed(plan.places[image])) continue;
-    decode(image);
-    if (progress) progress(++decoded, count);
+    if (plan.places[image].size.x == 0) continue;
+    pictures_.push_back({.image = image, .wide = plan.places[image].wide});
+    encoded.push_back({scene.images[image].bytes, nameOf(scene.images[image])});
   }
+  std::mutex mutex;
+  size_t decoded = 0;
+  const std::vector<std::string> errors = decodeEach(encoded, [&](size_t i, const TexelImage& texels) {
+    take(texels, memory, pictures_[i]);
+    const std::lock_guard lock(mutex);
+    if (progress) progress(++decoded, encoded.size());
+  });
+  for (size_t i = 0; i < errors.size(); ++i) {
+    if (errors[i].empty()) continue;
+    if (!whyNoPictures().empty()) throw InputError(errors[i]);
+    if (std::ranges::find(broken_, errors[i]) == broken_.end()) broken_.push_back(errors[i]);
+    facts_[pictures_[i].image].isBroken = true;
+  }
+  std::erase_if(pictures_, [&](const PackedPicture& picture) { return facts_[picture.image].isBroken; });
 }
 
-void TexturePacker::decode(uint32_t image) {
-  const EncodedImage& encoded = scene_.images[image];
-  const TexturePlace& place = plan_.places[image];
-  PictureFacts& facts = facts_[image];
-  TexelImage texels;
-  try {
-    texels = decodeTexels(encoded.bytes, nameOf(encoded));
-  } catch (const InputError& error) {
-    if (!whyNoPictures().empty()) throw;
-    if (std::ranges::find(broken_, error.what()) == broken_.end()) broken_.emplace_back(error.what());
-    facts.isBroken = true;
-    return;
-  }
+void TexturePacker::take(const TexelImage& texels, const TexelMemory& memory, PackedPicture& picture) {
+  const TexturePlace& place = plan_.places[picture.image];
   const glm::ivec2 size(texels.width, texels.height);
+  const size_t count = size_t(place.size.x) * size_t(place.size.y) * (place.wide ? 2 : 1);
+  if (memory.empty()) picture.own.resize(count);
+  const std::span<uint32_t> words(memory.empty() ? picture.own.data() : memory[place.number] + place.first,
+                                  count);
+  picture.words = words;
   std::visit(
       [&](auto rgba) {
-        facts.meanNumber = meanOf(rgba, TransferCurve::Linear);
-        facts.meanColor = meanOf(rgba, TransferCurve::Srgb);
+        facts_[picture.image] = meansOf(rgba);
         const TransferCurve curve = place.isColor ? TransferCurve::Srgb : TransferCurve::Linear;
-        pictures_.push_back({image, place.wide, {}});
-        pictures_.back().words = size == place.size
-                                     ? wordsOf(rgba)
-                                     : wordsOf(decltype(rgba)(scaled(rgba, size, place.size, curve)));
+        if (size == place.size)
+          copyTo(rgba, words);
+        else
+          copyTo(decltype(rgba)(scaled(rgba, size, place.size, curve)), words);
       },
       texels.rgba);
 }

@@ -10,10 +10,10 @@ namespace fragtrace {
 /// Decodes the pictures of a plan, and writes the rows of materials that use them.
 class TexturePacker {
  public:
-  /// Decodes each picture that has a place. `known` are facts of the same pictures, which were decoded
-  /// before: then nothing is decoded. Throws InputError where no picture can be decoded.
+  /// Decodes each picture that has a place, on all processors. `known` are facts of the same pictures, which
+  /// were decoded before: then nothing is decoded. Throws InputError where no picture can be decoded.
   TexturePacker(const Scene& scene, const TexturePlan& plan, std::vector<PictureFacts> known = {},
-                const DecodeProgress& progress = {});
+                const DecodeProgress& progress = {}, const TexelMemory& memory = {});
 
   /// The slot row (shaders/layout.glsl) of a use of a texture; all zero for none.
   glm::uvec4 slot(const TextureRef& ref);
@@ -35,7 +35,8 @@ class TexturePacker {
   const std::vector<PictureFacts>& facts() const { return facts_; }
 
  private:
-  void decode(uint32_t image);
+  /// Fills a picture and its facts from its decoded texels.
+  void take(const TexelImage& texels, const TexelMemory& memory, PackedPicture& picture);
   uint32_t transformRow(const TextureTransform& transform);
 
   const Scene& scene_;

@@ -76,9 +76,11 @@ Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads,
                    const std::filesystem::path& shaderFolder)
     : Renderer(context, std::move(scene), reads, ProgramCache(shaderSource(shaderFolder))) {}
 
-Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads, ProgramCache programs)
+Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads, ProgramCache programs,
+                   SceneTextures textures)
     : programs_(std::move(programs)),
       buffers_(scene, reads),
+      textures_(std::move(textures)),
       frameBuffer_(makeBuffer()),
       fogBuffer_(makeBuffer()),
       shutterBuffer_(makeBuffer()),

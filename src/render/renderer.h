@@ -110,8 +110,9 @@ class Renderer {
   /// Uploads the scene, which must hold all that later variants read. Its arrays are freed one by one.
   Renderer(const Context& context, GpuScene scene, BufferReads reads,
            const std::filesystem::path& shaderFolder = {});
-  /// Does the same with programs that may have been built already.
-  Renderer(const Context& context, GpuScene scene, BufferReads reads, ProgramCache programs);
+  /// Does the same with programs that may have been built already, and textures that may be prepared.
+  Renderer(const Context& context, GpuScene scene, BufferReads reads, ProgramCache programs,
+           SceneTextures textures = {});
 
   /// Replaces the scene by the next one of a sequence, which is read in the same way. Programs stay.
   void replaceScene(GpuScene scene);

@@ -311,11 +311,13 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   planTextures(tracer, loaded, everything, options, context, stats);
   ProgramCache programs =
       before ? std::move(*before) : ProgramCache(shaderSource(options.device.shaderFolder));
+  SceneTextures textures;
+  const TexelMemory memory = tracer.textures.bytes() > 0 ? textures.prepare(tracer.textures) : TexelMemory();
   Phase packing;  // outlives the thread that sets it
   std::future<GpuScene> packedLater = std::async(kThreadIfGranted, [&] {
     PhaseTimer timer("pack", "second");
     GpuScene scene = packScene(loaded.scene, loaded.bvh, loaded.environment, everything, tracer.textures,
-                               &tracer.kept, loaded.decoding);
+                               &tracer.kept, loaded.decoding, memory);
     packing = timer.end();
     return scene;
   });
@@ -335,7 +337,8 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   tracer.programMs = building.end - building.begin;
   stats.compileMs += tracer.programMs;
   PhaseTimer uploading("upload");
-  tracer.renderer = std::make_unique<Renderer>(context, std::move(packed), choice.reads, std::move(programs));
+  tracer.renderer = std::make_unique<Renderer>(context, std::move(packed), choice.reads, std::move(programs),
+                                               std::move(textures));
   stats.phases.push_back(uploading.end());
   stats.uploadMs = stats.phases.back().end - stats.phases.back().begin;
   return tracer;
