@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes a scene with large PNG textures: eight urns with 24 of 4096 x 4096, or a hall with 70 of 2048 x 2048. Needs numpy; 1.1 and 0.7 GB.
+"""Writes a scene with large PNG textures: eight urns with 24 of 4096 x 4096, or a hall with 70 of 2048 x 2048. Needs numpy; 0.6 and 0.5 GB.
 usage: scenes/large_textures.py urns|hall FOLDER [SIDE]"""
 import math
 import struct
