@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "pack/words.h"
+#include "base/words.h"
 
 namespace fragtrace {
 

@@ -4,14 +4,12 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "bvh/bvh.h"
 #include "image/image.h"
-#include "pack/texture_plan.h"
+#include "pack/textures/texture_plan.h"
 #include "scene/scene.h"
 #include "scene/sky/map_sun.h"
 #include "scene/sky/sky.h"
@@ -57,25 +55,6 @@ float environmentChance(const LightShare& share, double intensity);
 /// The probability that a light path begins at the sun.
 float sunChance(const LightShare& share, double intensity);
 
-/// Where the buffers of a plan are mapped, in which pictures are then written; empty: they are not.
-using TexelMemory = std::vector<uint32_t*>;
-
-/// A decoded picture: a word for each texel, or two where it is wide.
-struct PackedPicture {
-  uint32_t image = 0;  ///< index of the scene's image
-  bool wide = false;
-  std::span<const uint32_t> words{};
-  std::vector<uint32_t> own{};  ///< the words, unless they are in the device's memory already
-};
-
-/// What is known of a picture once it was decoded: mean colour and alpha, linear, if its values are numbers
-/// and if they are colours in sRGB.
-struct PictureFacts {
-  bool isBroken = false;  ///< it cannot be decoded
-  glm::vec4 meanNumber{1.0f};
-  glm::vec4 meanColor{1.0f};
-};
-
 /// A grid of densities in its array.
 struct PackedGrid {
   glm::dmat4 fromFile{1.0};  ///< maps the file's space to bricks of the table
@@ -114,9 +93,6 @@ struct GpuScene {
 };
 
 struct KeptArrays;
-
-/// Told how many of how many pictures of the scene have been decoded. From any thread.
-using DecodeProgress = std::function<void(size_t decoded, size_t count)>;
 
 /// Packs the arrays that the variant reads, with the pictures of a plan that holds all of them. The tree may
 /// be a plain list of leaves without nodes (iterative traversal). Textures that cannot be decoded are lost

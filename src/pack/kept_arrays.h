@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "pack/gpu_scene.h"
-#include "pack/texture_plan.h"
+#include "pack/textures/texture_plan.h"
 #include "scene/scene.h"
 
 namespace fragtrace {

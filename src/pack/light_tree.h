@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "pack/words.h"
+#include "base/words.h"
 #include "scene/light_bounds.h"
 
 namespace fragtrace {

@@ -12,9 +12,9 @@
 
 #include "base/parallel.h"
 #include "base/vectors.h"
+#include "base/words.h"
 #include "pack/environment_light.h"
 #include "pack/inversion_table.h"
-#include "pack/words.h"
 
 namespace fragtrace {
 

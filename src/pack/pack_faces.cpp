@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/errors.h"
+#include "base/words.h"
 #include "pack/pack_tree.h"
-#include "pack/words.h"
 #include "scene/hit_error.h"
 #include "scene/motion/moving_scene.h"
 

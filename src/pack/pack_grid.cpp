@@ -6,7 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/packing.hpp>
 
-#include "pack/words.h"
+#include "base/words.h"
 
 namespace fragtrace {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/vectors.h"
+#include "base/words.h"
 #include "pack/pack_tree.h"
-#include "pack/words.h"
 
 namespace fragtrace {
 namespace {

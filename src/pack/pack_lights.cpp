@@ -9,9 +9,9 @@
 #include <numeric>
 
 #include "base/vectors.h"
+#include "base/words.h"
 #include "pack/inversion_table.h"
 #include "pack/light_tree.h"
-#include "pack/words.h"
 #include "scene/motion/moving_scene.h"
 
 namespace fragtrace {

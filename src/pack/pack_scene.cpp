@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/words.h"
 #include "pack/energy_tables.h"
 #include "pack/environment_light.h"
 #include "pack/gpu_scene.h"
@@ -13,9 +14,8 @@
 #include "pack/pack_faces.h"
 #include "pack/pack_grid.h"
 #include "pack/pack_lights.h"
-#include "pack/pack_textures.h"
 #include "pack/pack_tree.h"
-#include "pack/words.h"
+#include "pack/textures/pack_textures.h"
 #include "scene/casters.h"
 #include "shader/variant.h"
 

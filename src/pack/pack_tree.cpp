@@ -6,7 +6,7 @@
 #include <span>
 
 #include "base/errors.h"
-#include "pack/words.h"
+#include "base/words.h"
 #include "scene/coincidence.h"
 #include "scene/hit_error.h"
 #include "scene/motion/moving_scene.h"

@@ -10,7 +10,7 @@
 #include "base/parallel.h"
 #include "base/vectors.h"
 #include "bvh/exact_tracer.h"
-#include "pack/pack_textures.h"
+#include "pack/textures/pack_textures.h"
 #include "scene/projection.h"
 
 namespace fragtrace {

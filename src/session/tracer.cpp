@@ -10,7 +10,7 @@
 #include "gl/driver_choice.h"
 #include "gl/schedule.h"
 #include "pack/literals.h"
-#include "pack/texture_plan.h"
+#include "pack/textures/texture_plan.h"
 #include "scene/light_spread.h"
 #include "session/file_light.h"
 #include "session/outputs.h"

@@ -4,9 +4,9 @@
 
 #include <array>
 
+#include "base/words.h"
 #include "glsl.h"
 #include "pack/pack_faces.h"
-#include "pack/words.h"
 #include "scene/hit_error.h"
 
 namespace fragtrace {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Where pictures lie on the device: nothing overlaps, nothing passes the room, and the largest shrink first.
-#include "pack/texture_plan.h"
+#include "pack/textures/texture_plan.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 
 namespace fragtrace {
@@ -102,22 +103,71 @@ TEST(TexturePlan, AThousandPicturesLieInLayersWithoutOverlap) {
   EXPECT_LT(int64_t(plan.bytes()), used * 6 * 3 / 2 + 2 * int64_t(4096) * 4096 * 8);
 }
 
-TEST(TexturePlan, TheLargestShrinkFirstAndAsLittleAsNeeded) {
-  const TextureRoom room{.words = 300 * 300, .buffers = 2};
-  const Scene scene = sceneWith({{400, 200}, {100, 100}, {10, 300}, {16, 16}});
-  const TexturePlan plan = planTextures(scene, baseColors(), room);
-  EXPECT_EQ(plan.shrunk.count, 0u);  // 80000 words in the first buffer, 13256 in the second
+/// Squares of those sides, each with a picture of its own of 1000 x 1000 texels over the whole square.
+Scene squares(std::initializer_list<float> sides) {
+  Scene scene;
+  for (const float side : sides) {
+    const auto first = uint32_t(scene.vertices.position.size());
+    const auto number = uint32_t(scene.images.size());
+    for (const glm::vec2 corner : {glm::vec2(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
+      scene.vertices.position.emplace_back(corner * side, 0.0f);
+      scene.vertices.texcoord0.push_back(corner);
+    }
+    for (const glm::uvec3 corners : {glm::uvec3(0, 1, 2), glm::uvec3(0, 2, 3)})
+      scene.triangles.push_back({.vertex = first + corners, .material = number});
+    scene.images.push_back({.name = "a.png", .bytes = {}, .width = 1000, .height = 1000});
+    scene.textures.push_back({.image = number});
+    scene.materials.emplace_back().baseColorTexture.texture = number;
+  }
+  return scene;
+}
 
-  const TextureRoom small{.words = 50000, .buffers = 1};
-  const TexturePlan shrunk = planTextures(scene, baseColors(), small);
-  EXPECT_EQ(shrunk.shrunk.from, 400);
-  EXPECT_GE(shrunk.shrunk.count, 1u);
-  EXPECT_LT(shrunk.places[0].size.x, 300);
-  EXPECT_NEAR(double(shrunk.places[0].size.x) / shrunk.places[0].size.y, 2.0, 0.05);
-  EXPECT_EQ(shrunk.places[1].size, glm::ivec2(100));
-  EXPECT_EQ(shrunk.places[3].size, glm::ivec2(16));
-  EXPECT_LE(shrunk.sizes[0], small.words);
-  EXPECT_GT(shrunk.sizes[0], small.words * 95 / 100);
+/// The widths of pictures of the scene in room for so many texels.
+std::vector<int> widthsWithin(const Scene& scene, int64_t texels) {
+  std::vector<int> widths;
+  for (const TexturePlace& place : planTextures(scene, baseColors(), {.words = texels}).places)
+    widths.push_back(place.size.x);
+  return widths;
+}
+
+TEST(TexturePlan, ThoseWithMostTexelsOnALengthShrinkToOneDensity) {
+  // 1000, 500 and 100 texels per length; at 250 per length they have 250, 500 and 1000 a side.
+  const TextureRoom room{.words = 62'500 + 250'000 + 1'000'000};
+  const TexturePlan plan = planTextures(squares({1, 2, 10}), baseColors(), room);
+  EXPECT_NEAR(plan.places[0].size.x, 250, 1);
+  EXPECT_NEAR(plan.places[1].size.x, 500, 1);
+  EXPECT_EQ(plan.places[2].size, glm::ivec2(1000));
+  EXPECT_EQ(plan.shrunk.count, 2u);
+  EXPECT_EQ(plan.shrunk.from, 1000);
+  EXPECT_EQ(plan.shrunk.to, plan.places[1].size.x);
+  EXPECT_EQ(widthsWithin(squares({1, 2}), 2'000'000), std::vector(2, 1000));
+}
+
+TEST(TexturePlan, ARepeatedPictureHasMoreTexelsOnALength) {
+  Scene scene = squares({1, 1});
+  scene.materials[1].baseColorTexture.transform.u.x = 16.0f;
+  const std::vector<int> widths = widthsWithin(scene, 1'250'000);
+  EXPECT_EQ(widths[0], 1000);
+  EXPECT_NEAR(widths[1], 500, 1);
+}
+
+TEST(TexturePlan, InstancesCountByTheirSize) {
+  Scene scene = squares({1, 1});
+  scene.sharedMeshes = {{.firstTriangle = 0, .triangleCount = 2}, {.firstTriangle = 2, .triangleCount = 2}};
+  scene.instances.push_back({.toLocal = glm::dmat4(1.0), .mesh = 0});
+  scene.instances.push_back({.toLocal = glm::dmat4(glm::dmat3(4.0)), .mesh = 1});
+  const std::vector<int> widths = widthsWithin(scene, 1'250'000);
+  EXPECT_NEAR(widths[0], 500, 1);
+  EXPECT_EQ(widths[1], 1000);
+}
+
+TEST(TexturePlan, APaletteShrinksLastAndWhatIsNoNumberShrinksFirst) {
+  Scene scene = squares({1, 1});
+  scene.materials[0].baseColorTexture.transform.u.x = 0.0f;
+  EXPECT_EQ(widthsWithin(scene, 1'000'000 + 250'000), (std::vector{1000, 499}));
+  EXPECT_EQ(widthsWithin(scene, 2), (std::vector{1, 1}));
+  scene.vertices.texcoord0[4].x = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(widthsWithin(scene, 1'000'001), (std::vector{1000, 1}));
 }
 
 TEST(TexturePlan, PicturesThatNothingReadsTakeNoRoom) {

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "pack/pack_textures.h"
+#include "pack/textures/pack_textures.h"
 
 #include <algorithm>
 #include <cmath>
 #include <mutex>
 
 #include "base/errors.h"
+#include "base/words.h"
 #include "image/display/tone_map.h"
 #include "image/files/decode_each.h"
 #include "image/files/process.h"
-#include "pack/words.h"
+#include "shader/layout.h"
 
 namespace fragtrace {
 
@@ -188,7 +189,7 @@ uint32_t TexturePacker::transformRow(const TextureTransform& transform) {
   return uint32_t(scene_.materials.size() * layout::kMaterialRows + 2 * index);
 }
 
-void TexturePacker::appendTransforms(Words& materials) const {
+void TexturePacker::appendTransforms(std::vector<uint32_t>& materials) const {
   for (const TextureTransform& transform : transforms_) {
     appendRow(materials, transform.u, 0.0f);
     appendRow(materials, transform.v, 0.0f);

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "image/image.h"
-#include "pack/gpu_scene.h"
-#include "pack/texture_plan.h"
+#include "pack/textures/texture_plan.h"
 
 namespace fragtrace {
 
@@ -28,7 +27,7 @@ class TexturePacker {
   Material withoutBroken(Material m) const;
 
   /// Appends the rows of the transforms, which come after those of all materials.
-  void appendTransforms(Words& materials) const;
+  void appendTransforms(std::vector<uint32_t>& materials) const;
 
   std::vector<PackedPicture> takePictures() { return std::move(pictures_); }
   std::vector<std::string> takeBroken() { return std::move(broken_); }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "pack/texture_plan.h"
+#include "pack/textures/texture_plan.h"
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <numeric>
 
+#include "pack/textures/texel_density.h"
 #include "shader/layout.h"
 
 namespace fragtrace {
@@ -82,16 +84,20 @@ bool placeInArrays(const TextureRoom& room, TexturePlan& plan) {
   return std::ranges::max(plan.sizes) <= int64_t(room.layers);
 }
 
-/// Places the pictures, each scaled down to at most `side`.
-bool placeWithin(const std::vector<TexturePlace>& whole, int side, const TextureRoom& room,
-                 TexturePlan& plan) {
+/// Places the pictures, each scaled down to the room's side and to the part of its size that it may have.
+bool placeWithin(const std::vector<TexturePlace>& whole, const std::function<double(size_t)>& part,
+                 const TextureRoom& room, TexturePlan& plan) {
   plan.places = whole;
-  plan.shrunk = {.to = side};
-  for (TexturePlace& place : plan.places) {
-    const int larger = std::max(place.whole.x, place.whole.y);
-    if (larger > 0) place.size = within(place.whole, side);
-    plan.shrunk.count += larger > side ? 1 : 0;
+  plan.shrunk = {};
+  for (size_t i = 0; i < whole.size(); ++i) {
+    const int larger = std::max(whole[i].whole.x, whole[i].whole.y);
+    if (larger == 0) continue;
+    const int side = std::min(room.side, std::max(1, int(larger * std::min(part(i), 1.0))));
+    plan.places[i].size = within(whole[i].whole, side);
+    if (side >= larger) continue;
+    ++plan.shrunk.count;
     plan.shrunk.from = std::max(plan.shrunk.from, larger);
+    plan.shrunk.to = std::max(plan.shrunk.to, side);
   }
   return room.reads == TexelReads::Words ? placeInBuffers(room, plan) : placeInArrays(room, plan);
 }
@@ -155,13 +161,25 @@ void forEachPicture(const Scene& scene, const TraitSet& traits,
 TexturePlan planTextures(const Scene& scene, const TraitSet& traits, const TextureRoom& room) {
   const std::vector<TexturePlace> whole = readPictures(scene, traits);
   TexturePlan plan{.reads = room.reads};
-  if (placeWithin(whole, room.side, room, plan)) return plan;
-  int fits = 1;
-  for (int above = plan.shrunk.from; above - fits > 1;) {
-    const int side = std::midpoint(fits, above);
-    (placeWithin(whole, side, room, plan) ? fits : above) = side;
+  if (placeWithin(
+          whole, [](size_t) { return 1.0; }, room, plan))
+    return plan;
+  const std::vector<double> densities = texelDensities(scene);
+  double largest = 0.0;
+  for (const double density : densities)
+    if (std::isfinite(density)) largest = std::max(largest, density);
+  // The logarithm of the common density, between one at which each picture is a texel and the largest one.
+  double fits = std::log2(std::max(largest, 1e-300) * 1e-12), above = std::log2(std::max(largest, 1e-300));
+  const auto tryDensity = [&](double logarithm) {
+    const double most = std::exp2(logarithm);
+    return placeWithin(
+        whole, [&](size_t i) { return most / densities[i]; }, room, plan);
+  };
+  for (int step = 0; step < 50; ++step) {
+    const double middle = std::midpoint(fits, above);
+    (tryDensity(middle) ? fits : above) = middle;
   }
-  placeWithin(whole, fits, room, plan);
+  tryDensity(fits);
   return plan;
 }
 

@@ -6,8 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
-#include <limits>
-#include <string>
+#include <span>
 #include <vector>
 
 #include "scene/scene.h"
@@ -42,8 +41,8 @@ struct TexturePlace {
 /// Pictures that had to be scaled down.
 struct ShrunkTextures {
   size_t count = 0;
-  int from = 0;  ///< the largest side
-  int to = 0;
+  int from = 0;  ///< the largest side of these pictures in the files
+  int to = 0;    ///< the largest side of these pictures on the device
 };
 
 struct TexturePlan {
@@ -57,6 +56,28 @@ struct TexturePlan {
   size_t bytes() const;
 };
 
+/// Where the buffers of a plan are mapped, in which pictures are then written; empty: they are not.
+using TexelMemory = std::vector<uint32_t*>;
+
+/// A decoded picture: a word for each texel, or two where it is wide.
+struct PackedPicture {
+  uint32_t image = 0;  ///< index of the scene's image
+  bool wide = false;
+  std::span<const uint32_t> words{};
+  std::vector<uint32_t> own{};  ///< the words, unless they are in the device's memory already
+};
+
+/// What is known of a picture once it was decoded: mean colour and alpha, linear, if its values are numbers
+/// and if they are colours in sRGB.
+struct PictureFacts {
+  bool isBroken = false;  ///< it cannot be decoded
+  glm::vec4 meanNumber{1.0f};
+  glm::vec4 meanColor{1.0f};
+};
+
+/// Told how many of how many pictures of the scene have been decoded. From any thread.
+using DecodeProgress = std::function<void(size_t decoded, size_t count)>;
+
 /// Returns true if a variant of these traits reads the texture of a material in that slot.
 bool readsTexture(uint32_t slot, const Material& material, const TraitSet& traits);
 
@@ -64,8 +85,8 @@ bool readsTexture(uint32_t slot, const Material& material, const TraitSet& trait
 void forEachPicture(const Scene& scene, const TraitSet& traits,
                     const std::function<void(uint32_t image, TransferCurve curve)>& use);
 
-/// Places all pictures that a variant of these traits reads. Where they do not fit, those are scaled down
-/// that are wider or higher than the largest side at which all of them do.
+/// Places all pictures that a variant of these traits reads. Where they do not fit, those with most texels on
+/// a length of surface shrink, down to one number of texels per length: the others are seen larger, and stay.
 TexturePlan planTextures(const Scene& scene, const TraitSet& traits, const TextureRoom& room = {});
 
 /// Returns true if the plan has places for all pictures that such a variant of the scene reads.
