@@ -186,9 +186,9 @@ const uint kMaterialHoldsLamps = 512u;  // a solid inside of which punctual ligh
 
 const int kMostCasters = 16;  // balls round what makes caustics
 
-// Texture slot row: place of its picture, width | height << 16, flags, row of its transform among the materials or 0. A
-// transform is two rows of a matrix. The place is the first word of a buffer, or x | y << 16 of a layer; which buffer or
-// layer is in the upper half of the flags.
+// Texture slot row: place of its picture, width | height << 16, flags, row of its transform among the materials or 0.
+// A transform is two rows of a matrix. The place is the first word of a buffer, or x | y << 16 of a layer; the upper
+// half of the flags says which buffer or layer.
 const uint kTexturePresent = 1u;
 const uint kTextureLinear = 2u;
 const uint kTextureTexcoord1 = 4u;

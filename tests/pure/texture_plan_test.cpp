@@ -164,7 +164,7 @@ TEST(TexturePlan, InstancesCountByTheirSize) {
 TEST(TexturePlan, APaletteShrinksLastAndWhatIsNoNumberShrinksFirst) {
   Scene scene = squares({1, 1});
   scene.materials[0].baseColorTexture.transform.u.x = 0.0f;
-  EXPECT_EQ(widthsWithin(scene, 1'000'000 + 250'000), (std::vector{1000, 499}));
+  EXPECT_EQ(widthsWithin(scene, 1'000'000 + 250'000), (std::vector{1000, 500}));
   EXPECT_EQ(widthsWithin(scene, 2), (std::vector{1, 1}));
   scene.vertices.texcoord0[4].x = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(widthsWithin(scene, 1'000'001), (std::vector{1000, 1}));

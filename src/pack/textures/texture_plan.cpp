@@ -92,7 +92,7 @@ bool placeWithin(const std::vector<TexturePlace>& whole, const std::function<dou
   for (size_t i = 0; i < whole.size(); ++i) {
     const int larger = std::max(whole[i].whole.x, whole[i].whole.y);
     if (larger == 0) continue;
-    const int side = std::min(room.side, std::max(1, int(larger * std::min(part(i), 1.0))));
+    const int side = std::min(room.side, std::max(1, int(std::lround(larger * std::min(part(i), 1.0)))));
     plan.places[i].size = within(whole[i].whole, side);
     if (side >= larger) continue;
     ++plan.shrunk.count;

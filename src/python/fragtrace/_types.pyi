@@ -81,6 +81,7 @@ class Keywords(TypedDict, total=False):
     instancing: Literal["auto", "flatten", "share"] | None
     rendering_backend: Literal["auto", "egl", "osmesa"] | None
     buffer_reads: Literal["auto", "ssbo", "image", "texel"] | None
+    texture_reads: Literal["auto", "words", "arrays"] | None
     dispatch: Literal["auto", "fragment", "compute"] | None
     tune: Literal["auto", "software", "gpu"] | None
     vector_width: Literal["auto", "256", "512"] | None
