@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
+
+#include "base/text.h"
 
 namespace fragtrace {
 
@@ -32,6 +35,19 @@ std::string nearestName(std::string_view unknown, const std::vector<std::string>
   const auto nearest = std::ranges::min_element(known, {}, distance);
   const bool isNear = nearest != known.end() && distance(*nearest) <= letters / 3;
   return isNear ? *nearest : std::string();
+}
+
+std::vector<size_t> nearestFirst(std::string_view unknown, const std::vector<std::string>& known) {
+  const std::string wanted = lowered(std::string(unknown));
+  std::vector<std::pair<bool, size_t>> ranks;
+  for (const std::string& one : known) {
+    const std::string name = lowered(one);
+    ranks.emplace_back(name.find(wanted) == std::string::npos, editDistance(wanted, name));
+  }
+  std::vector<size_t> order(known.size());
+  std::iota(order.begin(), order.end(), size_t(0));
+  std::ranges::stable_sort(order, {}, [&](size_t i) { return ranks[i]; });
+  return order;
 }
 
 std::string didYouMean(std::string_view unknown, const std::vector<std::string>& known) {

@@ -23,6 +23,13 @@ std::string formatted(const char* format, Values... values) {
 /// Writes a number with at most six digits, as %g does.
 inline std::string shortText(double value) { return formatted("%g", value); }
 
+/// Makes ASCII letters small, whatever the locale is.
+inline char lowered(char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; }
+inline std::string lowered(std::string text) {
+  std::ranges::transform(text, text.begin(), [](char c) { return lowered(c); });
+  return text;
+}
+
 /// "1 part", "2 parts"; the number is a text as printed.
 inline std::string countText(const std::string& number, const std::string& what) {
   return number + " " + what + (number == "1" ? "" : "s");

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/text.h"
 #include "image/image.h"
 
 namespace fragtrace {
@@ -18,13 +19,7 @@ bool beginsWith(std::span<const uint8_t> bytes, std::string_view signature) {
 
 }  // namespace
 
-std::string extensionOf(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  // Letters are converted by hand, since tolower depends on the locale.
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  return extension;
-}
+std::string extensionOf(const std::filesystem::path& path) { return lowered(path.extension().string()); }
 
 std::optional<ImageFormat> formatOfName(const std::filesystem::path& path) {
   const std::string extension = extensionOf(path);

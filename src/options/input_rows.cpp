@@ -4,7 +4,10 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "base/near_name.h"
 #include "base/text.h"
+#include "gltf/edit/factors.h"
+#include "image/display/page_color.h"
 #include "options/light_words.h"
 #include "options/option_row.h"
 #include "options/row_makers.h"
@@ -73,12 +76,12 @@ size_t firstEquals(const std::string& text) {
 
 /// The word of a mode, as the file has it; empty: it is none.
 std::string modeIn(const std::string& word) {
-  for (const char* mode : {"OPAQUE", "MASK", "BLEND", "true", "false"})
+  for (const char* mode : {"OPAQUE", "MASK", "BLEND", "true", "false", kNoValue})
     if (isSameButForCase(word, mode)) return mode;
   return "";
 }
 
-/// "POINTER=1,2", "POINTER=1, 2", "MATERIAL:NAME=1,2" or "MATERIAL:NAME=BLEND"
+/// "POINTER=1,2", "POINTER=1, 2", "MATERIAL:NAME=1,2", "MATERIAL:NAME=red" or "MATERIAL:NAME=BLEND"
 SetNumber setNumberIn(const std::string& text) {
   const bool isPlace = text.starts_with('/');
   const size_t equals = isPlace ? text.rfind('=') : firstEquals(text);
@@ -95,13 +98,18 @@ SetNumber setNumberIn(const std::string& text) {
   }
   set.word = modeIn(text.substr(equals + 1));
   if (!set.word.empty()) return set;
+  if (const std::optional<glm::vec3> color = pageColor(text.substr(equals + 1))) {
+    for (int c = 0; c < 3; ++c) set.values.push_back(shortest((*color)[c]));
+    return set;
+  }
   for (size_t start = equals + 1; start <= text.size();) {
     const size_t end = std::min(text.find(',', start), text.size());
     const std::string word = CLI::detail::trim_copy(text.substr(start, end - start));
     const std::optional<double> number = numberOfAll<double>(word);
     if (!number || !std::isfinite(*number))
-      throw UsageError("--set: " + set.pointer + ": '" + word + "' is no number" +
-                       (end == text.size() && word.empty() ? "; a list with spaces stands in quotes" : ""));
+      throw UsageError("--set: " + set.pointer + ": '" + word + "' is no number and no colour" +
+                       (end == text.size() && word.empty() ? "; a list with spaces stands in quotes"
+                                                           : didYouMean(word, pageColorNames())));
     set.values.push_back(*number);
     start = end + 1;
   }
@@ -112,14 +120,18 @@ OptionRow setRow() {
   OptionRow row = memberRow(
       "--set",
       "value to draw instead of the file's: of the materials with that name, as \"MATERIAL:NAME=VALUES\", "
+      "such as "
+      "\"Wood*:roughness=0.25\" or \"seat:color=navy\", also of what the file's material lacks (clearcoat, "
+      "sheen, "
+      "transmission, index, alphaMode, ...); color is the colour itself, without the material's texture, and "
+      "baseColor multiplies the texture; NAMETexture=none leaves a texture out; or a number by JSON pointer, "
       "such "
-      "as \"Wood*:roughness=0.25\", also of what the file's material lacks (clearcoat, sheen, transmission, "
-      "index, alphaMode, ...); or a number by JSON pointer, such as /materials/0/alphaCutoff=0.25; several "
-      "with "
-      "commas where the file has an array; can be given several times",
+      "as /materials/0/alphaCutoff=0.25; several with commas where the file has an array; can be given "
+      "several "
+      "times",
       FRAGTRACE_MEMBER(selection.set), {.effect = Effect::Picture, .renewal = Renewal::Scene});
   row.examples = {"/materials/0/pbrMetallicRoughness/roughnessFactor=0.25", "Wood*:roughness=0.25",
-                  "b:c:alphaMode=BLEND"};
+                  "b:c:alphaMode=BLEND", "b:baseColorTexture=none"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
     const auto take = [&raw](const std::vector<std::string>& texts) {
       raw.options.selection.set.clear();

@@ -62,10 +62,12 @@ FramedPart partCalled(const Scene& scene, const std::string& name) {
     part.materials = std::move(marked);
     return true;
   };
-  if (!find(isSame) && !find(isAlike))
-    throw UsageError("--fit-to: " + inQuotes(name) +
-                     " is no node and no material of the scene; `fragtrace info --nodes` lists them");
-  return part;
+  if (find(isSame) || find(isAlike)) return part;
+  std::vector<std::string> names;
+  for (const SceneNode& node : scene.nodes) names.push_back(node.name);
+  for (const Material& material : scene.materials) names.push_back(material.name);
+  throw UsageError("--fit-to: " + inQuotes(name) + " is no node and no material of the scene, which has " +
+                   nearestInQuotes(names, name) + "; `fragtrace info --nodes` lists all");
 }
 
 /// The vertices of those of these triangles that are framed, each once.

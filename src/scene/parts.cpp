@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/errors.h"
+#include "base/near_name.h"
 #include "base/text.h"
 
 namespace fragtrace {
@@ -44,18 +45,36 @@ std::string inQuotes(std::string_view text) {
   return withoutControls(result + "\"");
 }
 
-std::string listOfParts(const std::vector<std::string>& names) {
+std::string listOfParts(const std::vector<std::string>& names, std::string_view wanted) {
+  constexpr size_t kMostListed = 12;
+  std::vector<size_t> listed(names.size());
+  std::iota(listed.begin(), listed.end(), size_t(0));
+  if (names.size() > kMostListed) {
+    listed = nearestFirst(wanted, names);
+    listed.resize(kMostListed);
+  }
   std::string list;
-  for (size_t i = 0; i < names.size(); ++i) {
-    list += (i == 0 ? "" : ", ") + std::to_string(i);
+  for (const size_t i : listed) {
+    list += (list.empty() ? "" : ", ") + std::to_string(i);
     if (!names[i].empty()) list.append(" ").append(inQuotes(names[i]));
   }
-  return list;
+  const size_t others = names.size() - listed.size();
+  return list + (others > 0 ? " and " + countText(others, "other") : "");
+}
+
+std::string nearestInQuotes(std::vector<std::string> names, std::string_view wanted) {
+  constexpr size_t kMostListed = 6;
+  std::ranges::sort(names);
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  std::erase(names, "");
+  std::vector<std::string> listed;
+  for (const size_t i : nearestFirst(wanted, names))
+    if (listed.size() < kMostListed) listed.push_back(inQuotes(names[i]));
+  return joined(listed);
 }
 
 bool isSameButForCase(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; };
-  return std::ranges::equal(a, b, {}, lower, lower);
+  return lowered(std::string(a)) == lowered(std::string(b));
 }
 
 std::optional<size_t> findPart(const std::string& wanted, const std::vector<std::string>& names) {
@@ -70,7 +89,7 @@ std::optional<size_t> findPart(const std::string& wanted, const std::vector<std:
 
 size_t indexOfPart(const char* option, const std::string& wanted, const std::vector<std::string>& names) {
   if (const auto index = findPart(wanted, names)) return *index;
-  const std::string known = listOfParts(names);
+  const std::string known = listOfParts(names, wanted);
   throw UsageError(std::string(option) + ": " + inQuotes(wanted) + " is not in the file, which has " +
                    (known.empty() ? "none" : known));
 }

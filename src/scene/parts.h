@@ -16,8 +16,12 @@ std::string withoutControls(std::string_view text);
 /// Text from a file in quotes, shortened; control characters become question marks.
 std::string inQuotes(std::string_view text);
 
-/// Parts of a file by index and, where they have one, name: 0 "walk", 1, 2 "run".
-std::string listOfParts(const std::vector<std::string>& names);
+/// Parts of a file by index and, where they have one, name: 0 "walk", 1, 2 "run". Of many, those whose names
+/// are most like the wanted one.
+std::string listOfParts(const std::vector<std::string>& names, std::string_view wanted = {});
+
+/// Those of these names that are most like the wanted one: "bolt", "bolts".
+std::string nearestInQuotes(std::vector<std::string> names, std::string_view wanted);
 
 /// Returns true if the texts differ in the case of ASCII letters at most.
 bool isSameButForCase(std::string_view a, std::string_view b);

@@ -25,12 +25,15 @@ struct AddedLight {
 /// Power of an area that says none, in W.
 inline constexpr double kAreaPower = 30.0;
 
+/// The word that takes a texture out of a material.
+inline constexpr const char* kNoValue = "none";
+
 /// Numbers, or a word, that stand in place of the file's.
 struct SetNumber {
   /// JSON pointer, such as /materials/0/pbrMetallicRoughness/roughnessFactor, or MATERIAL:NAME
   std::string pointer;
   std::vector<double> values;  ///< one, or as many as the array has there; of a word none
-  std::string word{};          ///< of a mode: "BLEND", "true"
+  std::string word{};          ///< of a mode: "BLEND", "true"; or kNoValue
 
   bool operator==(const SetNumber&) const = default;
 };

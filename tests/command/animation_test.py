@@ -243,7 +243,14 @@ class Selections(Case):
         self.assertEqual([node["name"] for node in found["nodes"] if node["hidden"]], ["lamp"])
         result = run("info", scene, "--hide", "nothere")
         self.assertEqual(result.returncode, 2)
-        self.assertIn('--hide: "nothere" is no node of the file, which has 8', result.stderr)
+        self.assertIn('--hide: "nothere" is no node of the file, which has 0 "', result.stderr)
+        self.assertIn('"lamp"', result.stderr)
+        many = Gltf()
+        for name in (*(f"screw {i}" for i in range(30)), "Lamp shade"):
+            many.node(name=name)
+        result = run("info", many.write(self.folder / "many.gltf"), "--hide", "lamp")
+        self.assertIn('--hide: "lamp" is no node of the file, which has 30 "Lamp shade", ', result.stderr)
+        self.assertIn(" and 19 others; `fragtrace info --nodes` lists all", result.stderr)
 
     def test_a_file_without_animations_is_drawn_with_a_warning(self):
         result = run("info", SCENES / "cornell-box.gltf", "--animation-time", "1")

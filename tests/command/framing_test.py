@@ -111,7 +111,7 @@ class Framing(FramingCase):
         self.assertGreater(share("--fit-to", "Screws", "--camera-orbit", "30,0"), 0.5)
         result = run("render", scene, "-o", self.folder / "x.png", "--fit-to", "bolt")
         self.assertEqual(result.returncode, 2)
-        self.assertIn('--fit-to: "bolt" is no node and no material of the scene', result.stderr)
+        self.assertIn('--fit-to: "bolt" is no node and no material of the scene, which has "', result.stderr)
         result = run("render", scene, "-o", self.folder / "x.png", "--fit-to", "wall", "--hide", "wall")
         self.assertEqual(result.returncode, 2)
         self.assertIn("has nothing that is shown", result.stderr)

@@ -3,7 +3,7 @@
 """--set "MATERIAL:NAME=VALUES": materials by their names, also with what the file lacks."""
 import json
 
-from support import SCENES, SMALL, Case, main
+from support import SCENES, SMALL, Case, Gltf, main, png, quad
 
 BOX = SCENES / "cornell-box.gltf"
 
@@ -70,11 +70,63 @@ class SetByName(Case):
         self.assertEqual(self.drawn(odd, "--set", r"a\=b:c\*:color=0.1,0.2,0.3"), plain)
         self.fails(2, "render", odd, "-o", self.folder / "x.png", "--set", r"a\=b\*:color=0.1,0.2,0.3", says=["no material is called"])
 
+    def textured(self, **changes):
+        """A quad with a green texture and blue corners, whose material is called Seat."""
+        base = {"baseColorTexture": {"index": 0}, "baseColorFactor": [1, 1, 1, 1]}
+        root = quad({"name": "Seat", "pbrMetallicRoughness": base, **changes}, images=[png(1, 1, [0, 255, 0, 255])])
+        gltf = Gltf(root)
+        root["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = gltf.accessor([(0.2, 0.5, 1)] * 4)
+        return gltf.document()
+
+    def test_a_color_is_that_color(self):
+        scene = self.written("seat.gltf", self.textured())
+        flat = lambda text, file=scene: self.drawn(file, "--stage", "flat", "--set", text)
+        plain = self.textured(pbrMetallicRoughness={"baseColorFactor": [1, 0.5, 0, 1]})
+        del plain["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"]
+        orange = self.drawn(self.written("plain.gltf", plain), "--stage", "flat")
+        self.assertEqual(flat("Seat:color=1,0.5,0"), orange)
+        self.assertEqual(flat("seat:color=1,0.5,0"), orange)
+        self.assertEqual(flat("SE?T:colour=1,0.5,0"), orange)
+        self.assertEqual(flat("0:color=1,0.5,0"), orange)
+        self.assertEqual(flat("Seat:color=#ff0000"), flat("Seat:color=red"))
+        self.assertEqual(flat("Seat:color=red"), flat("Seat:color=1,0,0"))
+        # glTF's own name multiplies; the texture alone can go, too.
+        tinted = flat("Seat:baseColor=1,0.5,0")
+        self.assertNotIn(tinted, (orange, self.drawn(scene, "--stage", "flat")))
+        bare = self.textured(pbrMetallicRoughness={})
+        without = self.drawn(self.written("bare.gltf", bare), "--stage", "flat")
+        for text in ("Seat:texture=none", "Seat:baseColorTexture=none", "/materials/0/pbrMetallicRoughness/baseColorTexture=none"):
+            self.assertEqual(flat(text), without, text)
+        # An older description of materials has another member for it.
+        older = {"KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [1, 1, 1, 1], "diffuseTexture": {"index": 0}}}
+        self.assertEqual(flat("Seat:color=1,0.5,0", self.written("older.gltf", self.textured(extensions=older))), orange)
+
+    def test_what_holds_an_outline_stays(self):
+        scene = self.written("leaf.gltf", self.textured(alphaMode="MASK"))
+        result = self.renders(scene, "-o", self.folder / "x.png", "--resolution", "16,16", "--spp", "2", "--set", "Seat:color=1,0.5,0")
+        self.assertIn("multiplies the texture, which may hold the outline", result.stderr)
+        self.assertEqual(self.drawn(scene, "--set", "Seat:color=1,0.5,0"), self.drawn(scene, "--set", "Seat:baseColorFactor=1,0.5,0,1"))
+
+    def test_two_names_that_differ_in_case_are_not_mixed(self):
+        root = json.loads(BOX.read_text())
+        root["materials"][1]["name"], root["materials"][2]["name"] = "Wall", "wall"
+        scene = self.written("walls.gltf", root)
+        self.fails(2, "render", scene, "-o", self.folder / "x.png", "--set", "WALL:roughness=1", says=["no material is called 'WALL'"])
+        self.assertNotEqual(self.drawn(scene, "--set", "wall:color=1,1,1"), self.drawn(scene, "--set", "Wall:color=1,1,1"))
+
+    def test_of_many_names_the_nearest_are_listed(self):
+        root = json.loads(BOX.read_text())
+        root["materials"] += [{"name": f"Metal {i}"} for i in range(40)] + [{"name": "Wood oak"}]
+        self.fails(2, "render", self.written("many.gltf", root), "-o", self.folder / "x.png", "--set", "wood:roughness=1",
+                   says=["the file has 44 \"Wood oak\", ", " and 33 others"])
+
     def test_what_is_not_there_is_told_what_is(self):
         for text, says in (("rde:roughness=1", "no material is called 'rde'; the file has 0 \"white\", 1 \"red\", 2 \"green\", 3 \"lamp\""),
                            ("red:roughnes=1", "'roughnes' is no value of a material; did you mean roughness?"),
                            ("red:clearcoats=1", "did you mean clearcoat?"), ("red:color=1", "takes 4 numbers, not 1"),
-                           (":roughness=1", "is not of the form"), ("red=1", "is not of the form"), ("red:=1", "is not of the form"), ("red:roughness=x", "'x' is no number")):
+                           (":roughness=1", "is not of the form"), ("red=1", "is not of the form"), ("red:=1", "is not of the form"), ("red:roughness=x", "'x' is no number"),
+                           ("red:color=orang", "'orang' is no number and no colour; did you mean orange?"), ("red:roughness=none", "is no number"),
+                           ("red:baseColorTexture=1", "takes only 'none'"), ("red:normalTextures=none", "did you mean normalTexture?")):
             self.fails(2, "render", BOX, "-o", self.folder / "x.png", "--set", text, says=["--set: ", says])
 
 

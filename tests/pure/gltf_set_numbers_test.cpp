@@ -152,6 +152,17 @@ TEST(JsonText, MissingMembersStandBehindTheLast) {
   EXPECT_EQ(changed("{\"m\":[{ }]}", {0.5}), "{\"m\":[{\"p\": {\"r\": 0.5} }]}");
 }
 
+TEST(JsonText, WhatIsTakenOutGoesWithItsComma) {
+  const auto without = [](const std::string& text) { return withNumbers(text, {{{"/m/0/t", {}, "none"}}}); };
+  EXPECT_EQ(without("{\"m\":[{\"a\":1,\n \"t\": {\"index\":0},\n \"b\":2}]}"),
+            "{\"m\":[{\"a\":1,\n \"b\":2}]}");
+  EXPECT_EQ(without("{\"m\":[{\"t\": {}, \"b\":2}]}"), "{\"m\":[{\"b\":2}]}");
+  EXPECT_EQ(without("{\"m\":[{\"a\":1, \"t\":3 }]}"), "{\"m\":[{\"a\":1 }]}");
+  EXPECT_EQ(without("{\"m\":[{ \"t\":3 }]}"), "{\"m\":[{  }]}");
+  for (const char* same : {"{\"m\":[{\"a\":1}]}", "{\"m\":[]}", "{\"a\":{\"t\":1}}"})
+    EXPECT_EQ(without(same), same);
+}
+
 std::string contentOf(const std::filesystem::path& path) {
   const std::vector<uint8_t> bytes = readWholeFile(path);
   return {bytes.begin(), bytes.end()};

@@ -31,11 +31,14 @@ constexpr auto kWords = std::to_array<std::pair<std::string_view, std::string_vi
     {"index", "ior"},
     {"sheen", "sheenColorFactor"},
     {"anisotropy", "anisotropyStrength"},
+    {"texture", "baseColorTexture"},
 });
 /// Members of a material that hold a word or a flag.
 constexpr std::array kModes{"alphaMode", "doubleSided"};
 /// An older description of materials, whose members have the same names.
 constexpr std::string_view kOlder = "/KHR_materials_pbrSpecularGlossiness/";
+/// A number that each use of a texture may have.
+constexpr const char* kTurn = "/extensions/KHR_texture_transform/rotation";
 
 /// The place of a material's value by the name of a member, or by a word for it.
 std::optional<std::string> placeIn(const std::string& material, const std::string& name) {
@@ -44,8 +47,12 @@ std::optional<std::string> placeIn(const std::string& material, const std::strin
   const std::string member = word == kWords.end() ? name : std::string(word->second);
   for (const std::string& one : {member, member + "Factor"}) {
     const std::string direct = std::string(material).append("/").append(one);
-    if (numberRuleAt(direct)) return direct;
+    if (numberRuleAt(direct) || isTextureAt(direct)) return direct;
     std::vector<std::string> places = numbersBelow(material, "/" + one);
+    if (places.empty() && one.ends_with("Texture")) {
+      places = numbersBelow(material, "/" + one + kTurn);
+      for (std::string& place : places) place.resize(place.size() - std::string_view(kTurn).size());
+    }
     std::erase_if(places, [](const std::string& place) { return place.find(kOlder) != std::string::npos; });
     if (!places.empty()) return places.front();
   }
@@ -68,15 +75,69 @@ std::vector<std::string> knownNames(const std::string& material) {
   return names;
 }
 
+/// Returns true if the user says which colour the material has, not what its texture is multiplied by.
+bool isColorItself(std::string_view name) { return name == "color" || name == "colour"; }
+
+/// The indices of the materials that a name or pattern says: those that it fits, else the one whose index it
+/// is, else those that it fits but for the case of letters, if all of these have the same name.
+std::vector<size_t> materialsCalled(const std::string& pattern, const std::vector<std::string>& names) {
+  const auto fitting = [&](const std::string& wanted, const auto& asWritten) {
+    std::vector<size_t> found;
+    for (size_t i = 0; i < names.size(); ++i)
+      if (!names[i].empty() && matchesPattern(wanted, asWritten(names[i]))) found.push_back(i);
+    return found;
+  };
+  std::vector<size_t> found = fitting(pattern, [](const std::string& name) { return name; });
+  if (!found.empty()) return found;
+  if (const auto index = numberOfAll<size_t>(pattern); index && *index < names.size()) return {*index};
+  found = fitting(lowered(pattern), [](const std::string& name) { return lowered(name); });
+  const auto differs = [&](size_t i) { return names[i] != names[found.front()]; };
+  return std::ranges::any_of(found, differs) ? std::vector<size_t>() : found;
+}
+
 /// The value at its place. A colour of three numbers keeps the alpha that is there.
 SetNumber valueAt(const json& root, const std::string& place, const SetNumber& set) {
   SetNumber placed{place, set.values, set.word};
   constexpr size_t kColor = 3;
-  if (place.ends_with("/baseColorFactor") && placed.values.size() == kColor) {
+  const std::optional<NumberRule> rule = numberRuleAt(place);
+  if (rule && rule->width == kColor + 1 && placed.values.size() == kColor) {
     const json::json_pointer at(place + "/3");
     placed.values.push_back(root.contains(at) && root[at].is_number() ? root[at].get<double>() : 1.0);
   }
   return placed;
+}
+
+/// Returns true if the material's texture, or colours of vertices, may say by alpha where there is something.
+bool holdsOutline(const json& material) { return material.value("alphaMode", "OPAQUE") != "OPAQUE"; }
+
+/// The texture that a colour at that place multiplies: baseColorTexture for baseColorFactor.
+std::string textureFor(const std::string& place) {
+  return place.substr(0, place.size() - std::string_view("Factor").size()) + "Texture";
+}
+
+/// Sets the colour itself of the material with that index. What would multiply it, its texture and the
+/// colours of vertices, is taken out, unless that may hold an outline.
+void appendColor(const json& root, size_t index, const SetNumber& set, std::vector<SetNumber>& placed) {
+  const std::string material = "/materials/" + std::to_string(index);
+  const std::string older = material + "/extensions" + std::string(kOlder);
+  const bool isOlder = root.contains(json::json_pointer(older.substr(0, older.size() - 1)));
+  const std::string place = isOlder ? older + "diffuseFactor" : *placeIn(material, "baseColorFactor");
+  placed.push_back(valueAt(root, place, set));
+  if (holdsOutline(root["materials"][index])) return;
+  const auto takeOut = [&](const std::string& at) {
+    if (root.contains(json::json_pointer(at))) placed.push_back({at, {}, kNoValue});
+  };
+  takeOut(textureFor(place));
+  const json meshes = root.value("meshes", json::array());
+  for (size_t mesh = 0; mesh < meshes.size(); ++mesh) {
+    const json primitives = meshes[mesh].value("primitives", json::array());
+    for (size_t i = 0; i < primitives.size(); ++i) {
+      if (primitives[i].value("material", json()) != index) continue;
+      const std::string primitive = formatted("/meshes/%zu/primitives/%zu", mesh, i);
+      takeOut(primitive + "/attributes/COLOR_0");
+      takeOut(primitive + "/extensions/KHR_draco_mesh_compression/attributes/COLOR_0");
+    }
+  }
 }
 
 void appendPlaced(const json& root, const SetNumber& set, std::vector<SetNumber>& placed) {
@@ -84,21 +145,21 @@ void appendPlaced(const json& root, const SetNumber& set, std::vector<SetNumber>
   const std::string pattern = set.pointer.substr(0, colon);
   const std::string name = set.pointer.substr(colon + 1);
   std::vector<std::string> names;
-  const size_t before = placed.size();
   const json materials = root.value("materials", json::array());
-  for (size_t i = 0; i < materials.size(); ++i) {
-    names.push_back(materials[i].value("name", std::string()));
-    if (names.back().empty() || !matchesPattern(pattern, names.back())) continue;
+  for (const json& material : materials) names.push_back(material.value("name", std::string()));
+  const std::vector<size_t> called = materialsCalled(pattern, names);
+  for (const size_t i : called) {
     const std::string material = "/materials/" + std::to_string(i);
     const std::optional<std::string> place = placeIn(material, name);
     if (!place)
       throw UsageError("--set: " + set.pointer + ": '" + name + "' is no value of a material" +
                        didYouMean(name, knownNames(material)));
-    placed.push_back(valueAt(root, *place, set));
+    isColorItself(name) ? appendColor(root, i, set, placed) : placed.push_back(valueAt(root, *place, set));
   }
-  if (placed.size() > before) return;
-  throw UsageError("--set: " + set.pointer + ": no material is called '" + pattern + "'" +
-                   (names.empty() ? ", and the file has none" : "; the file has " + listOfParts(names)));
+  if (!called.empty()) return;
+  throw UsageError(
+      "--set: " + set.pointer + ": no material is called '" + pattern + "'" +
+      (names.empty() ? ", and the file has none" : "; the file has " + listOfParts(names, pattern)));
 }
 
 /// The place after the letter (UTF-8) at that place.
@@ -109,6 +170,16 @@ size_t nextLetter(std::string_view text, size_t at) {
 }
 
 }  // namespace
+
+bool isTextureAt(std::string_view pointer) {
+  return pointer.ends_with("Texture") && numberRuleAt(std::string(pointer) + kTurn);
+}
+
+bool tintsTexture(const json& root, const SetNumber& set, const std::string& place) {
+  return namesMaterials(set) && place.ends_with("Factor") &&
+         root.contains(json::json_pointer(textureFor(place))) &&
+         isColorItself(set.pointer.substr(set.pointer.rfind(':') + 1));
+}
 
 bool namesMaterials(const SetNumber& set) { return !set.pointer.starts_with('/'); }
 

@@ -22,6 +22,13 @@ bool matchesPattern(std::string_view pattern, std::string_view text);
 /// UsageError where no material has the name, or materials have no such value.
 std::vector<SetNumber> placedValues(const nlohmann::json& root, std::span<const SetNumber> set);
 
+/// Returns true if a texture stands at that place of a material, or may stand there.
+bool isTextureAt(std::string_view pointer);
+
+/// Returns true if the user says a material's colour itself, at that place, where a texture is that it
+/// multiplies.
+bool tintsTexture(const nlohmann::json& root, const SetNumber& set, const std::string& place);
+
 /// The extension that holds a place of a material; empty: none does.
 std::string extensionIn(std::string_view pointer);
 

@@ -139,6 +139,8 @@ bool hidesItself(const tinygltf::Node& node) {
 std::vector<bool> chosenByUser(const Document& document, const std::vector<std::string>& toHide) {
   const auto& nodes = document.model.nodes;
   std::vector<bool> chosen(nodes.size(), false);
+  std::vector<std::string> names;
+  for (const tinygltf::Node& node : nodes) names.push_back(node.name);
   for (const std::string& wanted : toHide) {
     bool found = false;
     for (size_t i = 0; i < nodes.size(); ++i) {
@@ -154,7 +156,7 @@ std::vector<bool> chosenByUser(const Document& document, const std::vector<std::
     if (found) continue;
     if (!isIndex)
       throw UsageError("--hide: " + inQuotes(wanted) + " is no node of the file, which has " +
-                       std::to_string(nodes.size()) + "; `fragtrace info --nodes` lists them");
+                       listOfParts(names, wanted) + "; `fragtrace info --nodes` lists all");
     chosen[*index] = true;
   }
   return chosen;

@@ -155,10 +155,7 @@ std::string hintFor(const json& root, const std::string& pointer) {
     return below.empty() ? "" : ": the file has no " + below.front();
   }
   if (!at.parent->is_array()) return "";
-  const std::vector<std::string> names = namesIn(*at.parent);
-  constexpr size_t kMostListed = 20;
-  return ": " + place + " has " +
-         (names.size() <= kMostListed ? listOfParts(names) : std::to_string(names.size()) + ", from 0 on");
+  return ": " + place + " has " + listOfParts(namesIn(*at.parent), part);
 }
 
 /// The mode at a place of a material, and whether it is one that takes the word.
@@ -183,6 +180,11 @@ std::optional<NumberRule> checkedRule(const json& root, const SetNumber& set, bo
     throw UsageError("--set: " + set.pointer +
                      (mode->isFlag ? ": is true or false" : ": is OPAQUE, MASK or BLEND"));
   }
+  if (set.word == kNoValue && (isTextureAt(set.pointer) || set.pointer.ends_with("/COLOR_0")))
+    return std::nullopt;
+  if (set.word.empty() && isTextureAt(set.pointer))
+    throw UsageError("--set: " + set.pointer + " takes only 'none', which leaves the texture out");
+  if (!set.word.empty()) throw UsageError("--set: " + set.pointer + ": '" + set.word + "' is no number");
   const std::optional<NumberRule> rule =
       creates ? numberRuleAt(set.pointer) : numberRuleIn(root, set.pointer);
   if (!rule)
@@ -197,6 +199,11 @@ std::optional<NumberRule> checkedRule(const json& root, const SetNumber& set, bo
 
 /// Writes a checked value; a word has no rule.
 void writeValue(json& root, const SetNumber& set, const std::optional<NumberRule>& rule) {
+  if (set.word == kNoValue) {
+    const json::json_pointer place(set.pointer);
+    if (root.contains(place)) root[place.parent_pointer()].erase(place.back());
+    return;
+  }
   if (rule) {
     decomposeMatrixAt(root, set.pointer);
     writeNumbers(root, set.pointer, *rule, set.values);
@@ -269,11 +276,17 @@ void checkNumbers(const json& root, std::span<const SetNumber> set) {
 
 void writeNumbers(json& root, const std::vector<SetNumber>& set, Diagnostics& diagnostics) {
   for (const SetNumber& one : set) {
-    for (const SetNumber& placed : placedValues(root, {&one, 1})) {
+    const std::vector<SetNumber> all = placedValues(root, {&one, 1});
+    for (const SetNumber& placed : all) {
       writeValue(root, placed, checkedRule(root, placed, namesMaterials(one)));
       if (const char* warning = whatIsBright(placed)) diagnostics.warn(placed.pointer, warning);
       diagnostics.noteSet(placed.pointer);
     }
+    for (const SetNumber& placed : all)
+      if (tintsTexture(root, one, placed.pointer))
+        diagnostics.remark(placed.pointer,
+                           "multiplies the texture, which may hold the outline (alphaMode); " +
+                               one.pointer.substr(0, one.pointer.rfind(':')) + ":texture=none leaves it out");
   }
 }
 

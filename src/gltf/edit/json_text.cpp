@@ -135,6 +135,17 @@ void insertMember(std::string& text, size_t object, const std::vector<Entry>& me
   text.insert(last.value.end, "," + space + key + colon + value);
 }
 
+/// Takes the member out, with the comma that parts it from another one.
+void removeMember(std::string& text, const std::vector<Entry>& members, const std::string& name) {
+  for (size_t i = members.size(); i-- > 0;) {
+    if (nameOf(text, members[i].key) != name) continue;
+    const size_t begin = i > 0 ? members[i - 1].value.end : members[i].key.begin;
+    const bool isFirst = i == 0 && members.size() > 1;
+    const size_t end = isFirst ? members[1].key.begin : members[i].value.end;
+    return void(text.erase(begin, end - begin));
+  }
+}
+
 /// The place of the document's object.
 size_t rootOf(const std::string& text) {
   constexpr size_t kMark = 3;  // bytes of UTF-8's mark
@@ -157,6 +168,8 @@ void setValue(std::string& text, const SetNumber& set) {
     const std::vector<Entry> entries =
         first == '{' || first == '[' ? entriesAt(text, at) : std::vector<Entry>();
     const std::optional<Entry> entry = entryOf(text, entries, parts[i]);
+    const bool isLast = i + 1 == parts.size();
+    if (set.word == kNoValue && (isLast || !entry)) return removeMember(text, entries, parts[i]);
     if (!entry && first != '{') throw std::runtime_error("the file has no " + set.pointer);
     if (!entry) {
       std::string value = jsonOf(set);
@@ -164,11 +177,11 @@ void setValue(std::string& text, const SetNumber& set) {
         value.insert(0, "{" + nlohmann::json(parts[inner]).dump() + ": ").append("}");
       return insertMember(text, at, entries, parts[i], value);
     }
-    if (i + 1 == parts.size() && !set.word.empty()) {
+    if (isLast && !set.word.empty()) {
       text.replace(entry->value.begin, entry->value.end - entry->value.begin, jsonOf(set));
       return;
     }
-    if (i + 1 == parts.size()) return replaceValue(text, entry->value, set.values);
+    if (isLast) return replaceValue(text, entry->value, set.values);
     at = entry->value.begin;
   }
 }
@@ -192,8 +205,8 @@ void useExtension(std::string& text, const std::string& name) {
 std::string withNumbers(std::string text, std::span<const SetNumber> set) {
   for (const SetNumber& one : set) {
     setValue(text, one);
-    if (const std::string extension = extensionIn(one.pointer); !extension.empty())
-      useExtension(text, extension);
+    const std::string extension = extensionIn(one.pointer);
+    if (!extension.empty() && one.word != kNoValue) useExtension(text, extension);
   }
   return text;
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +10,8 @@
 #include <span>
 #include <string_view>
 #include <utility>
+
+#include "base/text.h"
 
 namespace fragtrace {
 namespace {
@@ -79,7 +80,7 @@ constexpr std::pair<std::string_view, std::string_view> kForeignBeginnings[] = {
 
 /// Names the format that has the extension, and what to do; empty if there is none.
 std::string foreignFormat(std::string extension) {
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  extension = lowered(std::move(extension));
   for (const ForeignFormat& format : kForeignFormats)
     if (!extension.empty() && format.extensions.find(extension + ".") != std::string_view::npos)
       return std::string("is ") + format.name + ", not glTF; " + format.opener +

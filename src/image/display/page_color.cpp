@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <string>
 
+#include "base/text.h"
 #include "image/display/tone_map.h"
 
 namespace fragtrace {
@@ -191,8 +191,7 @@ std::optional<glm::vec3> pageColor(std::string_view word) {
     const std::optional<uint32_t> bits = bitsOfHex(word.substr(1));
     return bits ? std::optional(linearOf(*bits)) : std::nullopt;
   }
-  std::string name(word);
-  for (char& letter : name) letter = char(std::tolower(static_cast<unsigned char>(letter)));
+  const std::string name = lowered(std::string(word));
   const auto* row = std::ranges::find(kNames, std::string_view(name), &NamedColor::name);
   return row == kNames.end() ? std::nullopt : std::optional(linearOf(row->bits));
 }

@@ -2,10 +2,11 @@
 #include "view/files/folder_list.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <cstring>
 #include <system_error>
+
+#include "base/text.h"
 
 namespace fragtrace {
 
@@ -17,11 +18,6 @@ constexpr size_t kMostEntries = 100000;
 constexpr std::ptrdiff_t kPage = 10;  // entries
 
 bool isFigure(char c) { return c >= '0' && c <= '9'; }
-char lowered(char c) { return char(std::tolower(static_cast<unsigned char>(c))); }
-std::string lowered(std::string text) {
-  std::ranges::transform(text, text.begin(), [](char c) { return lowered(c); });
-  return text;
-}
 
 /// Removes the number at the front of the text and returns it without leading zeros.
 std::string_view takeNumber(std::string_view& text) {

@@ -4,7 +4,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "base/text.h"
@@ -296,13 +295,9 @@ Task drawWelcome(ViewFacts& facts, const WindowLayout& layout) {
 
 /// Returns the lines of the sheet that hold the text, in upper or lower case.
 std::vector<SheetLine> foundLines(const std::string& text) {
-  const auto lower = [](std::string s) {
-    std::ranges::transform(s, s.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    return s;
-  };
   std::vector<SheetLine> found = sheetLines();
   std::erase_if(found, [&](const SheetLine& line) {
-    return lower(line.name + " " + line.sentence).find(lower(text)) == std::string::npos;
+    return lowered(line.name + " " + line.sentence).find(lowered(text)) == std::string::npos;
   });
   return found;
 }
