@@ -95,11 +95,11 @@ void addContents(nlohmann::ordered_json& json, const RenderOptions& options, con
     json["size"] = {size.x, size.y, size.z};
   }
   json["materials"] = nlohmann::ordered_json::array();
-  for (const Material& m : scene.materials) {
+  for (const Material* m : materialsOf(scene)) {
     nlohmann::ordered_json textures = nlohmann::ordered_json::array();
-    for (const TextureContents& t : texturesOf(scene, m))
+    for (const TextureContents& t : texturesOf(scene, *m))
       textures.push_back({{"slot", t.slot}, {"name", t.name}, {"width", t.width}, {"height", t.height}});
-    json["materials"].push_back({{"name", m.name}, {"textures", textures}});
+    json["materials"].push_back({{"name", m->name}, {"textures", textures}});
   }
   json["lamps"] = nlohmann::ordered_json::array();
   for (const LampContents& lamp : lampsOf(scene))
@@ -188,7 +188,7 @@ int inform(const InfoOptions& options) {
   }
   json["not_needed"] = notNeeded;
   nlohmann::ordered_json materials = nlohmann::ordered_json::array();
-  for (const Material& m : scene.materials) materials.push_back(m.name);
+  for (const Material* m : materialsOf(scene)) materials.push_back(m->name);
   json["material_names"] = materials;
   addParts(json, scene);
   addContents(json, options.render, scene, description.bounds);

@@ -48,6 +48,15 @@ bool isFile(const EncodedImage& image) { return image.name != image.place && !im
 
 }  // namespace
 
+std::vector<const Material*> materialsOf(const Scene& scene) {
+  std::vector<const Material*> once;
+  for (const Material& material : scene.materials) {
+    const auto isSame = [&](const Material* other) { return other->number == material.number; };
+    if (std::ranges::none_of(once, isSame)) once.push_back(&material);
+  }
+  return once;
+}
+
 std::vector<TextureContents> texturesOf(const Scene& scene, const Material& material) {
   std::vector<TextureContents> found;
   for (size_t i = 0; i < kTextureRefs.size(); ++i) {
@@ -98,7 +107,7 @@ WhoLights whoLights(const RenderOptions& options, const Scene& scene) {
   const OwnLight light = countedLight(options, file);
   if (light == OwnLight::Enough) {
     const auto shining =
-        std::ranges::count_if(scene.materials, [](const Material& m) { return m.emissive(); });
+        std::ranges::count_if(materialsOf(scene), [](const Material* m) { return m->emissive(); });
     std::vector<std::string> own{counted(scene.lights.size(), "lamp", "lamps"),
                                  counted(size_t(shining), "material that shines", "materials that shine")};
     std::erase(own, "");

@@ -12,6 +12,9 @@
 
 namespace fragtrace {
 
+/// The materials, each once: some stand several times in a scene, for lines, points or open panes.
+std::vector<const Material*> materialsOf(const Scene& scene);
+
 struct TextureContents {
   const char* slot;  ///< "base colour"
   std::string name;  ///< the file's, or the place in the scene's file

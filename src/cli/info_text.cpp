@@ -43,15 +43,15 @@ void printSize(const BoundsDouble& bounds) {
 }
 
 void printMaterials(const Scene& scene, const SceneDescription& s, bool all) {
-  std::printf("  materials   %zu, textures %zu, images %zu (%.1f MB encoded)\n", s.materials, s.textures,
+  std::vector<const Material*> materials = materialsOf(scene);
+  std::erase_if(materials,
+                [](const Material* m) { return m->place.empty(); });  // that which glTF has by default
+  std::printf("  materials   %zu, textures %zu, images %zu (%.1f MB encoded)\n", materials.size(), s.textures,
               s.images, double(s.imageBytes) / 1e6);
-  size_t left = 0;
-  for (const Material& m : scene.materials) {
-    if (m.place.empty()) continue;  // the one that glTF has by default
-    if (!all && m.number > kMostListed) {
-      ++left;
-      continue;
-    }
+  const size_t left = all ? 0 : materials.size() - std::min(materials.size(), kMostListed);
+  materials.resize(materials.size() - left);
+  for (const Material* material : materials) {
+    const Material& m = *material;
     std::vector<std::string> textures;
     for (const TextureContents& texture : texturesOf(scene, m)) {
       const std::string size = texture.width > 0 ? formatted(" %d x %d", texture.width, texture.height) : "";

@@ -3,7 +3,7 @@
 """What `info` tells of a file to somebody who has not made it."""
 import json
 
-from support import SCENES, Case, Gltf, main, png, run
+from support import SCENES, Case, Gltf, main, png, quad, run
 
 
 class Info(Case):
@@ -50,6 +50,18 @@ class Info(Case):
                                          for name in ("table.gltf", "table.bin", "wood.png")])
         for member in ("schema", "file", "scene", "bvh", "texture_bytes", "not_needed", "material_names", "cameras", "animations", "warnings"):
             self.assertIn(member, data)
+
+    def test_a_material_that_a_scene_has_twice_is_listed_once(self):
+        glass = {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": {"thicknessFactor": 0.1}}
+        root = quad({"name": "glass", "emissiveFactor": [1, 1, 1], "extensions": glass})
+        path = self.written("pane.gltf", root | {"extensionsUsed": list(glass)})
+        result = run("info", path)
+        self.assertIn("is drawn as a thin wall", result.stderr)  # by a copy of its material
+        self.assertEqual(result.stdout.count('"glass"'), 1, result.stdout)
+        self.assertIn("  materials   1,", result.stdout)
+        self.assertIn("its own: 1 material that shines\n", result.stdout)
+        data = json.loads(run("info", path, "--json").stdout)
+        self.assertEqual((data["material_names"].count("glass"), len([m for m in data["materials"] if m["name"] == "glass"])), (1, 1))
 
     def test_who_would_light_it(self):
         self.assertIn("  light       its own: 1 material that shines\n", run("info", SCENES / "cornell-box.gltf").stdout)
