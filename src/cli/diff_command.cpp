@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
@@ -86,12 +88,25 @@ void warnOfKinds(const DiffOptions& options) {
                kind(options.picture).c_str(), kind(options.reference).c_str());
 }
 
+/// Says what the number is, to one who reads it in a terminal.
+std::string explanation(const DiffOptions& options) {
+  const std::string name(metricNames()[size_t(options.metric)]);
+  const bool comparesValues = options.metric != Metric::Flip && options.metric != Metric::Bias;
+  const char* values = !comparesValues ? ""
+                       : isDisplayFormat(options.picture)
+                           ? "\nvalues: sRGB from 0 to 1; a step of 8 bits is 0.004"
+                           : "\nvalues: linear radiance";
+  return name + ": " + meaningOf(options.metric) + values + "\n";
+}
+
 int runDiff(const DiffOptions& options) {
   checkOutputs(std::array{NamedOutput{"--outfile", options.outfile}},
                std::array{options.picture, options.reference});
   const auto [value, more, map] = compareFiles(options);
   warnOfKinds(options);
-  std::printf("%.9g\n%s", value, more.c_str());
+  std::printf("%.9g\n", value);
+  if (isatty(STDOUT_FILENO) != 0) std::printf("%s", explanation(options).c_str());
+  std::printf("%s", more.c_str());
   if (!options.outfile.empty()) writeImage(options.outfile, map);
   return options.threshold && !isWithin(options.metric, value, *options.threshold) ? 1 : 0;
 }

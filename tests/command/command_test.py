@@ -9,7 +9,7 @@ import struct
 import subprocess
 import time
 
-from support import BACKENDS, FRAGTRACE, SCENES, SMALL, Case, main, read_pfm, run
+from support import BACKENDS, FRAGTRACE, SCENES, SMALL, Case, main, read_pfm, run, shown
 
 
 class ExitStatuses(Case):
@@ -131,6 +131,9 @@ class ExitStatuses(Case):
         self.assertEqual(run("diff", a, b, "--threshold", "1e-9").returncode, 1)
         self.assertEqual(run("diff", a, c).returncode, 1)
         self.assertEqual(run("diff", a, self.folder / "none.pfm").returncode, 3)
+        self.assertEqual(run("diff", a, a).stdout, "0\n")  # for scripts
+        self.assertEqual(shown("diff", a, a).splitlines()[::2], ["0", "values: linear radiance"])
+        self.assertIn("psnr: peak signal to noise ratio in dB, for a peak of 1; inf is equal", shown("diff", a, a, "--metric", "psnr"))
         self.assertEqual(run("diff", a, a, "--metric", "psnr", "--threshold", "99").returncode, 0)
         self.assertEqual(run("diff", a, b, "--metric", "psnr", "--threshold", "99").returncode, 1)
 

@@ -1,40 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """What --help shows, in text and as JSON, and words that people of other programs try first."""
-import fcntl
 import json
-import os
-import pty
-import struct
-import subprocess
-import termios
 
-from support import FRAGTRACE, SCENES, SMALL, Case, main, run
+from support import SCENES, SMALL, Case, main, run, shown
 
 BOX = SCENES / "cornell-box.gltf"
 TINY = SMALL[:-1]  # not quiet
 MEMBERS = ["name", "forms", "metavariable", "type", "choices", "other_values", "default", "range", "units", "group", "everyday", "values", "separator",
            "repeatable", "required", "excludes", "extensions", "text", "commands"]
-
-
-def shown(*words, columns):
-    """Returns the help on a terminal of so many columns."""
-    ours, theirs = pty.openpty()
-    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
-    with subprocess.Popen([FRAGTRACE, *words], stdout=theirs) as process:
-        os.close(theirs)
-        text = b""
-        while True:
-            try:
-                part = os.read(ours, 4096)
-            except OSError:  # the end, of a terminal
-                break
-            if not part:
-                break
-            text += part
-    os.close(ours)
-    assert process.returncode == 0
-    return text.decode().replace("\r\n", "\n")
 
 
 class Help(Case):

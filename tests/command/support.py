@@ -4,9 +4,11 @@
 A test file is run as FILE FRAGTRACE SOURCE_FOLDER [unittest arguments].
 """
 import ctypes.util
+import fcntl
 import json
 import math
 import os
+import pty
 import shutil
 import signal
 import statistics
@@ -14,6 +16,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import termios
 import time
 import unittest
 from array import array
@@ -39,6 +42,26 @@ WHITE = ["--default-light", "white", "--background-color", "1,1,1", "--bounces",
 
 def run(*arguments, timeout=600, **options):
     return subprocess.run([FRAGTRACE, *map(str, arguments)], capture_output=True, text=True, timeout=timeout, **options)
+
+
+def shown(*words, columns=120):
+    """Returns what a command shows on a terminal of so many columns."""
+    ours, theirs = pty.openpty()
+    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
+    with subprocess.Popen([FRAGTRACE, *map(str, words)], stdout=theirs) as process:
+        os.close(theirs)
+        text = b""
+        while True:
+            try:
+                part = os.read(ours, 4096)
+            except OSError:  # the end, of a terminal
+                break
+            if not part:
+                break
+            text += part
+    os.close(ours)
+    assert process.returncode == 0
+    return text.decode().replace("\r\n", "\n")
 
 
 def floats(data):

@@ -12,6 +12,15 @@ namespace {
 
 constexpr std::array<std::string_view, 7> kMetricNames{"rmse", "mse",  "relmse", "psnr",
                                                        "max",  "flip", "bias"};
+constexpr std::array kMeanings{
+    "root of the mean squared difference of the values; 0 is equal, smaller is better",
+    "mean squared difference of the values; 0 is equal, smaller is better",
+    "mean squared difference relative to the reference; 0 is equal, smaller is better",
+    "peak signal to noise ratio in dB, for a peak of 1; inf is equal, larger is better",
+    "largest difference of a value; 0 is equal, smaller is better",
+    "mean difference as seen on a display, from 0, which is equal, to 1; smaller is better",
+    "chance that pictures without bias differ as much; larger is better, and below 0.001 there is bias"};
+static_assert(kMeanings.size() == kMetricNames.size());
 
 }  // namespace
 
@@ -63,6 +72,8 @@ Image differenceImage(const Image& picture, const Image& reference) {
 }
 
 std::span<const std::string_view> metricNames() { return kMetricNames; }
+
+const char* meaningOf(Metric metric) { return kMeanings[size_t(metric)]; }
 
 double metricValue(const Difference& difference, Metric metric) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();

@@ -32,6 +32,9 @@ Image differenceImage(const Image& picture, const Image& reference);
 /// The metrics' names on the command line, in the order of Metric.
 std::span<const std::string_view> metricNames();
 
+/// What the metric measures, in which unit, and what is good.
+const char* meaningOf(Metric metric);
+
 /// NaN for Flip and Bias, which look at more than single pixels: flipError and testBias give these.
 double metricValue(const Difference& difference, Metric metric);
 
