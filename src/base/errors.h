@@ -26,6 +26,11 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// An option names something that this file does not have, and another file may have.
+struct NotInFile : UsageError {
+  using UsageError::UsageError;
+};
+
 /// A scene, environment or picture cannot be read: exit status 3.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;

@@ -14,6 +14,7 @@
 #include "cli/commands.h"
 #include "cli/program.h"
 #include "cli/render_picture.h"
+#include "gltf/edit/changed_file.h"
 #include "image/files/process.h"
 #include "image/files/whole_file.h"
 #include "options/command_text.h"
@@ -56,6 +57,7 @@ struct Model {
   fs::path file;
   SheetCell cell;
   CellState state = CellState::Waiting;
+  std::vector<SetNumber> set{};     ///< those values of --set that the file has
   std::vector<std::string> said{};  ///< while it was drawn
 };
 
@@ -170,12 +172,40 @@ std::string withName(const Model& model, const std::string& line) {
   return (isWarning ? std::string(kWarning) : "") + model.cell.name + ": " + rest;
 }
 
+/// Gives the models those values of --set that their files have, and says how many have each. Throws
+/// UsageError for one that none has.
+void giveValues(Sheet& sheet) {
+  const RenderOptions& options = sheet.options.render;
+  for (const SetNumber& set : options.selection.set) {
+    size_t lacking = 0;
+    std::string reason;
+    for (Model& model : sheet.models) {
+      try {
+        checkChange(model.file, {&set, 1});
+        model.set.push_back(set);
+      } catch (const NotInFile& error) {
+        if (lacking++ == 0) reason = model.file.string() + ": " + error.what();
+      } catch (const UsageError&) {
+        throw;
+      } catch (const std::exception&) {  // drawing it will say what is wrong with the file
+        model.set.push_back(set);
+      }
+    }
+    const size_t having = sheet.models.size() - lacking;
+    if (having == 0) throw UsageError("--set: " + set.pointer + " is in no model of the folder; " + reason);
+    say(options, "--set: " + set.pointer + " is in " + std::to_string(having) + " of " +
+                     countText(sheet.models.size(), "model") +
+                     (lacking > 0 ? "; the others are drawn as they are" : ""));
+  }
+}
+
 /// Draws one model, and puts its name before what is said about it. An error that all models have in common
 /// is thrown.
 void drawCell(Sheet& sheet, Model& model, size_t index) {
   RenderOptions options = sheet.options.render;
   options.scene = model.file;
   options.output.file = model.cell.picture;
+  options.selection.set = model.set;
   setReportContext({{"output", sheet.options.render.output.file.string()},
                     {"model", model.file.string()},
                     {"number", index + 1},
@@ -281,6 +311,7 @@ int runSheet(SheetOptions options) {
   if (sheet.models.empty())
     throw InputError(options.folder.string() + ": holds no .gltf or .glb; links are not followed");
   for (Model& model : sheet.models) model.cell.picture = sheet.folder / (model.cell.name + ".png");
+  giveValues(sheet);
   return leave(drawAll(sheet));
 }
 

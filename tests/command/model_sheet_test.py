@@ -55,6 +55,22 @@ class ModelSheets(Case):
             self.assertLess(min(names[-1]), 80, "ink")
         self.assertEqual(len(set(names)), 3)
 
+    def test_a_model_without_the_material_is_drawn_as_it_is(self):
+        paint = quad({"name": "Paint", "pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.1, 0.1, 1]}})
+        (self.models / "a 10.gltf").write_text(json.dumps(paint))
+        aloud = ["sheet", self.models, "-o", self.sheet, *OPTIONS[:-1], "--columns", 3]
+        result = run(*aloud, "--set", "paint:color=blue")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("--set: paint:color is in 1 of 3 models; the others are drawn as they are\n", result.stderr)
+        for name, place, options in (("a 2.gltf", (0, 0), []), ("a 10.gltf", (1, 0), ["--set", "Paint:color=blue"])):
+            self.renders(self.models / name, "-o", self.folder / "single.png", *OPTIONS, *options)
+            self.assertEqual(self.parts(place)[0], [row for row in read_png(self.folder / "single.png")[2]], name)
+        for text, says in (("pint:color=blue", "--set: pint:color is in no model of the folder"), ("Paint:colr=blue", "'colr' is no value of a material")):
+            result = run(*aloud, "--set", text)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn(says, result.stderr)
+            self.assertFalse(self.cells.exists())
+
     def test_a_model_that_fails_is_a_cell_with_its_reason(self):
         (self.models / "a 2.gltf").write_text('{"asset": {"version": "2.0"}, "scenes": [{"nodes": [7]}]}')
         status = self.folder / "status.json"

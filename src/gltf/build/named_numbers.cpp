@@ -157,7 +157,7 @@ void appendPlaced(const json& root, const SetNumber& set, std::vector<SetNumber>
     isColorItself(name) ? appendColor(root, i, set, placed) : placed.push_back(valueAt(root, *place, set));
   }
   if (!called.empty()) return;
-  throw UsageError(
+  throw NotInFile(
       "--set: " + set.pointer + ": no material is called '" + pattern + "'" +
       (names.empty() ? ", and the file has none" : "; the file has " + listOfParts(names, pattern)));
 }

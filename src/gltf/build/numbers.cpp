@@ -188,8 +188,8 @@ std::optional<NumberRule> checkedRule(const json& root, const SetNumber& set, bo
   const std::optional<NumberRule> rule =
       creates ? numberRuleAt(set.pointer) : numberRuleIn(root, set.pointer);
   if (!rule)
-    throw UsageError("--set: " + set.pointer + " is no number of the file that is read" +
-                     hintFor(root, set.pointer));
+    throw NotInFile("--set: " + set.pointer + " is no number of the file that is read" +
+                    hintFor(root, set.pointer));
   const size_t width = rule->width > 0 ? rule->width : std::max<size_t>(set.values.size(), 1);
   if (set.values.size() != width)
     throw UsageError("--set: " + set.pointer + " takes " + countText(width, "number") + ", not " +

@@ -9,8 +9,8 @@
 
 namespace fragtrace {
 
-/// Throws UsageError if one of these is no number of that .gltf or .glb, InputError if the file cannot be
-/// read.
+/// Throws UsageError if one of these is no number of that .gltf or .glb, NotInFile if it lacks the place or
+/// the material, InputError if the file cannot be read.
 void checkChange(const std::filesystem::path& from, std::span<const SetNumber> set);
 
 /// Writes the .gltf or .glb `from` to `to`, with these numbers in its JSON; all other bytes stay, except for
