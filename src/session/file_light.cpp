@@ -130,8 +130,20 @@ std::string defaultLightReason(const RenderOptions& options, const FileLight& li
 
 namespace {
 
-/// Says who lights the scene by default, or which part of it its own light leaves out.
-void sayWhoLights(const RenderOptions& options, const FileLight& light) {
+/// Says what the user lights the scene by, with the file's lamps.
+std::string lightOfUser(const RenderOptions& options, const FileLight& light) {
+  std::vector<std::string> lights;
+  if (options.light.studio) lights.emplace_back("the built-in studio");
+  if (options.light.sky.on) lights.emplace_back("the sky");
+  if (!options.light.hdriFile.empty()) lights.push_back("the environment " + options.light.hdriFile.string());
+  if (!options.selection.lights.empty()) lights.emplace_back("--add-light");
+  if (light.byLamps && options.selection.lights.empty()) lights.emplace_back("the file's own lamps");
+  return joined(lights, " and ") + (lights.size() > 1 ? " light it" : " lights it");
+}
+
+/// Says who lights the scene by default, or which part of it its own light leaves out; what else lights it,
+/// too, if that is asked for.
+void sayWhoLights(const RenderOptions& options, const FileLight& light, bool always) {
   constexpr double kNoticed = 0.5;
   constexpr double kMuchMetal = 0.1;
   if (const std::string reason = defaultLightReason(options, light); !reason.empty()) {
@@ -141,7 +153,14 @@ void sayWhoLights(const RenderOptions& options, const FileLight& light) {
                          : ": a white environment that the camera does not see lights it (--default-light)"));
     return;
   }
-  if (isLitByUser(options) || light.own == OwnLight::None) return;
+  if (isLitByUser(options)) {
+    if (always) say(options, lightOfUser(options, light));
+    return;
+  }
+  if (light.own == OwnLight::None) {
+    if (always) say(options, "nothing lights it (--default-light none)");
+    return;
+  }
   const std::string who =
       light.byLamps ? "the file's own lamps light it" : "the file's own emission lights it";
   if (light.dark > kNoticed)
@@ -149,14 +168,14 @@ void sayWhoLights(const RenderOptions& options, const FileLight& light) {
                      " of what is seen dark (--studio adds light)");
   else if (light.byLamps && light.smoothMetal > kMuchMetal)
     say(options, who + ", and its smooth metal has nothing to reflect but them (--studio adds surroundings)");
-  else if (options.output.verbose)
+  else if (always)
     say(options, who);
 }
 
 }  // namespace
 
-void sayLight(const RenderOptions& options, const FileLight& light) {
-  sayWhoLights(options, light);
+void sayLight(const RenderOptions& options, const FileLight& light, bool always) {
+  if (has(options.stages, Stage::Phong)) sayWhoLights(options, light, always || options.output.verbose);
   if (light.lampScale != 1.0 && options.light.lampUnits == LampUnits::Auto)
     say(options,
         formatted("as written, the file's lamps make what is seen %.0f times as bright as middle grey: they "

@@ -29,8 +29,9 @@ double exposureOf(const RenderOptions& options, const FileLight& light);
 /// The options with that exposure, unless they give one.
 RenderOptions exposed(RenderOptions options, const FileLight& light);
 
-/// Says who lights the scene, where the user did not say it, and how lamps and exposure are taken.
-void sayLight(const RenderOptions& options, const FileLight& light);
+/// Says who lights the scene: always, or where it is neither the user nor all that the file needs; and how
+/// lamps and exposure are taken.
+void sayLight(const RenderOptions& options, const FileLight& light, bool always);
 
 /// The reason of a default light, for the statistics; empty: the scene has none.
 std::string defaultLightReason(const RenderOptions& options, const FileLight& light);

@@ -174,11 +174,15 @@ void checkCatcher(const RenderOptions& options, const FileLight& light, Scene& s
   if (scene.lights.size() > kMostLights)
     throw UsageError("--shadow-catcher: the scene has " + std::to_string(scene.lights.size()) +
                      " lights, at most " + std::to_string(kMostLights) + " can be caught");
-  if (countedLight(options, light) == OwnLight::Dim) return;  // such a light counts as none
+  const bool isLit =
+      hasMap(options) || !scene.lights.empty() || options.light.defaultLight == DefaultLight::None;
+  if (isLit || countedLight(options, light) != OwnLight::Enough) return;
   const auto emits = [&](const auto& primitive) { return scene.materials[primitive.material].emissive(); };
   if (std::ranges::any_of(scene.triangles, emits) || std::ranges::any_of(scene.spheres, emits))
-    scene.warnings.push_back(options.scene.string() +
-                             ": the light of emissive surfaces does not count for --shadow-catcher");
+    scene.warnings.push_back(
+        options.scene.string() +
+        ": only emissive surfaces light it, whose shadows --shadow-catcher does not show "
+        "(--studio)");
 }
 
 /// A plane that catches no shadow, most likely, since it is farther away than the scene is large.
@@ -219,8 +223,8 @@ void checkMapOptions(const RenderOptions& options, OwnLight light, Scene& scene)
 }
 
 /// Says what lights the scene, and notes it.
-void addLight(const RenderOptions& options, const LoadedScene& loaded, Statistics& stats) {
-  sayLight(options, loaded.light);
+void addLight(const RenderOptions& options, const LoadedScene& loaded, FilmOf film, Statistics& stats) {
+  sayLight(options, loaded.light, film == FilmOf::Part);
   stats.defaultLightReason = defaultLightReason(options, loaded.light);
   stats.defaultLight = !stats.defaultLightReason.empty();
   if (!loaded.scene.lights.empty())
@@ -431,7 +435,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   stats.size = loaded.region.size;
   stats.region = options.camera.region;
   stats.loadMs += watch.lap();
-  addLight(options, loaded, stats);
+  addLight(options, loaded, film, stats);
   return loaded;
 }
 
