@@ -55,6 +55,7 @@ class AtTheEnd(Case):
         with subprocess.Popen([self.folder / "fragtrace", "render", BOX, "-o", self.folder / name, "--resolution", "16,12",
                                "--time", "3", *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                               env={**os.environ, "FRAGTRACE_LIBRARY_PATH": str(self.folder)}) as process:
+            self.assertIn(" lights it", process.stderr.readline())
             self.assertIn("rendering", process.stderr.readline())
             (self.folder / WORKER).unlink()
             children = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
@@ -79,6 +80,7 @@ class AtTheEnd(Case):
         folder.mkdir()
         with subprocess.Popen([FRAGTRACE, "render", BOX, "-o", folder / "x.exr", "--resolution", "16,12", "--time", "9"],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+            self.assertIn(" lights it", process.stderr.readline())
             self.assertIn("rendering", process.stderr.readline())
             folder.rmdir()
             process.send_signal(signal.SIGINT)
@@ -110,7 +112,7 @@ class StandardStreams(Case):
         path = self.folder / "x.png"
         for closed in (">&-", "<&-", "<&- >&-", "<&- >&- 2>&-"):
             result = subprocess.run(["bash", "-c", f'exec "$0" "$@" {closed}', FRAGTRACE, "render", BOX, "-o", path, "--resolution",
-                                     "16,16", "--spp", "1"], capture_output=True)
+                                     "16,16", "--spp", "1", "--quiet"], capture_output=True)
             self.assertEqual((result.returncode, result.stderr), (0, b""), closed)
             self.assertTrue(path.read_bytes().startswith(b"\x89PNG"))
             path.unlink()
