@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/info_text.h"
 
+#include <cmath>
 #include <cstdio>
 
 #include "base/text.h"
@@ -75,6 +76,14 @@ void printLight(const RenderOptions& options, const Scene& scene) {
   printLine("light", whoLights(options, scene).text);
 }
 
+/// A duration, and the pictures of a film that shows all of it once, so that it plays without a seam.
+std::string durationText(double seconds) {
+  constexpr double kRounding = 1e-4;  // key times are floats
+  const double pictures = std::ceil(seconds * SequenceOptions{}.fps - kRounding);
+  return formatted("%.4g s", seconds) +
+         (pictures > 1.0 ? formatted(": --frames 0:%.0f", pictures - 1.0) : "");
+}
+
 void printSelectable(const Scene& scene) {
   std::vector<std::string> cameras;
   std::vector<std::string> kinds;
@@ -84,7 +93,7 @@ void printSelectable(const Scene& scene) {
   }
   std::vector<std::string> durations;
   for (const std::optional<double>& seconds : scene.animationSeconds) {
-    durations.push_back(seconds ? formatted("%.4g s", *seconds) : "of unknown duration");
+    durations.push_back(seconds ? durationText(*seconds) : "of unknown duration");
   }
   if (cameras.empty()) std::printf("  cameras     none\n");
   printParts("cameras", cameras, kinds);

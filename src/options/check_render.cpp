@@ -130,7 +130,8 @@ void checkOutput(const RenderOptions& o, bool anyOutput) {
   const bool isVideo = videoFormatOf(out.file) != nullptr;
   if (isVideo && !isSequence(o) && !anyOutput)
     throw UsageError("--output: '" + out.file.string() +
-                     "' is a video; `render` makes one with --turntable or --frames");
+                     "' is a video; `render` makes one with --turntable 96 or --frames 0:95 (`info` says "
+                     "which frames an animation has)");
   if (!out.file.empty() && !out.toStandardOutput && !isVideo && !isWritableImageName(out.file))
     throw UsageError("--output: '" + out.file.string() +
                      "' ends in none of .png, .jpg, .exr, .hdr, .pfm, nor, for a sequence, in .mp4, .webm, "

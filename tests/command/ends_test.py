@@ -213,7 +213,7 @@ class Parts(Case):
     def test_info_names_them_all(self):
         text = run("info", self.scene).stdout
         self.assertIn('cameras     2: 0 "Front" (perspective), 1 "2x2" (orthographic)', text)
-        self.assertIn('animations  1: 0 "turn" (2.5 s)', text)
+        self.assertIn('animations  1: 0 "turn" (2.5 s: --frames 0:59)', text)
         self.assertIn("scenes      1: 0 unnamed", text)
         data = json.loads(run("info", "--json", self.scene).stdout)
         self.assertEqual(data["animations"], [{"name": "turn", "duration_s": 2.5}])
