@@ -18,6 +18,7 @@
 #include "image/display/tone_map.h"
 #include "image/image.h"
 #include "options/choose.h"
+#include "options/numbers.h"
 #include "options/parse_render.h"
 #include "python/kept_scene.h"
 #include "session/picture/joined_parts.h"
@@ -139,14 +140,28 @@ double differenceOfArrays(const GivenValues& picture, const GivenValues& referen
   return metricValue(compare(a, b), chosen);
 }
 
+/// The colour of R, G, B and A with the page behind it.
+Image laidOver(const glm::vec3& page, Image picture) {
+  constexpr size_t kAlpha = 3;
+  for (size_t first = 0; first < picture.values.size(); first += kAlpha + 1) {
+    float* const pixel = picture.values.data() + first;
+    for (size_t c = 0; c < kAlpha; ++c) pixel[c] += (1.0f - pixel[kAlpha]) * page[int(c)];
+  }
+  return picture;
+}
+
 /// sRGB-encoded display values, 0..1, of R, G, B and perhaps A; with the noise for 8 bits (dither()) if
-/// wanted.
+/// wanted. A picture with A lies over a page, if one is named.
 nb::tuple displayed(const GivenValues& values, const std::vector<std::string>& channels, double exposure,
-                    const std::string& curve, bool dithers) {
+                    const std::string& curve, bool dithers, const std::string& page) {
   const std::optional<ToneMap> toneMap = parseToneMap(curve);
   if (!std::isfinite(exposure)) throw UsageError("exposure: is not a finite number");
   if (!toneMap) throw UsageError("tone_map: '" + curve + "' is none of " + joined(toneMapNames()));
-  Image display = toDisplay(imageOfArray(values, channels), exposure, *toneMap);
+  Image linear = imageOfArray(values, channels);
+  const bool isOverPage = !page.empty() && channels == std::vector<std::string>{"R", "G", "B", "A"};
+  const glm::vec3 color = isOverPage ? colorIn("background_color", page, 1.0) : glm::vec3(0.0f);
+  Image display = isOverPage ? toDisplayOver(color, laidOver(color, std::move(linear)), exposure, *toneMap)
+                             : toDisplay(linear, exposure, *toneMap);
   if (dithers) dither(display, {0, 0});
   return pictureTuple(display);
 }

@@ -120,6 +120,21 @@ class Pictures(Package):
         picture.save(self.folder / "a.png")
         np.testing.assert_array_equal(fragtrace.read(self.folder / "a.png"), fragtrace.read(self.folder / "command.png"))
 
+    def test_a_page_has_its_very_colour(self):
+        """As the command's picture has it."""
+        scene = SCENES / "plastics.gltf"
+        picture = fragtrace.render(scene, **SMALL, no_background=True, fit=True, fill=0.5)
+        for name, color in (("a.png", "white"), ("b.png", (1, 0.5, 0)), ("c.jpg", "#336699")):
+            word = color if isinstance(color, str) else ",".join(map(str, color))
+            subprocess.run([FRAGTRACE, "render", scene, "--resolution", "24x16", "--spp", "2", "--background-color", word, "--fit", "--fill", "0.5",
+                            "--quiet", "-o", self.folder / f"command-{name}"], check=True)
+            picture.save(self.folder / name, background_color=color)
+            np.testing.assert_array_equal(fragtrace.read(self.folder / name), fragtrace.read(self.folder / f"command-{name}"))
+        self.assertEqual(fragtrace.read(self.folder / "a.png")[0, 0, :3].tolist(), [1, 1, 1])
+        for name, color, says in (("a.exr", "white", "background_color"), ("a.png", "whit", "did you mean white")):
+            with self.assertRaisesRegex(fragtrace.UsageError, says):
+                picture.save(self.folder / name, background_color=color)
+
     def test_the_header_and_the_depth(self):
         picture = fragtrace.render(SCENES / "cornell-box.gltf", **SMALL)
         expected = self.command(SCENES / "cornell-box.gltf", "--resolution", "24x16", "--spp", 2)

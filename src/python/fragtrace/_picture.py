@@ -7,6 +7,7 @@ import warnings
 import numpy as np
 
 from fragtrace import _core
+from fragtrace._words import spelled
 
 COLOR = ("R", "G", "B", "A")
 
@@ -26,7 +27,7 @@ def tonemap(picture, exposure=0.0, tone_map="neutral"):
 
     exposure is in stops (EV). tone_map: linear, reinhard, aces, agx or neutral, as the command's options. Raises UsageError."""
     values, channels = _planes(picture)
-    _, shown, _ = _core.display(values, channels, float(exposure), tone_map, False)
+    _, shown, _ = _core.display(values, channels, float(exposure), tone_map, False, "")
     return np.rint(np.clip(shown, 0.0, 1.0) * 255.0).astype(np.uint8)
 
 
@@ -57,11 +58,12 @@ class Picture(np.ndarray):
         super().__setstate__(state[0])
         self.__dict__.update(state[1])
 
-    def save(self, path, *, exposure=None, tone_map=None, half=False, png_depth=8, no_dither=False):
+    def save(self, path, *, exposure=None, tone_map=None, half=False, png_depth=8, no_dither=False, background_color=None):
         """Writes .exr, .hdr, .pfm (linear) or .png, .jpg (as tonemap() shows it), whole or not at all. half: 16-bit floats in an .exr;
-        exposure: by default what `statistics`, or the .exr that was read, says; png_depth: 8 or 16; no_dither: 8 bits are rounded without noise. Raises RenderError, and UsageError for what the format cannot hold."""
+        exposure: by default what `statistics`, or the .exr that was read, says; png_depth: 8 or 16; no_dither: 8 bits are rounded without noise;
+        background_color: what a .png or .jpg of a picture with alpha lies over (render(no_background=True)), past exposure and tone curve. Raises RenderError, and UsageError for what the format cannot hold."""
         planes = {"" if name == "color" else name: np.asarray(layer) for name, layer in self.layers.items()}
-        _save(path, {**planes, "": np.asarray(self)}, self, exposure, tone_map, half, png_depth, no_dither, self.layers.channels)
+        _save(path, {**planes, "": np.asarray(self)}, self, exposure, tone_map, half, png_depth, no_dither, background_color, self.layers.channels)
 
     def _repr_png_(self):
         return _png(self)
@@ -84,10 +86,10 @@ class Layers(dict):
     def messages(self):
         return self["color"].messages
 
-    def save(self, path, *, exposure=None, tone_map=None, half=False, png_depth=8, no_dither=False):
+    def save(self, path, *, exposure=None, tone_map=None, half=False, png_depth=8, no_dither=False, background_color=None):
         """Does the same as Picture.save(); an .exr holds all layers."""
         planes = {"" if name == "color" else name: np.asarray(layer) for name, layer in self.items()}
-        _save(path, planes, self["color"], exposure, tone_map, half, png_depth, no_dither, self.channels)
+        _save(path, planes, self["color"], exposure, tone_map, half, png_depth, no_dither, background_color, self.channels)
 
     def _repr_png_(self):
         return _png(self["color"])
@@ -96,26 +98,27 @@ class Layers(dict):
 def _png(picture):
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "picture.png")
-        _save(path, {"": np.asarray(picture)}, picture, None, None, False, 8, False)
+        _save(path, {"": np.asarray(picture)}, picture, None, None, False, 8, False, None)
         with open(path, "rb") as file:
             return file.read()
 
 
-def _save(path, planes, made, exposure, tone_map, half, png_depth, no_dither, channels=None):
+def _save(path, planes, made, exposure, tone_map, half, png_depth, no_dither, background_color, channels=None):
     attributes, numbers = ({}, {}) if made is None else (made.attributes, made.numbers)
     path = os.fspath(path)
     color, names = _planes(planes[""])
     if _core.is_display_format(path):
         if names == ["Y"]:
             color, names = np.repeat(color, 3, axis=2), list(COLOR[:3])
-        if not path.lower().endswith(".png"):
+        page = "" if background_color is None else spelled(background_color)
+        if not path.lower().endswith(".png") and not page:
             color, names = color[:, :, :3], names[:3]  # over black: colour is multiplied by alpha
         if exposure is None and made is not None:
             exposure = made.statistics.get("exposure", made.attributes.get("fragtrace:exposure"))  # what the scene's light asks for
-        names, color, _ = _core.display(np.ascontiguousarray(color), names, float(exposure or 0.0), tone_map or "neutral", png_depth == 8 and not no_dither)
+        names, color, _ = _core.display(np.ascontiguousarray(color), names, float(exposure or 0.0), tone_map or "neutral", png_depth == 8 and not no_dither, page)
         attributes, numbers = {}, {}
-    elif exposure is not None or tone_map is not None:
-        raise _core.UsageError(f"{path}: holds linear values, which exposure and tone_map are not for")
+    elif exposure is not None or tone_map is not None or background_color is not None:
+        raise _core.UsageError(f"{path}: holds linear values, which exposure, tone_map and background_color are not for")
     elif path.lower().endswith(".exr"):
         for name, layer in planes.items():
             if name:
