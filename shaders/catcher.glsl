@@ -140,13 +140,16 @@ Path meetCatcher(Path p) {
 }
 
 /// The share of a shadow that a pixel of the whole picture keeps, since it ends before the edge. The outermost pixels
-/// have none. Lines of the same share are round at the corners.
+/// have none. Lines of the same share are round at the corners, and bent along an edge, as far as the model leaves room
+/// at the sides: a straight border would be seen.
 float shadowLeft(ivec2 pixel) {
   vec2 size = vec2(frame.pictureSize);
   vec2 place = vec2(pixel);
   vec2 toEdge = min(place, size - 1.0 - place);
   vec2 width = max(frame.shadowFade * min(size.x, size.y), vec2(0.5));
-  return 1.0 - smoothstep(0.0, 1.0, length(max(1.0 - toEdge / width, vec2(0.0))));
+  vec2 fromMiddle = 1.0 - 2.0 * toEdge / size;
+  vec2 bend = min(4.0 * width / size, vec2(1.0)) * fromMiddle * fromMiddle;
+  return 1.0 - smoothstep(0.0, 1.0, length(max(1.0 - toEdge / width + bend.yx, vec2(0.0))));
 }
 
 /// The guide of the catcher at a pixel. Where the shadow has ended, there is nothing to be filtered.
