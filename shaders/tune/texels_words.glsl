@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Texels as words of image buffers, the fastest reads of llvmpipe: 8 bits a channel in a word, 16 in two.
-// texel_words.glsl is written by src/shader/assemble.cpp: readTexelWord(unit, index), and kSrgbValues, the linear light
-// of each value of 8 bits in sRGB, with one more.
+// texel_words.glsl is written by src/shader/assemble.cpp: readTexelWord(buffer, index), and srgbValue(value), the
+// linear light of a value of 8 bits in sRGB, by a table with one more.
 
 #include "texel_words.glsl"
-
-float srgbValue(uint value) { return kSrgbValues[int(value)]; }
 
 /// The linear light of 16 bits in sRGB, between the values of 8 bits: within 6e-6, and exact where the curve is a line.
 float srgbValue16(uint value) {

@@ -41,8 +41,11 @@ TextureRoom textureRoom(TextureReads wanted, const Context& context) {
     room.layers = uint32_t(driverLimit(GL_MAX_ARRAY_TEXTURE_LAYERS));
   } else {
     room.words = driverLimit(GL_MAX_TEXTURE_BUFFER_SIZE);
-    const int64_t units = driverLimit(GL_MAX_IMAGE_UNITS) - layout::kTexelImageBase;
-    room.buffers = uint32_t(std::clamp<int64_t>(units, 1, layout::kMostTexelBuffers));
+    const int64_t images =
+        std::min({driverLimit(GL_MAX_IMAGE_UNITS), driverLimit(GL_MAX_FRAGMENT_IMAGE_UNIFORMS),
+                  driverLimit(GL_MAX_COMPUTE_IMAGE_UNIFORMS)});
+    room.buffers =
+        uint32_t(std::clamp<int64_t>(images - layout::kTexelImageBase, 1, layout::kMostTexelBuffers));
   }
   checkGl("asking for the driver's limits of textures");
   return room;

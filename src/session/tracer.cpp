@@ -241,19 +241,30 @@ void settleVariants(Tracer& tracer, const LoadedScene& loaded, const GpuScene& p
   stats.countsWork = tracer.variant.countsWork;
 }
 
-/// Places the pictures of textures, and warns of those that are scaled down, unless the places serve that the
-/// scene before had.
-void planTextures(Tracer& tracer, const LoadedScene& loaded, const ShaderVariant& everything,
-                  const RenderOptions& options, const Context& context, Statistics& stats) {
-  if (holdsTextures(tracer.textures, loaded.scene, everything.traits)) return;
-  const TextureRoom room = textureRoom(options.device.textureReads, context);
-  tracer.textures = planTextures(loaded.scene, everything.traits, room);
-  const ShrunkTextures& shrunk = tracer.textures.shrunk;
+/// Warns of textures that are scaled down.
+void warnOfShrunk(const ShrunkTextures& shrunk, const RenderOptions& options, Statistics& stats) {
   if (shrunk.count == 0) return;
   stats.warnings.push_back(countText(shrunk.count, "texture") + " of up to " + std::to_string(shrunk.from) +
-                           " pixels a side are scaled down to " + std::to_string(shrunk.to) +
-                           ": together they are larger than what this driver reads");
+                           " pixels a side are scaled down to at most " + std::to_string(shrunk.to) +
+                           ": together they are larger than what this driver holds");
   say(options, "warning: " + stats.warnings.back());
+}
+
+/// Makes room for the textures of the scene. Where a device has not enough memory, half as much is tried, and
+/// so on. Returns where they are to be written.
+TexelMemory prepareTextures(Tracer& tracer, const LoadedScene& loaded, const ShaderVariant& everything,
+                            const RenderOptions& options, const Context& context, SceneTextures& textures) {
+  constexpr size_t kLeastBytes = size_t(16) << 20;  // that are worth another try
+  TextureRoom room = textureRoom(options.device.textureReads, context);
+  for (;; room.bytes = tracer.textures.bytes() / 2) {
+    tracer.textures = planTextures(loaded.scene, everything.traits, room);
+    if (tracer.textures.bytes() == 0) return {};
+    try {
+      return textures.prepare(tracer.textures);
+    } catch (const RenderError&) {
+      if (tracer.textures.bytes() < kLeastBytes) throw;
+    }
+  }
 }
 
 /// Warns of pictures that could not be decoded, or refuses them.
@@ -308,11 +319,11 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
                   Statistics& stats, bool withHash, std::optional<ProgramCache> before) {
   Tracer tracer;
   const ShaderVariant everything = chooseVariants(tracer, loaded, options, stats);
-  planTextures(tracer, loaded, everything, options, context, stats);
+  SceneTextures textures;
+  const TexelMemory memory = prepareTextures(tracer, loaded, everything, options, context, textures);
+  warnOfShrunk(tracer.textures.shrunk, options, stats);
   ProgramCache programs =
       before ? std::move(*before) : ProgramCache(shaderSource(options.device.shaderFolder));
-  SceneTextures textures;
-  const TexelMemory memory = tracer.textures.bytes() > 0 ? textures.prepare(tracer.textures) : TexelMemory();
   Phase packing;  // outlives the thread that sets it
   std::future<GpuScene> packedLater = std::async(kThreadIfGranted, [&] {
     PhaseTimer timer("pack", "second");
@@ -348,7 +359,11 @@ void replaceScene(Tracer& tracer, const Context& context, const LoadedScene& loa
                   const RenderOptions& options, Statistics& stats, bool surfacesAlone) {
   const ShaderVariant everything = chooseVariants(tracer, loaded, options, stats);
   PhaseTimer timer("pack");
-  planTextures(tracer, loaded, everything, options, context, stats);
+  if (!holdsTextures(tracer.textures, loaded.scene, everything.traits)) {
+    const TextureRoom room = textureRoom(options.device.textureReads, context);
+    tracer.textures = planTextures(loaded.scene, everything.traits, room);
+    warnOfShrunk(tracer.textures.shrunk, options, stats);
+  }
   tracer.kept.geometry = surfacesAlone;
   GpuScene packed = packScene(loaded.scene, loaded.bvh, loaded.environment, everything, tracer.textures,
                               &tracer.kept, loaded.decoding);

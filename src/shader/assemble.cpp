@@ -66,8 +66,7 @@ std::string readsText(const ShaderVariant& variant) {
   return text;
 }
 
-/// The buffers of texels, the function that reads a word of them, and the table of sRGB
-/// (shaders/tune/texels_words.glsl).
+/// The buffers of texels, readTexelWord(), and srgbValue() (shaders/tune/texels_words.glsl).
 std::string texelWordsText(int buffers) {
   std::string text;
   std::string value;
@@ -79,10 +78,11 @@ std::string texelWordsText(int buffers) {
     value += i == 0 ? "  uint word = " + read : "  if (unit == " + number + "u) word = " + read;
   }
   text += "uint readTexelWord(uint unit, int index) {\n" + value + "  return word;\n}\n";
-  text += "const float kSrgbValues[257] = float[257](";
+  // In the function, so that a program without textures drops it.
+  text += "float srgbValue(uint value) {\n  const float values[257] = float[257](";
   for (int i = 0; i <= 256; ++i)
     text += (i > 0 ? ", " : "") + formatted("%.9g", decodeSrgb(std::min(i, 255) / 255.0));
-  return text + ");\n";
+  return text + ");\n  return values[int(value)];\n}\n";
 }
 
 /// The buffer of path states, which the tracer writes as pathStates[], and readPathStates(). imageUnit:

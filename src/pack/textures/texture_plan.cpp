@@ -99,7 +99,8 @@ bool placeWithin(const std::vector<TexturePlace>& whole, const std::function<dou
     plan.shrunk.from = std::max(plan.shrunk.from, larger);
     plan.shrunk.to = std::max(plan.shrunk.to, side);
   }
-  return room.reads == TexelReads::Words ? placeInBuffers(room, plan) : placeInArrays(room, plan);
+  const bool fits = room.reads == TexelReads::Words ? placeInBuffers(room, plan) : placeInArrays(room, plan);
+  return fits && plan.bytes() <= room.bytes;
 }
 
 /// Rows of traitRows(), looked up once.

@@ -25,6 +25,7 @@ struct TextureRoom {
   uint32_t buffers = 1;                 ///< the most of them
   int side = kLargestTextureSide;       ///< of a picture
   uint32_t layers = uint32_t(1) << 11;  ///< the most of an array texture
+  size_t bytes = size_t(1) << 50;       ///< the most of all
 };
 
 /// The place of a picture. An unused picture has no size.
