@@ -71,7 +71,8 @@ uvec4 emitterRow(int emitter, int row) {
 vec3 emittedFrom(uint material, int slot, vec2 weights, float cosine) {
   uvec4 place = kTexcoords || kVertexColors ? faceRow(slot, 1) : uvec4(0u);
   vec4 texcoords = vec4(0.0f);
-  if ((kEmissionTexture || kClearcoatTexture || (kAlpha && kBaseColorTexture)) && kTexcoords) {
+  if (kTexcoords &&
+      (readsSlot(kSlotEmission) || readsSlot(kSlotClearcoat) || (kAlpha && readsSlot(kSlotBaseColor)))) {
     texcoords = interpolate(readTexcoordsAt(int(place.y)), readTexcoordsAt(int(place.z)), readTexcoordsAt(int(place.w)),
                             weights);
   }

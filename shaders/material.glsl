@@ -9,6 +9,13 @@ vec4 materialFloats(uint material, uint row) { return uintBitsToFloat(materialRo
 
 uvec4 textureSlot(uint material, uint slot) { return materialRow(material, kMaterialTextures + slot); }
 
+/// Returns true if the variant reads the textures of a slot. src/shader/live_text.cpp settles the calls.
+bool readsSlot(uint slot) { return (kTextureSlots >> slot & 1) != 0; }
+
+vec4 sampleSlot(uint material, uint slot, vec4 texcoords, bool srgb) {
+  return sampleTexture(textureSlot(material, slot), texcoords, srgb);
+}
+
 /// Light may go through surfaces.
 const bool kPassesLight = kTransmission || kDiffuseTransmission;
 
@@ -18,7 +25,7 @@ uint materialFlags(uint material) { return materialRow(material, kMaterialMaps).
 vec4 baseColorAt(uint material, vec4 texcoords, vec4 vertexColor) {
   vec4 color = materialFloats(material, kMaterialBaseColor);
   if (kVertexColors) color *= vertexColor;
-  if (kBaseColorTexture) color *= sampleTexture(textureSlot(material, kSlotBaseColor), texcoords, true);
+  if (readsSlot(kSlotBaseColor)) color *= sampleSlot(material, kSlotBaseColor, texcoords, true);
   return color;
 }
 
@@ -32,7 +39,7 @@ float alphaAt(uint material, uint flags, float alpha) {
 vec3 emissionAt(uint material, vec4 texcoords) {
   if (!kEmission) return vec3(0.0);
   vec3 radiance = materialFloats(material, kMaterialEmission).rgb;
-  if (kEmissionTexture) radiance *= sampleTexture(textureSlot(material, kSlotEmission), texcoords, true).rgb;
+  if (readsSlot(kSlotEmission)) radiance *= sampleSlot(material, kSlotEmission, texcoords, true).rgb;
   return radiance;
 }
 
@@ -56,23 +63,21 @@ SurfaceMaterial materialAt(uint material, vec3 baseColor, vec4 texcoords) {
   m.roughness = surface.y;
   m.ior = surface.z;
   m.transmission = kTransmission ? surface.w : 0.0;
-  if (kMetallicRoughnessTexture) {
-    vec4 texel = sampleTexture(textureSlot(material, kSlotMetallicRoughness), texcoords, false);
+  if (readsSlot(kSlotMetallicRoughness)) {
+    vec4 texel = sampleSlot(material, kSlotMetallicRoughness, texcoords, false);
     m.metallic *= texel.b;
     m.roughness *= texel.g;
   }
-  if (kTransmission && kTransmissionTexture) {
-    m.transmission *= sampleTexture(textureSlot(material, kSlotTransmission), texcoords, false).r;
-  }
+  if (readsSlot(kSlotTransmission)) m.transmission *= sampleSlot(material, kSlotTransmission, texcoords, false).r;
   m.specular = 0.0;
   m.dielectricF0 = vec3(0.0);
   vec4 specular = vec4(0.0);
   float glossiness = 1.0;
   if (kSpecular || kSpecularGlossiness) {
     specular = materialFloats(material, kMaterialSpecular);
-    if (kSpecularTexture) {
-      specular.a *= sampleTexture(textureSlot(material, kSlotSpecular), texcoords, false).a;
-      vec4 texel = sampleTexture(textureSlot(material, kSlotSpecularColor), texcoords, true);
+    if (readsSlot(kSlotSpecular)) specular.a *= sampleSlot(material, kSlotSpecular, texcoords, false).a;
+    if (readsSlot(kSlotSpecularColor)) {
+      vec4 texel = sampleSlot(material, kSlotSpecularColor, texcoords, true);
       specular.rgb *= texel.rgb;
       glossiness = texel.a;
     }

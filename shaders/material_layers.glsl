@@ -6,7 +6,7 @@
 vec3 anisotropyAt(uint material, vec4 texcoords) {
   vec3 row = materialFloats(material, kMaterialAnisotropy).xyz;
   vec2 direction = vec2(1.0, 0.0);
-  if (kAnisotropyTexture) {
+  if (readsSlot(kSlotAnisotropy)) {
     uvec4 slot = textureSlot(material, kSlotAnisotropy);
     if ((slot.z & kTexturePresent) != 0u) {
       vec3 texel = sampleTexture(slot, texcoords, false).rgb;
@@ -37,10 +37,8 @@ Bsdf addFilm(Bsdf b, uint material, vec4 texcoords) {
   b.film = row.x;
   b.filmIndex = row.y;
   float place = 1.0;
-  if (kIridescenceTexture) {
-    b.film *= sampleTexture(textureSlot(material, kSlotIridescence), texcoords, false).r;
-    place = sampleTexture(textureSlot(material, kSlotIridescenceThickness), texcoords, false).g;
-  }
+  if (readsSlot(kSlotIridescence)) b.film *= sampleSlot(material, kSlotIridescence, texcoords, false).r;
+  if (readsSlot(kSlotIridescenceThickness)) place = sampleSlot(material, kSlotIridescenceThickness, texcoords, false).g;
   b.filmThickness = mix(row.z, row.w, place);
   return b;
 }
@@ -49,10 +47,10 @@ Bsdf addDiffuseTransmission(Bsdf b, uint material, vec4 texcoords) {
   vec4 row = materialFloats(material, kMaterialDiffuseTransmission);
   b.diffuseThrough = row.w;
   b.throughColor = row.rgb;
-  if (kDiffuseTransmissionTexture) {
-    b.diffuseThrough *= sampleTexture(textureSlot(material, kSlotDiffuseTransmission), texcoords, false).a;
-    b.throughColor *= sampleTexture(textureSlot(material, kSlotDiffuseTransmissionColor), texcoords, true).rgb;
-  }
+  if (readsSlot(kSlotDiffuseTransmission))
+    b.diffuseThrough *= sampleSlot(material, kSlotDiffuseTransmission, texcoords, false).a;
+  if (readsSlot(kSlotDiffuseTransmissionColor))
+    b.throughColor *= sampleSlot(material, kSlotDiffuseTransmissionColor, texcoords, true).rgb;
   return b;
 }
 
@@ -63,10 +61,9 @@ Bsdf addThinScattering(Bsdf b, uint material, vec4 texcoords) {
   float strength = materialFloats(material, kMaterialScatterStrength).x;
   if (b.solid || strength <= 0.0) return b;
   vec4 scatter = materialFloats(material, kMaterialScatter);
-  if (kThinScatteringTexture) {
-    strength *= sampleTexture(textureSlot(material, kSlotScatterStrength), texcoords, false).a;
-    scatter.rgb *= sampleTexture(textureSlot(material, kSlotMultiscatterColor), texcoords, true).rgb;
-  }
+  if (readsSlot(kSlotScatterStrength)) strength *= sampleSlot(material, kSlotScatterStrength, texcoords, false).a;
+  if (readsSlot(kSlotMultiscatterColor))
+    scatter.rgb *= sampleSlot(material, kSlotMultiscatterColor, texcoords, true).rgb;
   float scattered = b.glass * strength;
   float through = scattered * (0.5 + 0.5 * scatter.w);
   vec3 back = b.opaque * b.baseColor + (scattered - through) * scatter.rgb;
@@ -83,10 +80,8 @@ const float kLeastSheenRoughness = 0.05;
 
 Bsdf addSheen(Bsdf b, uint material, vec4 texcoords) {
   vec4 row = materialFloats(material, kMaterialSheen);
-  if (kSheenTexture) {
-    row.rgb *= sampleTexture(textureSlot(material, kSlotSheenColor), texcoords, true).rgb;
-    row.a *= sampleTexture(textureSlot(material, kSlotSheenRoughness), texcoords, false).a;
-  }
+  if (readsSlot(kSlotSheenColor)) row.rgb *= sampleSlot(material, kSlotSheenColor, texcoords, true).rgb;
+  if (readsSlot(kSlotSheenRoughness)) row.a *= sampleSlot(material, kSlotSheenRoughness, texcoords, false).a;
   float roughness = max(row.a, kLeastSheenRoughness);
   b.sheenColor = row.rgb;
   b.sheenAlpha = roughness * roughness;
@@ -96,10 +91,8 @@ Bsdf addSheen(Bsdf b, uint material, vec4 texcoords) {
 /// Weight and roughness of the clearcoat.
 vec2 clearcoatAt(uint material, vec4 texcoords) {
   vec2 coat = materialFloats(material, kMaterialClearcoat).xy;
-  if (kClearcoatTexture) {
-    coat.x *= sampleTexture(textureSlot(material, kSlotClearcoat), texcoords, false).r;
-    coat.y *= sampleTexture(textureSlot(material, kSlotClearcoatRoughness), texcoords, false).g;
-  }
+  if (readsSlot(kSlotClearcoat)) coat.x *= sampleSlot(material, kSlotClearcoat, texcoords, false).r;
+  if (readsSlot(kSlotClearcoatRoughness)) coat.y *= sampleSlot(material, kSlotClearcoatRoughness, texcoords, false).g;
   return coat;
 }
 
@@ -113,7 +106,7 @@ float emissionUnderCoat(uint material, vec4 texcoords, float cosine) {
 vec3 coatNormalAt(Surface s, Frame3 around, vec3 wo) {
   if (!kNormalMaps) return vec3(0.0, 0.0, 1.0);
   vec3 normal = s.shadingNormal;
-  if (kClearcoatNormal) {
+  if (readsSlot(kSlotClearcoatNormal)) {
     uvec4 slot = textureSlot(s.material, kSlotClearcoatNormal);
     float scale = materialFloats(s.material, kMaterialClearcoat).z;
     if ((slot.z & kTexturePresent) != 0u) normal = normalFromMap(s, texturedNormal(slot, scale, s.texcoords));

@@ -208,7 +208,7 @@ vec3 mappedNormal(Surface s) {
   if (!kNormalMaps) return s.shadingNormal;
   vec3 mapped = vec3(0.0, 0.0, 1.0);
   uvec4 slot = textureSlot(s.material, kSlotNormal);
-  if (kNormalTexture && (slot.z & kTexturePresent) != 0u) {
+  if (readsSlot(kSlotNormal) && (slot.z & kTexturePresent) != 0u) {
     mapped = texturedNormal(slot, materialFloats(s.material, kMaterialMaps).x, s.texcoords);
   }
   vec4 perlin = materialFloats(s.material, kMaterialPerlin);

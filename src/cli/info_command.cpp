@@ -40,9 +40,7 @@ struct InfoOptions {
 double gpuBytesPerTriangle(const Scene& scene, const Bvh& bvh, const TraitSet& traits,
                            Surroundings surroundings) {
   ShaderVariant variant = chooseVariant({}, traits, surroundings, bvh.stackNeed, BufferReads::Auto);
-  for (const TraitRow& row : traitRows()) {
-    if (row.textures.front()) variant.traits.reset(size_t(row.trait));
-  }
+  for (uint32_t slot = 0; slot < layout::kSlotCount; ++slot) variant.traits.reset(size_t(slotTrait(slot)));
   for (const Trait t : {Trait::EmissiveTriangles, Trait::PunctualLights, Trait::Environment})
     variant.traits.reset(size_t(t));
   return double(packScene(scene, bvh, {}, variant).geometryBytes()) / double(scene.triangles.size());

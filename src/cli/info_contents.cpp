@@ -13,29 +13,6 @@ namespace fragtrace {
 
 namespace {
 
-/// Names of the slots, in the order of kTextureRefs.
-constexpr std::array kSlotNames{"base colour",
-                                "metal and roughness",
-                                "normals",
-                                "emission",
-                                "transmission",
-                                "specular",
-                                "specular colour",
-                                "clearcoat",
-                                "clearcoat roughness",
-                                "clearcoat normals",
-                                "sheen",
-                                "sheen roughness",
-                                "anisotropy",
-                                "iridescence",
-                                "iridescence thickness",
-                                "diffuse transmission",
-                                "diffuse transmission colour",
-                                "scattering",
-                                "scattering colour",
-                                "occlusion"};
-static_assert(kSlotNames.size() == kTextureRefs.size());
-
 constexpr std::array kLampTypes{"point", "spot", "directional"};
 
 /// "2 lamps", "1 material that shines"; empty for none.
@@ -59,14 +36,14 @@ std::vector<const Material*> materialsOf(const Scene& scene) {
 
 std::vector<TextureContents> texturesOf(const Scene& scene, const Material& material) {
   std::vector<TextureContents> found;
-  for (size_t i = 0; i < kTextureRefs.size(); ++i) {
-    const TextureRef& reference = material.*kTextureRefs[i].ref;
+  for (const TextureRefRow& row : kTextureRefs) {
+    const TextureRef& reference = material.*row.ref;
     if (!reference.present()) continue;
     const uint32_t index = scene.textures[reference.texture].image;
     if (index == kMissIndex) continue;
     const EncodedImage& image = scene.images[index];
     const std::string file = std::filesystem::path(image.name).filename().string();
-    found.push_back({kSlotNames[i], isFile(image) ? file : image.name, image.width, image.height});
+    found.push_back({row.name, isFile(image) ? file : image.name, image.width, image.height});
   }
   return found;
 }

@@ -178,7 +178,7 @@ std::vector<float> indicesOfRoughGlass(const Scene& scene, const ShaderVariant& 
   if (!usesGlassTables(variant)) return indices;
   const TraitRow& row = traitRows()[size_t(Trait::RoughGlass)];
   for (const Material& m : scene.materials) {
-    if (m.thicknessFactor > 0.0f && isOfMaterial(row, m, Coordinates{}) &&
+    if (m.thicknessFactor > 0.0f && row.ofMaterial(m, Coordinates{}) &&
         std::ranges::find(indices, m.ior) == indices.end())
       indices.push_back(m.ior);
   }

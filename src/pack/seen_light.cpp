@@ -129,7 +129,7 @@ LightEstimator::LightEstimator(const SeenScene& seen)
     }
     if (adds) break;
     TraitSet traits;
-    traits.set(size_t(Trait::EmissionTexture), seen.readsTextures);
+    traits.set(size_t(slotTrait(layout::kSlotEmission)), seen.readsTextures);
     const TexturePlan plan = planTextures(scene_, traits, {.side = kSide});
     TexturePacker packer(scene_, plan);
     texels_ = packer.takePictures();

@@ -198,6 +198,7 @@ struct Material {
   bool scattersMatched() const { return scattersInside() && transmissive() && std::abs(ior - 1.0f) < 0.001f; }
   /// A thin wall whose light comes through diffusely, at least a part of it.
   bool scattersThinly() const { return transmissive() && !solid() && scatterStrength > 0.0f; }
+  bool passesDiffusely() const { return diffuseTransmissionFactor > 0.0f || scattersThinly(); }
   bool disperses() const { return transmissive() && thicknessFactor > 0.0f && dispersion > 0.0f; }
   bool emissive() const {
     return !unlit && emissiveStrength > 0.0f &&
@@ -211,30 +212,41 @@ enum class TransferCurve : uint8_t { Linear, Srgb };
 struct TextureRefRow {
   TextureRef Material::*ref;
   TransferCurve curve;
+  const char* name;
+  bool (Material::*effect)() const = nullptr;  ///< materials without it do not show the texture
+  bool tangentSpace = false;                   ///< its texels are normals
 };
 
 /// All textures of a material; those that are drawn, in the order of their slots (shaders/layout.glsl).
 inline constexpr std::array kTextureRefs = std::to_array<TextureRefRow>({
-    {&Material::baseColorTexture, TransferCurve::Srgb},            // colour and alpha
-    {&Material::metallicRoughnessTexture, TransferCurve::Linear},  // G roughness, B metallic
-    {&Material::normalTexture, TransferCurve::Linear},             // tangent space
-    {&Material::emissiveTexture, TransferCurve::Srgb},
-    {&Material::transmissionTexture, TransferCurve::Linear},  // R
-    {&Material::specularTexture, TransferCurve::Linear},      // A
-    {&Material::specularColorTexture, TransferCurve::Srgb},
-    {&Material::clearcoatTexture, TransferCurve::Linear},           // R
-    {&Material::clearcoatRoughnessTexture, TransferCurve::Linear},  // G
-    {&Material::clearcoatNormalTexture, TransferCurve::Linear},     // tangent space
-    {&Material::sheenColorTexture, TransferCurve::Srgb},
-    {&Material::sheenRoughnessTexture, TransferCurve::Linear},        // A
-    {&Material::anisotropyTexture, TransferCurve::Linear},            // RG direction, B strength
-    {&Material::iridescenceTexture, TransferCurve::Linear},           // R
-    {&Material::iridescenceThicknessTexture, TransferCurve::Linear},  // G
-    {&Material::diffuseTransmissionTexture, TransferCurve::Linear},   // A
-    {&Material::diffuseTransmissionColorTexture, TransferCurve::Srgb},
-    {&Material::scatterStrengthTexture, TransferCurve::Linear},  // A
-    {&Material::multiscatterColorTexture, TransferCurve::Srgb},
-    {&Material::occlusionTexture, TransferCurve::Linear},  // R; not traced
+    {&Material::baseColorTexture, TransferCurve::Srgb, "base colour"},  // colour and alpha
+    {&Material::metallicRoughnessTexture, TransferCurve::Linear,        // G roughness, B metallic
+     "metal and roughness"},
+    {&Material::normalTexture, TransferCurve::Linear, "normals", nullptr, true},
+    {&Material::emissiveTexture, TransferCurve::Srgb, "emission", &Material::emissive},
+    {&Material::transmissionTexture, TransferCurve::Linear, "transmission", &Material::transmissive},  // R
+    {&Material::specularTexture, TransferCurve::Linear, "specular"},                                   // A
+    {&Material::specularColorTexture, TransferCurve::Srgb, "specular colour"},
+    {&Material::clearcoatTexture, TransferCurve::Linear, "clearcoat", &Material::clearcoated},  // R
+    {&Material::clearcoatRoughnessTexture, TransferCurve::Linear,                               // G
+     "clearcoat roughness", &Material::clearcoated},
+    {&Material::clearcoatNormalTexture, TransferCurve::Linear, "clearcoat normals", &Material::clearcoated,
+     true},
+    {&Material::sheenColorTexture, TransferCurve::Srgb, "sheen", &Material::hasSheen},
+    {&Material::sheenRoughnessTexture, TransferCurve::Linear, "sheen roughness", &Material::hasSheen},  // A
+    {&Material::anisotropyTexture, TransferCurve::Linear,  // RG direction, B strength
+     "anisotropy", &Material::anisotropic},
+    {&Material::iridescenceTexture, TransferCurve::Linear, "iridescence", &Material::iridescent},  // R
+    {&Material::iridescenceThicknessTexture, TransferCurve::Linear,                                // G
+     "iridescence thickness", &Material::iridescent},
+    {&Material::diffuseTransmissionTexture, TransferCurve::Linear,  // A
+     "diffuse transmission", &Material::passesDiffusely},
+    {&Material::diffuseTransmissionColorTexture, TransferCurve::Srgb, "diffuse transmission colour",
+     &Material::passesDiffusely},
+    {&Material::scatterStrengthTexture, TransferCurve::Linear, "scattering", &Material::scattersThinly},  // A
+    {&Material::multiscatterColorTexture, TransferCurve::Srgb, "scattering colour",
+     &Material::scattersThinly},
+    {&Material::occlusionTexture, TransferCurve::Linear, "occlusion"},  // R; not traced
 });
 
 /// Settles a material whose textures are lost (TextureRef::lost): it is magenta where colours are, and matt

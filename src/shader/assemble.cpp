@@ -173,7 +173,14 @@ void appendConstants(std::string& text, const ShaderVariant& variant) {
   for (const StageRow& row : stageRows()) {
     if (row.constant) constant(row.constant, has(variant.stages, row.stage));
   }
-  for (const TraitRow& row : traitRows()) constant(row.constant, has(variant.traits, row.trait));
+  uint32_t slots = 0;
+  for (const TraitRow& row : traitRows()) {
+    const bool on = has(variant.traits, row.trait);
+    if (row.constant)
+      constant(row.constant, on);
+    else
+      slots |= uint32_t(on) << (uint32_t(row.trait) - uint32_t(Trait::FirstTexture));
+  }
   constant("kCountVisits", variant.countsVisits);
   constant("kCountWork", variant.countsWork);
   constant("kWeights", keepsWeights(variant));
@@ -199,6 +206,7 @@ void appendConstants(std::string& text, const ShaderVariant& variant) {
   const auto number = [&](const char* name, int value) {
     text.append("const int ").append(name).append(" = " + std::to_string(value) + ";\n");
   };
+  number("kTextureSlots", int(slots));
   number("kPixelFilter", int(variant.pixelFilter));
   number("kAov", int(variant.aov));
   number("kStackSize", variant.stackSize);

@@ -18,7 +18,7 @@
 namespace fragtrace {
 namespace {
 
-/// The values of `const bool` and `const int` at the top of a shader, as far as they are known.
+/// The values of `const bool`, `const int` and `const uint` at the top of a shader, as far as they are known.
 using ShaderConstants = std::map<std::string_view, int>;
 
 using Tokens = std::span<const Token>;
@@ -45,7 +45,7 @@ std::optional<int> numberOf(const Token& token, const ShaderConstants& constants
   if (found != constants.end()) return found->second;
   if (token.text == "true") return 1;
   if (token.text == "false") return 0;
-  return numberOfAll<int>(token.text);
+  return numberOfAll<int>(token.text.substr(0, token.text.find('u')));
 }
 
 std::optional<bool> compare(int a, std::string_view comparison, int b) {
@@ -94,6 +94,11 @@ std::optional<bool> conditionValue(Tokens condition, const ShaderConstants& cons
     const auto value = numberOf(condition[0], constants);
     return value ? std::optional(*value != 0) : std::nullopt;
   }
+  // readsSlot(slot) of shaders/material.glsl.
+  if (first == "readsSlot" && condition.size() == 4 && constants.contains("kTextureSlots")) {
+    const auto slot = numberOf(condition[2], constants);
+    return slot ? std::optional((constants.at("kTextureSlots") >> *slot & 1) != 0) : std::nullopt;
+  }
   if (condition.size() != 3) return std::nullopt;
   const auto a = numberOf(condition[0], constants);
   const auto b = numberOf(condition[2], constants);
@@ -113,7 +118,7 @@ ShaderConstants constantsOf(Tokens tokens) {
     const Tokens value = rest.first(findOutside(rest, ";"));
     std::optional<int> known;
     if (type == "bool") known = conditionValue(value, constants);
-    if (type == "int" && value.size() == 1) known = numberOf(value[0], constants);
+    if (type.ends_with("int") && value.size() == 1) known = numberOf(value[0], constants);
     if (known) constants[tokens[i + 2].text] = *known;
   }
   return constants;

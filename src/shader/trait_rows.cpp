@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
 #include <initializer_list>
 #include <type_traits>
+#include <vector>
 
 #include "shader/material_kinds.h"
 #include "shader/traits.h"
@@ -17,32 +17,24 @@ auto setOf(std::initializer_list<Member> members) {
   return set;
 }
 
-template <bool (Material::*kMember)() const>
-bool is(const Material& material, const Coordinates&) {
-  return (material.*kMember)();
-}
-
-}  // namespace
-
-std::span<const TraitRow> traitRows() {  // NOLINT(readability-function-size): a table
-  static const std::array<TraitRow, size_t(Trait::Count)> rows = {{
+std::vector<TraitRow> plainRows() {  // NOLINT(readability-function-size): a table
+  return {
       {.trait = Trait::Triangles, .name = "triangles", .constant = "kTriangles", .absence = "no triangle"},
       {.trait = Trait::Spheres, .name = "spheres", .constant = "kSpheres", .absence = "no sphere"},
       {.trait = Trait::SingleSided,
        .name = "single-sided",
        .constant = "kCulling",
        .absence = "no single-sided surface",
-       .ofMaterial = is<&Material::culled>},
+       .effect = &Material::culled},
       {.trait = Trait::Alpha,
        .name = "alpha",
        .constant = "kAlpha",
        .absence = "no alpha that lets light pass",
-       .ofMaterial = is<&Material::testsAlpha>},
+       .effect = &Material::testsAlpha},
       {.trait = Trait::Texcoords,
        .name = "texcoords",
        .constant = "kTexcoords",
-       .absence = "no texture coordinates in use",
-       .brings = setOf({Trait::BaseColorTexture})},
+       .absence = "no texture coordinates in use"},
       {.trait = Trait::VertexNormals,
        .name = "vertex-normals",
        .constant = "kVertexNormals",
@@ -51,70 +43,21 @@ std::span<const TraitRow> traitRows() {  // NOLINT(readability-function-size): a
       {.trait = Trait::Tangents,
        .name = "tangents",
        .constant = "kTangents",
-       .absence = "no tangents in use",
-       .brings = setOf({Trait::NormalTexture, Trait::Texcoords})},
+       .absence = "no tangents in use"},
       {.trait = Trait::VertexColors,
        .name = "vertex-colors",
        .constant = "kVertexColors",
        .absence = "no vertex colours"},
-      {.trait = Trait::BaseColorTexture,
-       .name = "base-color-texture",
-       .constant = "kBaseColorTexture",
-       .absence = "no base colour texture",
-       .textures = {&Material::baseColorTexture}},
-      {.trait = Trait::MetallicRoughnessTexture,
-       .name = "metallic-roughness-texture",
-       .constant = "kMetallicRoughnessTexture",
-       .absence = "no metallic-roughness texture",
-       .stages = setOf({Stage::Phong}),
-       .needs = setOf({Trait::Specular}),
-       .textures = {&Material::metallicRoughnessTexture}},
-      {.trait = Trait::NormalTexture,
-       .name = "normal-texture",
-       .constant = "kNormalTexture",
-       .absence = "no normal texture",
-       .stages = setOf({Stage::NormalMaps}),
-       .brings = setOf({Trait::Tangents}),
-       .textures = {&Material::normalTexture},
-       .ofMaterial = [](const Material& m,
-                        const Coordinates& c) { return m.normalTexture.present() && c.tangents; }},
-      {.trait = Trait::EmissionTexture,
-       .name = "emission-texture",
-       .constant = "kEmissionTexture",
-       .absence = "no emissive texture",
-       .stages = setOf({Stage::Phong}),
-       .brings = setOf({Trait::Emission}),
-       .textures = {&Material::emissiveTexture},
-       .ofMaterial = [](const Material& m,
-                        const Coordinates&) { return m.emissive() && m.emissiveTexture.present(); }},
-      {.trait = Trait::TransmissionTexture,
-       .name = "transmission-texture",
-       .constant = "kTransmissionTexture",
-       .absence = "no transmission texture",
-       .stages = setOf({Stage::Refraction}),
-       .brings = setOf({Trait::Transmission}),
-       .textures = {&Material::transmissionTexture},
-       .ofMaterial = [](const Material& m,
-                        const Coordinates&) { return m.transmissive() && m.transmissionTexture.present(); }},
-      {.trait = Trait::SpecularTexture,
-       .name = "specular-texture",
-       .constant = "kSpecularTexture",
-       .absence = "no specular texture",
-       .stages = setOf({Stage::Phong}),
-       .brings = setOf({Trait::Specular}),
-       .textures = {&Material::specularTexture, &Material::specularColorTexture}},
       {.trait = Trait::SpecularGlossiness,
        .name = "specular-glossiness",
        .constant = "kSpecularGlossiness",
        .absence = "no material of KHR_materials_pbrSpecularGlossiness",
        .stages = setOf({Stage::Phong}),
-       .brings = setOf({Trait::Specular}),
        .ofMaterial = [](const Material& m, const Coordinates&) { return m.specularGlossiness; }},
       {.trait = Trait::TextureTransforms,
        .name = "texture-transforms",
        .constant = "kTextureTransforms",
        .absence = "no transformed texture",
-       .brings = setOf({Trait::BaseColorTexture, Trait::Texcoords}),
        .ofMaterial =
            [](const Material& m, const Coordinates&) {
              return std::ranges::any_of(kTextureRefs,
@@ -131,85 +74,40 @@ std::span<const TraitRow> traitRows() {  // NOLINT(readability-function-size): a
        .absence = "no clearcoat",
        .stages = setOf({Stage::Gi}),
        .needs = setOf({Trait::Specular}),
-       .ofMaterial = is<&Material::clearcoated>},
-      {.trait = Trait::ClearcoatTexture,
-       .name = "clearcoat-texture",
-       .constant = "kClearcoatTexture",
-       .absence = "no clearcoat texture",
-       .needs = setOf({Trait::Clearcoat}),
-       .textures = {&Material::clearcoatTexture, &Material::clearcoatRoughnessTexture}},
-      {.trait = Trait::ClearcoatNormal,
-       .name = "clearcoat-normal",
-       .constant = "kClearcoatNormal",
-       .absence = "no clearcoat normal texture",
-       .stages = setOf({Stage::NormalMaps}),
-       .needs = setOf({Trait::Clearcoat}),
-       .brings = setOf({Trait::Tangents}),
-       .textures = {&Material::clearcoatNormalTexture},
-       .ofMaterial = [](const Material& m,
-                        const Coordinates& c) { return m.clearcoatNormalTexture.present() && c.tangents; }},
+       .effect = &Material::clearcoated},
       {.trait = Trait::Sheen,
        .name = "sheen",
        .constant = "kSheen",
        .absence = "no sheen",
        .stages = setOf({Stage::Gi}),
-       .ofMaterial = is<&Material::hasSheen>},
-      {.trait = Trait::SheenTexture,
-       .name = "sheen-texture",
-       .constant = "kSheenTexture",
-       .absence = "no sheen texture",
-       .needs = setOf({Trait::Sheen}),
-       .textures = {&Material::sheenColorTexture, &Material::sheenRoughnessTexture}},
+       .effect = &Material::hasSheen},
       {.trait = Trait::Anisotropy,
        .name = "anisotropy",
        .constant = "kAnisotropy",
        .absence = "no anisotropic material",
        .stages = setOf({Stage::Gi}),
        .needs = setOf({Trait::Specular}),
-       .brings = setOf({Trait::Tangents}),
-       .ofMaterial = is<&Material::anisotropic>},
-      {.trait = Trait::AnisotropyTexture,
-       .name = "anisotropy-texture",
-       .constant = "kAnisotropyTexture",
-       .absence = "no anisotropy texture",
-       .needs = setOf({Trait::Anisotropy}),
-       .textures = {&Material::anisotropyTexture}},
+       .effect = &Material::anisotropic},
       {.trait = Trait::Iridescence,
        .name = "iridescence",
        .constant = "kIridescence",
        .absence = "no iridescent material",
        .stages = setOf({Stage::Gi}),
        .needs = setOf({Trait::Specular}),
-       .ofMaterial = is<&Material::iridescent>},
-      {.trait = Trait::IridescenceTexture,
-       .name = "iridescence-texture",
-       .constant = "kIridescenceTexture",
-       .absence = "no iridescence texture",
-       .needs = setOf({Trait::Iridescence}),
-       .textures = {&Material::iridescenceTexture, &Material::iridescenceThicknessTexture}},
+       .effect = &Material::iridescent},
       {.trait = Trait::DiffuseTransmission,
        .name = "diffuse-transmission",
        .constant = "kDiffuseTransmission",
        .absence = "no material that lets diffuse light through",
        .stages = setOf({Stage::Refraction, Stage::Gi}),
-       .ofMaterial =
-           [](const Material& m, const Coordinates&) {
-             return m.diffuseTransmissionFactor > 0.0f || m.scattersThinly();
-           }},
-      {.trait = Trait::DiffuseTransmissionTexture,
-       .name = "diffuse-transmission-texture",
-       .constant = "kDiffuseTransmissionTexture",
-       .absence = "no diffuse transmission texture",
-       .needs = setOf({Trait::DiffuseTransmission}),
-       .textures = {&Material::diffuseTransmissionTexture, &Material::diffuseTransmissionColorTexture}},
+       .effect = &Material::passesDiffusely},
       {.trait = Trait::Dispersion,
        .name = "dispersion",
        .constant = "kDispersion",
        .absence = "no dispersive material",
        .stages = setOf({Stage::Gi}),
        .needs = setOf({Trait::Transmission}),
-       .brings = setOf({Trait::Specular}),
-       .ofMaterial = is<&Material::disperses>},
+       .effect = &Material::disperses},
       {.trait = Trait::GlassSpecular,
        .name = "glass-specular",
        .constant = "kGlassSpecular",
@@ -223,7 +121,6 @@ std::span<const TraitRow> traitRows() {  // NOLINT(readability-function-size): a
        .constant = "kPerlinNormals",
        .absence = "no Perlin normal map",
        .stages = setOf({Stage::NormalMaps}),
-       .brings = setOf({Trait::Tangents}),
        .texcoords = true,
        .ofMaterial = [](const Material& m,
                         const Coordinates& c) { return m.perlinNormal.amplitude != 0.0f && c.texcoord0; }},
@@ -248,7 +145,7 @@ std::span<const TraitRow> traitRows() {  // NOLINT(readability-function-size): a
        .constant = "kTransmission",
        .absence = "no transmissive material",
        .stages = setOf({Stage::Refraction}),
-       .ofMaterial = is<&Material::transmissive>},
+       .effect = &Material::transmissive},
       {.trait = Trait::ThinGlass,
        .name = "thin-glass",
        .constant = "kThinGlass",
@@ -269,41 +166,32 @@ std::span<const TraitRow> traitRows() {  // NOLINT(readability-function-size): a
        .constant = "kAbsorption",
        .absence = "no absorbing volume",
        .stages = setOf({Stage::Refraction}),
-       .brings = setOf({Trait::Transmission}),
-       .ofMaterial = is<&Material::attenuates>},
+       .effect = &Material::attenuates},
       {.trait = Trait::Scattering,
        .name = "scattering",
        .constant = "kScattering",
        .absence = "no volume that scatters",
        .stages = setOf({Stage::Refraction, Stage::Gi}),
        .needs = setOf({Trait::Absorption}),
-       .brings = setOf({Trait::Transmission}),
-       .ofMaterial = is<&Material::scattersInside>},
+       .effect = &Material::scattersInside},
       {.trait = Trait::NestedSolids,
        .name = "nested-solids",
        .constant = "kNestedSolids",
-       .absence = "no solids of different materials with boxes that overlap",
-       .brings = setOf({Trait::Transmission})},
+       .absence = "no solids of different materials with boxes that overlap"},
       {.trait = Trait::MatchedGlass,
        .name = "matched-glass",
        .constant = "kMatchedGlass",
        .absence = "no volume that scatters behind a smooth boundary of index 1",
        .stages = setOf({Stage::Shadows}),
        .needs = setOf({Trait::Scattering, Trait::Transmission}),
-       .ofMaterial = is<&Material::scattersMatched>},
+       .effect = &Material::scattersMatched},
       {.trait = Trait::ThinScattering,
        .name = "thin-scattering",
        .constant = "kThinScattering",
        .absence = "no thin wall that scatters",
        .stages = setOf({Stage::Refraction, Stage::Gi}),
        .needs = setOf({Trait::Transmission, Trait::DiffuseTransmission}),
-       .ofMaterial = is<&Material::scattersThinly>},
-      {.trait = Trait::ThinScatteringTexture,
-       .name = "thin-scattering-texture",
-       .constant = "kThinScatteringTexture",
-       .absence = "no texture of a thin wall's scattering",
-       .needs = setOf({Trait::ThinScattering}),
-       .textures = {&Material::scatterStrengthTexture, &Material::multiscatterColorTexture}},
+       .effect = &Material::scattersThinly},
       {.trait = Trait::Fog,
        .name = "fog",
        .constant = "kFog",
@@ -325,7 +213,7 @@ std::span<const TraitRow> traitRows() {  // NOLINT(readability-function-size): a
        .constant = "kEmission",
        .absence = "no emissive material",
        .stages = setOf({Stage::Phong}),
-       .ofMaterial = is<&Material::emissive>},
+       .effect = &Material::emissive},
       {.trait = Trait::EmissiveTriangles,
        .name = "emissive-triangles",
        .constant = "kEmissiveTriangles",
@@ -355,8 +243,7 @@ std::span<const TraitRow> traitRows() {  // NOLINT(readability-function-size): a
        .name = "environment-sampling",
        .constant = "kEnvironmentSampling",
        .absence = "no environment map",
-       .stages = setOf({Stage::Gi}),
-       .brings = setOf({Trait::Environment})},
+       .stages = setOf({Stage::Gi})},
       {.trait = Trait::Backdrop,
        .name = "backdrop",
        .constant = "kBackdrop",
@@ -405,7 +292,37 @@ std::span<const TraitRow> traitRows() {  // NOLINT(readability-function-size): a
        .name = "moving-surfaces",
        .constant = "kMoving",
        .absence = "no surface that moves while the shutter is open"},
-  }};
+  };
+}
+
+/// The trait of scenes that read the textures of a slot.
+TraitRow slotRow(uint32_t slot, std::span<const TraitRow> plain) {
+  const TextureRefRow& texture = kTextureRefs[slot];
+  TraitRow row{.trait = slotTrait(slot), .name = std::string(texture.name) + " texture", .texcoords = true};
+  std::ranges::replace(row.name, ' ', '-');
+  if (texture.tangentSpace) row.stages = setOf({Stage::NormalMaps});
+  for (const TraitRow& other : plain) {
+    if (texture.effect && other.effect == texture.effect) row.needs.set(size_t(other.trait));
+  }
+  row.ofMaterial = [&texture](const Material& m, const Coordinates& c) {
+    return (m.*texture.ref).present() && (!texture.effect || (m.*texture.effect)()) &&
+           (c.tangents || !texture.tangentSpace);
+  };
+  return row;
+}
+
+}  // namespace
+
+std::span<const TraitRow> traitRows() {
+  static const std::vector<TraitRow> rows = [] {
+    std::vector<TraitRow> all = plainRows();
+    for (TraitRow& row : all) {
+      const auto effect = row.effect;
+      if (effect) row.ofMaterial = [effect](const Material& m, const Coordinates&) { return (m.*effect)(); };
+    }
+    for (uint32_t slot = 0; slot < layout::kSlotCount; ++slot) all.push_back(slotRow(slot, all));
+    return all;
+  }();
   return rows;
 }
 

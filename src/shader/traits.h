@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Features of scenes by which the shader can be cut down: one table row each, from which variants, the shader
-// prelude, benchmarks and statistics follow.
+// prelude and statistics follow.
 #pragma once
 
-#include <array>
+#include <functional>
 #include <span>
+#include <string>
 
 #include "scene/scene.h"
+#include "shader/layout.h"
 #include "shader/stage.h"
 
 namespace fragtrace {
@@ -21,26 +23,14 @@ enum class Trait : uint8_t {
   VertexNormals,
   Tangents,
   VertexColors,
-  BaseColorTexture,
-  MetallicRoughnessTexture,
-  NormalTexture,
-  EmissionTexture,
-  TransmissionTexture,
-  SpecularTexture,
   SpecularGlossiness,
   TextureTransforms,
   WideTextures,
   Clearcoat,
-  ClearcoatTexture,
-  ClearcoatNormal,
   Sheen,
-  SheenTexture,
   Anisotropy,
-  AnisotropyTexture,
   Iridescence,
-  IridescenceTexture,
   DiffuseTransmission,
-  DiffuseTransmissionTexture,
   Dispersion,
   GlassSpecular,
   PerlinNormals,
@@ -54,7 +44,6 @@ enum class Trait : uint8_t {
   NestedSolids,
   MatchedGlass,
   ThinScattering,
-  ThinScatteringTexture,
   Fog,
   DensityGrid,
   Unlit,
@@ -76,9 +65,13 @@ enum class Trait : uint8_t {
   ObjectNumbers,
   MovingCamera,
   MovingSurfaces,
-  Count
+  FirstTexture,  ///< then one for each slot of textures
+  Count = FirstTexture + layout::kSlotCount
 };
 using TraitSet = SetOf<Trait>;
+
+/// The trait of scenes with a texture in the slot, one of layout::kSlotBaseColor and so on.
+constexpr Trait slotTrait(uint32_t slot) { return Trait(uint32_t(Trait::FirstTexture) + slot); }
 
 /// The attributes that primitives bring for their materials' maps; spheres bring all of them.
 struct Coordinates {
@@ -88,23 +81,18 @@ struct Coordinates {
 
 struct TraitRow {
   Trait trait;
-  const char* name;      ///< shown in the statistics and the variant's name
-  const char* constant;  ///< the constant's name in the shader
-  const char* absence;   ///< why something that needs it is off
-  StageSet stages{};     ///< the trait is off if one of these stages is off
-  TraitSet needs{};      ///< the trait is off if one of these traits is off
-  TraitSet brings{};     ///< traits that a scene must also have to show it
-  /// The textures that the shader reads if the trait is on; the rest are null.
-  std::array<TextureRef Material::*, 2> textures{};
-  bool texcoords = false;  ///< the trait reads texture coordinates without a texture
-  /// Returns true if a material has the trait. Null: a material with one of the trait's textures has it, and
-  /// without textures the scene as a whole has it or not (traitsOf).
-  bool (*ofMaterial)(const Material& material, const Coordinates& coordinates) = nullptr;
+  std::string name;                ///< shown in the statistics and the variant's name
+  const char* constant = nullptr;  ///< the constant's name in the shader; slots are bits of kTextureSlots
+  const char* absence = "";        ///< why something that needs it is off
+  StageSet stages{};               ///< the trait is off if one of these stages is off
+  TraitSet needs{};                ///< the trait is off if one of these traits is off
+  bool texcoords = false;          ///< the trait reads texture coordinates
+  bool (Material::*effect)() const = nullptr;  ///< of materials that have the trait
+  /// Returns true if a material has the trait. Null without an effect: the scene as a whole has it or not
+  /// (traitsOf).
+  std::function<bool(const Material& material, const Coordinates& coordinates)> ofMaterial{};
 };
 std::span<const TraitRow> traitRows();
-
-bool isOfMaterial(const TraitRow& row, const Material& material, const Coordinates& coordinates);
-bool readsTexcoords(const TraitRow& row);
 
 /// Returns true if there are lamps among which light samples choose: emissive triangles or punctual lights.
 inline bool hasLamps(const TraitSet& traits) {
@@ -127,11 +115,5 @@ inline bool hasMedia(const TraitSet& traits) {
 inline bool isTimed(const TraitSet& traits) {
   return traits[size_t(Trait::MovingCamera)] || traits[size_t(Trait::MovingSurfaces)];
 }
-
-/// The row that lists the texture; std::logic_error where none does.
-const TraitRow& traitOfTexture(TextureRef Material::*texture);
-
-/// The trait, the traits that it needs, and those that a scene with it would also have.
-TraitSet withNeeded(Trait trait);
 
 }  // namespace fragtrace

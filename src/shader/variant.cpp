@@ -12,9 +12,13 @@ namespace fragtrace {
 
 namespace {
 
+constexpr Trait kBaseColorTexture = slotTrait(layout::kSlotBaseColor);
+constexpr Trait kRoughnessTexture = slotTrait(layout::kSlotMetallicRoughness);
+constexpr Trait kSpecularColorTexture = slotTrait(layout::kSlotSpecularColor);
+
 bool hasNormalMaps(const TraitSet& traits) {
-  return has(traits, Trait::NormalTexture) || has(traits, Trait::PerlinNormals) ||
-         has(traits, Trait::ClearcoatNormal);
+  return has(traits, slotTrait(layout::kSlotNormal)) || has(traits, Trait::PerlinNormals) ||
+         has(traits, slotTrait(layout::kSlotClearcoatNormal));
 }
 
 /// A light that rays can hit, and that can be sampled.
@@ -31,7 +35,7 @@ bool hasSlivers(const Scene& scene) {
 
 void addMaterialTraits(const Material& m, const Coordinates& coordinates, TraitSet& traits) {
   for (const TraitRow& row : traitRows()) {
-    if (isOfMaterial(row, m, coordinates)) traits.set(size_t(row.trait));
+    if (row.ofMaterial && row.ofMaterial(m, coordinates)) traits.set(size_t(row.trait));
   }
 }
 
@@ -58,8 +62,7 @@ void dropStages(StageSet& stages, bool countsVisits) {
 void dropTraits(const StageSet& stages, bool countsVisits, Surroundings surroundings, TraitSet& traits) {
   const bool gi = has(stages, Stage::Gi);
   if (!has(stages, Stage::Phong) && surroundings != Surroundings::Map) drop(traits, {Trait::Environment});
-  if (countsVisits)
-    drop(traits, {Trait::Alpha, Trait::BaseColorTexture, Trait::VertexColors, Trait::Environment});
+  if (countsVisits) drop(traits, {Trait::Alpha, kBaseColorTexture, Trait::VertexColors, Trait::Environment});
   if (gi && !has(stages, Stage::Reflections)) drop(traits, {Trait::Specular});
   for (TraitSet before; before != traits;) {
     before = traits;
@@ -68,8 +71,11 @@ void dropTraits(const StageSet& stages, bool countsVisits, Surroundings surround
     }
   }
   // In specular-glossiness the diffuse colour gives way to the specular one, reflected or not.
-  if (!has(traits, Trait::Specular) && !has(traits, Trait::SpecularGlossiness))
-    drop(traits, {Trait::SpecularTexture});
+  if (!has(traits, Trait::Specular)) {
+    drop(traits, {kRoughnessTexture});
+    if (!has(traits, Trait::SpecularGlossiness))
+      drop(traits, {slotTrait(layout::kSlotSpecular), kSpecularColorTexture});
+  }
   if (!has(traits, Trait::Transmission) && !has(traits, Trait::DiffuseTransmission))
     drop(traits, {Trait::Absorption, Trait::Scattering, Trait::NestedSolids, Trait::MatchedGlass});
   if (!hasNormalMaps(traits) && !has(traits, Trait::Anisotropy)) drop(traits, {Trait::Tangents});
@@ -77,7 +83,7 @@ void dropTraits(const StageSet& stages, bool countsVisits, Surroundings surround
     drop(traits, {Trait::EmissiveTriangles, Trait::EnvironmentSampling, Trait::MapSun});
   // Scattered rays find a constant environment.
   if (gi && surroundings == Surroundings::DefaultLight) drop(traits, {Trait::EnvironmentSampling});
-  const auto looksUp = [&](const TraitRow& row) { return readsTexcoords(row) && has(traits, row.trait); };
+  const auto looksUp = [&](const TraitRow& row) { return row.texcoords && has(traits, row.trait); };
   if (std::ranges::none_of(traitRows(), looksUp))
     drop(traits, {Trait::Texcoords, Trait::TextureTransforms, Trait::WideTextures});
   drop(traits, {Trait::SmoothSurfaces, Trait::ObjectNumbers});  // only layers read these
@@ -298,16 +304,16 @@ ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& pre
   }
   if (normals) wanted.stages.set(size_t(Stage::Phong));
   TraitSet kept = present;
-  for (Trait t : {Trait::PunctualLights, Trait::EmissiveTriangles, Trait::EnvironmentSampling,
-                  Trait::Environment, Trait::Emission, Trait::EmissionTexture, Trait::Absorption,
-                  Trait::Unlit, Trait::Fog, Trait::DensityGrid}) {
+  for (Trait t :
+       {Trait::PunctualLights, Trait::EmissiveTriangles, Trait::EnvironmentSampling, Trait::Environment,
+        Trait::Emission, Trait::Absorption, Trait::Unlit, Trait::Fog, Trait::DensityGrid}) {
     kept.reset(size_t(t));
   }
   if (!follows) {
     for (Trait t : {Trait::Specular, Trait::Transmission}) kept.reset(size_t(t));
   }
   if (aov != Aov::Albedo && !guides && !has(present, Trait::Alpha)) {
-    for (Trait t : {Trait::BaseColorTexture, Trait::VertexColors}) kept.reset(size_t(t));
+    for (Trait t : {kBaseColorTexture, Trait::VertexColors}) kept.reset(size_t(t));
   }
   ShaderVariant v = chooseVariant(wanted, kept, surroundings, stackNeed, reads);
   v.traits.reset(size_t(Trait::Environment));
@@ -317,11 +323,11 @@ ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& pre
   const bool glossiness = has(present, Trait::SpecularGlossiness);
   const bool roughnessTexture =
       aov == Aov::Roughness &&
-      (has(present, Trait::MetallicRoughnessTexture) || (glossiness && has(present, Trait::SpecularTexture)));
+      (has(present, kRoughnessTexture) || (glossiness && has(present, kSpecularColorTexture)));
   if (aov == Aov::Roughness) {
-    keep(Trait::MetallicRoughnessTexture);
+    keep(kRoughnessTexture);
     keep(Trait::SpecularGlossiness);
-    if (glossiness) keep(Trait::SpecularTexture);
+    if (glossiness) keep(kSpecularColorTexture);
   }
   if (roughnessTexture) {
     keep(Trait::TextureTransforms);

@@ -19,11 +19,8 @@ inline bool kLightTree = false;
 inline bool kCandidates = false;
 inline bool kStoresReservoirs = false;
 inline bool kNeighbours = false;
-inline bool kEmissionTexture = false;
-inline bool kClearcoatTexture = false;
 inline bool kTexcoords = false;
 inline bool kAlpha = false;
-inline bool kBaseColorTexture = false;
 inline bool kVertexColors = false;
 
 inline layout::Frame frame{};

@@ -52,6 +52,18 @@ TEST(LiveText, ConditionsOfSeveralParts) {
   EXPECT_EQ(mainOf("if (x && kOn) a();"), "if (x && kOn) a();");
 }
 
+TEST(LiveText, SlotsOfTexturesAreBitsOfAConstant) {
+  const auto reads = [](const std::string& condition) {
+    return live(
+        "const int kTextureSlots = 4; const uint kSlotA = 2u; const uint kSlotB = 1u; void main() { if (" +
+        condition + ") a(); }");
+  };
+  EXPECT_TRUE(reads("readsSlot(kSlotA)").ends_with("{ a(); }"));
+  EXPECT_TRUE(reads("readsSlot(kSlotB)").ends_with("{ ; }"));
+  EXPECT_TRUE(reads("x && (readsSlot(kSlotB) || readsSlot(0u))").ends_with("{ ; }"));
+  EXPECT_TRUE(reads("readsSlot(slot)").ends_with("if (readsSlot(slot)) a(); }"));
+}
+
 TEST(LiveText, WhatMayActInAConditionStays) {
   for (const char* body :
        {"if (f(x) && kOff) a();", "if (x++ > 1 || kOn) a();", "if ((x = y) > 1 && kOff) a();"})

@@ -9,6 +9,11 @@
 namespace fragtrace {
 namespace {
 
+constexpr Trait kBaseColorTexture = slotTrait(layout::kSlotBaseColor);
+constexpr Trait kRoughnessTexture = slotTrait(layout::kSlotMetallicRoughness);
+constexpr Trait kCoatTexture = slotTrait(layout::kSlotClearcoat);
+constexpr Trait kCoatNormal = slotTrait(layout::kSlotClearcoatNormal);
+
 ShaderVariant variantOf(Stage stage, const TraitSet& present,
                         Surroundings surroundings = Surroundings::None) {
   RenderOptions options;
@@ -35,7 +40,22 @@ TEST(StageTable, EachConstantIsUsedInTheShader) {
   for (const StageRow& row : stageRows()) {
     EXPECT_TRUE(row.constant == nullptr || usesOf(row.constant) > 0) << row.name;
   }
-  for (const TraitRow& row : traitRows()) EXPECT_GT(usesOf(row.constant), 0u) << row.constant;
+  for (const TraitRow& row : traitRows()) {
+    EXPECT_TRUE(row.constant == nullptr || usesOf(row.constant) > 0) << row.name;
+  }
+}
+
+TEST(StageTable, EachSlotOfTexturesIsReadIfItsTraitIsOn) {
+  size_t before = 0;
+  for (uint32_t slot = 0; slot <= layout::kSlotCount; ++slot) {
+    ShaderVariant v;
+    v.stages.set();
+    v.traits.set();
+    for (uint32_t off = slot; off < layout::kSlotCount; ++off) v.traits.reset(size_t(slotTrait(off)));
+    const size_t length = assembleShader({}, "entry/trace.frag", v).size();
+    EXPECT_GT(length, before + 20) << "slot " << slot;
+    before = length;
+  }
 }
 
 TEST(StageTable, AStageTurnsOnItselfAndAllBeforeIt) {
@@ -49,18 +69,17 @@ TEST(StageTable, AStageTurnsOnItselfAndAllBeforeIt) {
 
 TEST(Variant, FlatNeedsNoLightAndNoNormals) {
   const ShaderVariant v = variantOf(Stage::Flat, allTraits(), Surroundings::Map);
-  for (Trait t :
-       {Trait::PunctualLights, Trait::EmissiveTriangles, Trait::VertexNormals, Trait::Tangents,
-        Trait::Specular, Trait::Transmission, Trait::NormalTexture, Trait::MetallicRoughnessTexture}) {
+  for (Trait t : {Trait::PunctualLights, Trait::EmissiveTriangles, Trait::VertexNormals, Trait::Tangents,
+                  Trait::Specular, Trait::Transmission, slotTrait(layout::kSlotNormal), kRoughnessTexture}) {
     EXPECT_FALSE(has(v.traits, t)) << traitRows()[size_t(t)].name;
   }
-  EXPECT_TRUE(has(v.traits, Trait::BaseColorTexture));
+  EXPECT_TRUE(has(v.traits, kBaseColorTexture));
 }
 
 TEST(Variant, LayersBelongToGiAndToWhatTheyLieOn) {
-  constexpr Trait kLayers[] = {Trait::Clearcoat,  Trait::ClearcoatTexture, Trait::ClearcoatNormal,
-                               Trait::Sheen,      Trait::Anisotropy,       Trait::Iridescence,
-                               Trait::Dispersion, Trait::GlassSpecular,    Trait::DiffuseTransmission};
+  constexpr Trait kLayers[] = {Trait::Clearcoat,  kCoatTexture,         kCoatNormal,
+                               Trait::Sheen,      Trait::Anisotropy,    Trait::Iridescence,
+                               Trait::Dispersion, Trait::GlassSpecular, Trait::DiffuseTransmission};
   for (const Trait t : kLayers) {
     EXPECT_TRUE(has(variantOf(Stage::Gi, allTraits()).traits, t)) << traitRows()[size_t(t)].name;
     EXPECT_FALSE(has(variantOf(Stage::NormalMaps, allTraits()).traits, t)) << traitRows()[size_t(t)].name;
@@ -68,12 +87,12 @@ TEST(Variant, LayersBelongToGiAndToWhatTheyLieOn) {
   TraitSet matte = allTraits();
   matte.reset(size_t(Trait::Specular));
   const ShaderVariant v = variantOf(Stage::Gi, matte);
-  EXPECT_FALSE(has(v.traits, Trait::Clearcoat) || has(v.traits, Trait::ClearcoatTexture) ||
+  EXPECT_FALSE(has(v.traits, Trait::Clearcoat) || has(v.traits, kCoatTexture) ||
                has(v.traits, Trait::Iridescence));
   EXPECT_TRUE(has(v.traits, Trait::Sheen));
   // Anisotropy alone keeps tangents.
   TraitSet brushed = allTraits();
-  for (Trait t : {Trait::NormalTexture, Trait::PerlinNormals, Trait::ClearcoatNormal})
+  for (Trait t : {slotTrait(layout::kSlotNormal), Trait::PerlinNormals, kCoatNormal})
     brushed.reset(size_t(t));
   EXPECT_TRUE(has(variantOf(Stage::Gi, brushed).traits, Trait::Tangents));
   brushed.reset(size_t(Trait::Anisotropy));
@@ -151,13 +170,13 @@ TEST(DebugView, DrawsAFirstHitWithWhatItNeedsOnly) {
   const ShaderVariant geometric =
       pictureOf(DebugView::GeometricNormal, allTraits().reset(size_t(Trait::Alpha)));
   EXPECT_EQ(geometric.aov, Aov::GeometricNormal);
-  for (Trait t : {Trait::Texcoords, Trait::VertexNormals, Trait::BaseColorTexture, Trait::Environment})
+  for (Trait t : {Trait::Texcoords, Trait::VertexNormals, kBaseColorTexture, Trait::Environment})
     EXPECT_FALSE(has(geometric.traits, t)) << traitRows()[size_t(t)].name;
   const ShaderVariant rough = pictureOf(DebugView::Roughness, allTraits().reset(size_t(Trait::Alpha)));
-  EXPECT_TRUE(has(rough.traits, Trait::MetallicRoughnessTexture) && has(rough.traits, Trait::Texcoords));
-  EXPECT_FALSE(has(rough.traits, Trait::BaseColorTexture));
+  EXPECT_TRUE(has(rough.traits, kRoughnessTexture) && has(rough.traits, Trait::Texcoords));
+  EXPECT_FALSE(has(rough.traits, kBaseColorTexture));
   // Alpha decides what is hit, whatever is shown.
-  EXPECT_TRUE(has(pictureOf(DebugView::Depth, allTraits()).traits, Trait::BaseColorTexture));
+  EXPECT_TRUE(has(pictureOf(DebugView::Depth, allTraits()).traits, kBaseColorTexture));
   const TraitSet plain(1ul << unsigned(Trait::Triangles) | 1ul << unsigned(Trait::Texcoords));
   EXPECT_TRUE(has(pictureOf(DebugView::Texcoords, plain).traits, Trait::Texcoords));
   EXPECT_FALSE(has(pictureOf(DebugView::Albedo, plain).traits, Trait::Texcoords));

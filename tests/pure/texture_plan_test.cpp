@@ -28,7 +28,7 @@ Scene sceneWith(const std::vector<glm::ivec2>& sizes, int bitsOfOdd = 8) {
 
 TraitSet baseColors() {
   TraitSet traits;
-  traits.set(size_t(Trait::BaseColorTexture));
+  traits.set(size_t(slotTrait(layout::kSlotBaseColor)));
   return traits;
 }
 

@@ -103,17 +103,6 @@ bool placeWithin(const std::vector<TexturePlace>& whole, const std::function<dou
   return fits && plan.bytes() <= room.bytes;
 }
 
-/// Rows of traitRows(), looked up once.
-const std::array<const TraitRow*, layout::kSlotCount>& traitsOfSlots() {
-  static_assert(kTextureRefs.size() == layout::kSlotCount + 1);  // occlusion has no slot
-  static const auto rows = [] {
-    std::array<const TraitRow*, layout::kSlotCount> found{};
-    for (size_t slot = 0; slot < found.size(); ++slot) found[slot] = &traitOfTexture(kTextureRefs[slot].ref);
-    return found;
-  }();
-  return rows;
-}
-
 /// The pictures that are read, whole, without their places.
 std::vector<TexturePlace> readPictures(const Scene& scene, const TraitSet& traits) {
   std::vector<TexturePlace> pictures(scene.images.size());
@@ -140,8 +129,9 @@ size_t TexturePlan::bytes() const {
 }
 
 bool readsTexture(uint32_t slot, const Material& material, const TraitSet& traits) {
-  const TraitRow& row = *traitsOfSlots()[slot];
-  return has(traits, row.trait) && isOfMaterial(row, material, Coordinates{});
+  static_assert(kTextureRefs.size() == layout::kSlotCount + 1);  // occlusion has no slot
+  const Trait trait = slotTrait(slot);
+  return has(traits, trait) && traitRows()[size_t(trait)].ofMaterial(material, Coordinates{});
 }
 
 void forEachPicture(const Scene& scene, const TraitSet& traits,
