@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/errors.h"
+#include "base/folder.h"
 #include "base/plugin.h"
 #include "base/report.h"
 #include "base/text.h"
@@ -27,7 +28,6 @@
 #include "session/picture/finished_picture.h"
 #include "session/picture/sheet.h"
 #include "session/say.h"
-#include "view/files/folder_list.h"
 
 namespace fragtrace {
 

@@ -59,7 +59,6 @@ struct ViewState {
   std::array<char, 64> bookmarkName{};
   std::array<char, 64> search{};  ///< text that the sheet is searched for; ends with a 0
   bool sheet = false;
-  bool fileList = false;  ///< stands before all else, and takes the keys
   bool fullscreen = false;
   bool treeBoxes = false;
   int treeLevel = 4;
@@ -94,7 +93,6 @@ enum class Errand : uint8_t {
   Fullscreen,
   Open,           ///< Task::index: 1 for an environment
   OpenFile,       ///< Task::file
-  ListKey,        ///< Task::index is its code
   DropReference,  ///< side B is traced again
   Load,           ///< Task::load
   CancelLoad,

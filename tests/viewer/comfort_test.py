@@ -231,6 +231,13 @@ class Undo(Case):
         viewer.rest(lambda s: s["camera"] == kept, "back")
         viewer.click("forget view 0")
         viewer.until(lambda s: "view 0" not in s["places"], "forgotten")
+        viewer.click("Bookmark name")
+        viewer.until(lambda s: s["focus"] == "text", "a name")
+        viewer.keys_at_once(*"ears", "Return")  # Enter counts, with all that was typed before it
+        viewer.until(lambda s: "view 0" in s["places"], "kept")
+        self.assertIn('"ears"', (self.folder / "state/fragtrace/viewer.json").read_text())
+        viewer.click("forget view 0")
+        viewer.until(lambda s: "view 0" not in s["places"], "forgotten")
         self.assertNotIn("left ear", (self.folder / "state/fragtrace/viewer.json").read_text())
         self.ends_well(viewer, viewer.close())
 

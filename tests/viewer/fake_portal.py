@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The desktop's portal for files, on a bus of its own, that answers as a test says."""
+import shutil
 import subprocess
 import tempfile
 import threading
@@ -13,6 +14,7 @@ CONFIGURATION = """<busconfig><listen>unix:tmpdir=/tmp</listen><auth>EXTERNAL</a
 <policy context="default"><allow send_destination="*"/><allow receive_sender="*"/><allow own="*"/></policy></busconfig>"""
 HANDLE = "/org/freedesktop/portal/desktop/request/1_1/t"
 CHOSEN, CANCELLED, ENDED = 0, 1, 2
+WHY_NOT = "" if shutil.which("dbus-daemon") else "dbus-daemon is not installed"
 
 
 class Bus:
@@ -29,6 +31,13 @@ class Bus:
         self.process.wait()
         self.process.stdout.close()
         self.folder.cleanup()
+
+
+def portal_for(case):
+    """A portal for the viewers of a test, and their environment."""
+    bus = Bus()
+    case.addCleanup(bus.close)
+    return Portal(bus), {**case.screen.environment, "DBUS_SESSION_BUS_ADDRESS": bus.address}
 
 
 class Portal(threading.Thread):

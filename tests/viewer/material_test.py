@@ -5,24 +5,24 @@ import json
 import shutil
 import subprocess
 import time
+import unittest
 
 from comfort_test import copied_command
 from support import FRAGTRACE, SCENES, Case, main, pixels_of
 from xdnd import drop
 
+try:
+    from fake_portal import CHOSEN, WHY_NOT, portal_for
+except ImportError as error:
+    WHY_NOT = f"{error} (Debian: python3-jeepney)"
+
 PANEL = ["--resolution", "560,400", "--spp", "1", "--stage", "phong"]
 
 
-def write_over(viewer):
+def write_over(viewer, portal, scene):
     """Presses the keys after which the model is written over the file that is shown."""
+    portal.answers = [(CHOSEN, f"file://{scene}")]
     viewer.key("ctrl+shift+s")
-    viewer.until(lambda s: s["dialog"] == "list", "a list")
-    time.sleep(0.2)
-    viewer.xdotool("type", "scene")
-    time.sleep(0.2)
-    viewer.key("Return")
-    time.sleep(0.2)
-    viewer.key("Return")
 
 
 class Materials(Case):
@@ -30,6 +30,10 @@ class Materials(Case):
         self.scene = self.folder / "scene.gltf"
         shutil.copy(SCENES / (name + ".gltf"), self.scene)
         return self.view(self.scene, *PANEL, *options, **keywords)
+
+    def start_with_portal(self, *arguments):
+        self.portal, environment = portal_for(self)
+        return self.start(*arguments, environment=environment)
 
     def is_asked_for(self, viewer):
         """Quitting says that numbers are not saved, and does nothing else at first."""
@@ -41,7 +45,7 @@ class Materials(Case):
 
     def save_over(self, viewer):
         """Writes the model over the file that is shown, which is read again."""
-        write_over(viewer)
+        write_over(viewer, self.portal, self.scene)
         return viewer.rest(lambda s: not s["set"], "read again")
 
     def settled(self, viewer, name):
@@ -108,13 +112,8 @@ class Materials(Case):
         drop(self.screen, viewer.id, SCENES / "furnace.gltf")
         self.assertEqual(viewer.until(asks, "asked")["scene"], str(self.scene))
         viewer.key("ctrl+o")
-        viewer.until(lambda s: s["dialog"] == "list", "a list")
-        viewer.key("Escape")
-        viewer.until(lambda s: not s["dialog"], "no list")
-        viewer.key("ctrl+shift+s")
-        viewer.until(lambda s: s["dialog"] == "list", "a list")
-        time.sleep(0.2)
-        viewer.key("Return")
+        viewer.until(lambda s: "shows no dialog" in s["messages"][-1], "not asked again")
+        viewer.key("ctrl+shift+s")  # without a dialog, the name is a free one
         written = self.folder / "scene-1.gltf"
         viewer.until(lambda s: f"wrote {written}" in s["messages"], "the model")
         self.assertEqual(written.read_bytes(), file.read_bytes())
@@ -122,8 +121,9 @@ class Materials(Case):
         viewer.until(lambda s: "news" not in s["places"], "no question is seen")
         self.ends_well(viewer, viewer.close())
 
+    @unittest.skipIf(WHY_NOT, WHY_NOT)
     def test_lights_too_and_what_needs_another_program(self):
-        viewer = self.start("lights")
+        viewer = self.start_with_portal("lights")
         whole = self.picture(viewer)
         viewer.click("section Scene")
         viewer.click("lights")
@@ -154,12 +154,13 @@ class Materials(Case):
         self.is_asked_for(viewer)
         self.ends_well(viewer, viewer.close())
 
+    @unittest.skipIf(WHY_NOT, WHY_NOT)
     def test_what_is_set_by_name_is_drawn_and_saved(self):
         words = ["--set", "floor:color=0.1,0.5,0.9", "--set", "wa*:clearcoat=1", "--set", "post:doubleSided=true"]
-        viewer = self.start("lights", *words)
+        viewer = self.start_with_portal("lights", *words)
         shown = self.picture(viewer)
         self.same(shown, pixels_of(self.render(self.scene, *PANEL, *words)))
-        write_over(viewer)
+        write_over(viewer, self.portal, self.scene)
         viewer.until(lambda s: any(m.startswith("wrote ") for m in s["messages"]), "written")
         self.same(self.picture(viewer), shown)
         root = json.loads(self.scene.read_text())
@@ -170,9 +171,10 @@ class Materials(Case):
         self.assertIn("KHR_materials_clearcoat", root["extensionsUsed"])
         self.ends_well(viewer, viewer.close())
 
+    @unittest.skipIf(WHY_NOT, WHY_NOT)
     def test_emission_that_is_set_leaves_the_studio_which_is_named(self):
         light = ["--default-light", "studio"]
-        viewer = self.start("furnace", *light, "--set", "/materials/0/emissiveFactor=0.1,0.05,0")
+        viewer = self.start_with_portal("furnace", *light, "--set", "/materials/0/emissiveFactor=0.1,0.05,0")
         shown = self.picture(viewer)
         words = copied_command(self, viewer)
         self.assertIn("--studio", words)

@@ -29,7 +29,7 @@ constexpr uint32_t kEtc1s = 163, kUastc = 166;
 
 [[noreturn]] void refuse(const std::string& reason) { throw std::runtime_error(reason); }
 
-Bytes partOf(Bytes bytes, uint64_t offset, uint64_t length) {
+Bytes sliceOf(Bytes bytes, uint64_t offset, uint64_t length) {
   if (offset > bytes.size() || length > bytes.size() - offset) refuse("the file is truncated");
   return bytes.subspan(offset, length);
 }
@@ -37,7 +37,7 @@ Bytes partOf(Bytes bytes, uint64_t offset, uint64_t length) {
 template <typename Value>
 Value valueAt(Bytes bytes, uint64_t offset) {
   Value value;
-  std::memcpy(&value, partOf(bytes, offset, sizeof value).data(), sizeof value);
+  std::memcpy(&value, sliceOf(bytes, offset, sizeof value).data(), sizeof value);
   return value;
 }
 
@@ -85,7 +85,7 @@ void checkFormat(const Fields& header, Bytes format) {
 void checkMetadata(Bytes metadata) {
   uint64_t at = 0;
   while (at < metadata.size()) {
-    const Bytes entry = partOf(metadata, at + 4, valueAt<uint32_t>(metadata, at));
+    const Bytes entry = sliceOf(metadata, at + 4, valueAt<uint32_t>(metadata, at));
     const std::string_view text(reinterpret_cast<const char*>(entry.data()), entry.size());
     const std::string_view key = text.substr(0, text.find('\0'));
     std::string_view value = text.substr(std::min(key.size() + 1, text.size()));
@@ -104,10 +104,10 @@ void checkMetadata(Bytes metadata) {
 ImageHeader readKtx2Header(Bytes bytes) {
   const auto header = valueAt<Fields>(bytes, 0);
   checkShape(header);
-  checkFormat(header, partOf(bytes, header.formatOffset, header.formatLength));
-  checkMetadata(partOf(bytes, header.metadataOffset, header.metadataLength));
-  partOf(bytes, header.globalOffset, header.globalLength);
-  if (partOf(bytes, header.levelOffset, header.levelLength).empty()) refuse("its level 0 is empty");
+  checkFormat(header, sliceOf(bytes, header.formatOffset, header.formatLength));
+  checkMetadata(sliceOf(bytes, header.metadataOffset, header.metadataLength));
+  sliceOf(bytes, header.globalOffset, header.globalLength);
+  if (sliceOf(bytes, header.levelOffset, header.levelLength).empty()) refuse("its level 0 is empty");
   return {ImageFormat::Ktx2, int(header.width), int(header.height), kMostTextureChannels, {}, {}, 8};
 }
 

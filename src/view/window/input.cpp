@@ -70,20 +70,12 @@ glm::dvec2 Input::place() const { return cursor_ / glm::dvec2(layout_.picture); 
 std::optional<glm::dvec2> Input::update(ViewState& state, const WindowLayout& layout, const RunTask& run) {
   layout_ = layout;
   const ImGuiIO& io = ImGui::GetIO();
-  // The list's text field gets a key's text in the frame in which Dear ImGui sees the key. So while Dear
-  // ImGui is behind, the list waits with its keys.
-  const bool behind = std::exchange(behind_, Interface::isBehind()) || behind_;
-  std::vector<Event> events = std::exchange(events_, {});
-  if (state.fileList && behind) std::swap(events, events_);
-  for (const Event& event : events) {
+  for (const Event& event : std::exchange(events_, {})) {
     const bool isPressed = event.kind == Kind::Key || event.kind == Kind::Button;
     presses_ += isPressed && event.action == GLFW_PRESS;
     switch (event.kind) {
       case Kind::Key:
-        if (state.fileList && event.action != GLFW_RELEASE)
-          run({.errand = Errand::ListKey, .index = size_t(event.code)});
-        else if (!io.WantTextInput || event.action == GLFW_RELEASE)
-          key(event, state, run);
+        if (!io.WantTextInput || event.action == GLFW_RELEASE) key(event, state, run);
         break;
       case Kind::Button:
         if (event.action == GLFW_RELEASE)

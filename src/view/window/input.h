@@ -77,7 +77,6 @@ class Input {
   double lastClickTime_ = -1.0;  ///< seconds; negative: the next click is the first
   double lastUpdate_ = 0.0;
   bool woken_ = true;
-  bool behind_ = false;  ///< Interface::isBehind() at the latest update()
   int presses_ = 0;
   WindowLayout layout_;  ///< layout at the latest update()
 };

@@ -11,10 +11,11 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <deque>
 #include <filesystem>
+#include <functional>
 #include <glm/common.hpp>
 
-#include "view/key_queue.h"
 #include "view/letters/fonts.h"
 #include "view/window/draw/theme.h"
 #include "view/window/glfw_window.h"
@@ -38,31 +39,42 @@ void loadFont(float scale) {
   io.Fonts->AddFontDefault(&config);
 }
 
+#if IMGUI_VERSION_NUM < 18700
+/// A key or a character that waits for a frame of Dear ImGui, which has no queue of its own. It does not see
+/// a key that goes down and up within a frame, nor how a frame's keys and characters follow each other. So a
+/// key that types no character goes down in a frame of its own.
+struct TypedEvent {
+  bool alone = false;
+  std::function<void()> pass;
+};
+
 /// There is one window, as for Dear ImGui's own callbacks.
-KeyQueue& keyQueue() {
-  static KeyQueue queue;
-  return queue;
+std::deque<TypedEvent>& typedEvents() {
+  static std::deque<TypedEvent> events;
+  return events;
 }
 
-/// Takes keys and characters in the place of Dear ImGui's callbacks, which get them frame by frame.
 void queueKeys(GLFWwindow* window) {
-  if (IMGUI_VERSION_NUM >= 18700) return;
-  glfwSetKeyCallback(window, [](GLFWwindow*, int code, int scanCode, int action, int modifiers) {
-    keyQueue().push_back({.code = code, .scanCode = scanCode, .action = action, .modifiers = modifiers});
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int code, int scanCode, int action, int modifiers) {
+    const bool types = code < GLFW_KEY_ESCAPE && (modifiers & GLFW_MOD_CONTROL) == 0;
+    typedEvents().push_back({action == GLFW_PRESS && !types,
+                             [=] { ImGui_ImplGlfw_KeyCallback(w, code, scanCode, action, modifiers); }});
   });
-  glfwSetCharCallback(window, [](GLFWwindow*, unsigned character) {
-    keyQueue().push_back({.isText = true, .character = character});
+  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned character) {
+    typedEvents().push_back({false, [=] { ImGui_ImplGlfw_CharCallback(w, character); }});
   });
 }
 
-void passKeys(GLFWwindow* window) {
-  for (const TypedEvent& event : takeFrame(keyQueue())) {
-    if (event.isText)
-      ImGui_ImplGlfw_CharCallback(window, event.character);
-    else
-      ImGui_ImplGlfw_KeyCallback(window, event.code, event.scanCode, event.action, event.modifiers);
+void passKeys() {
+  std::deque<TypedEvent>& events = typedEvents();
+  bool alone = false;
+  for (bool first = true; !events.empty() && !alone && (first || !events.front().alone); first = false) {
+    alone = events.front().alone;
+    events.front().pass();
+    events.pop_front();
   }
 }
+#endif
 
 /// Pixels for one of GLFW's units, in which it gives the cursor: more than one on Wayland.
 glm::dvec2 pixelsOfUnit(GLFWwindow* window) {
@@ -108,7 +120,9 @@ Interface::Interface(GLFWwindow* window) : window_(window) {
   // Nothing is remembered behind the user's back.
   ImGui::GetIO().IniFilename = nullptr;
   ImGui_ImplGlfw_InitForOpenGL(window, true);
+#if IMGUI_VERSION_NUM < 18700
   queueKeys(window);
+#endif
   scaleCursor(window);
   ImGui_ImplOpenGL3_Init("#version 450 core");
   fit();
@@ -136,7 +150,9 @@ void Interface::fit() {
 
 void Interface::begin() {
   fit();
-  passKeys(window_);
+#if IMGUI_VERSION_NUM < 18700
+  passKeys();
+#endif
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   scaleFrame(window_);
@@ -152,13 +168,11 @@ void Interface::discard() { ImGui::EndFrame(); }
 
 bool Interface::holding() { return ImGui::IsAnyItemActive(); }
 
-bool Interface::waiting() { return !keyQueue().empty() || isBehind(); }
-
-bool Interface::isBehind() {
+bool Interface::waiting() {
 #if IMGUI_VERSION_NUM >= 18700
   return ImGui::GetCurrentContext()->InputEventsQueue.Size > 0;
 #else
-  return false;
+  return !typedEvents().empty();
 #endif
 }
 

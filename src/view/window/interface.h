@@ -37,10 +37,6 @@ class Interface {
   /// True while events are left for the next frame.
   static bool waiting();
 
-  /// True while Dear ImGui has not seen all that was typed: from 1.87 on, it has a queue of its own. Before,
-  /// view/key_queue.h keeps keys for it, and for the callbacks that it passes them on to.
-  static bool isBehind();
-
   /// The receiver of keys: "text" that is edited, a "popup", or the "picture".
   static const char* focus();
 

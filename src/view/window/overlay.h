@@ -13,7 +13,6 @@
 #include "view/picture/pixel_value.h"
 #include "view/remembered.h"
 #include "view/view_state.h"
-#include "view/window/dialog/file_dialog.h"
 #include "view/window/draw/places.h"
 #include "view/window/recent_files.h"
 #include "view/window_layout.h"
@@ -54,7 +53,7 @@ struct ViewFacts {
   std::string status;  ///< text of the status bar
   Remembered remembered;
   RecentFiles recent;
-  DialogKind dialog = DialogKind::None;
+  bool dialog = false;             ///< the desktop's dialog for a file is open
   size_t sheetLines = 0;           ///< lines of the sheet that the search has found
   const char* focus = "picture";   ///< receiver of keys (Interface::focus)
   std::optional<glm::vec2> mouse;  ///< Interface::mouse

@@ -73,11 +73,6 @@ Json animationJson(const ViewState& state) {
           {"time", time ? Json(*time) : Json()}};
 }
 
-std::string dialogName(DialogKind dialog) {
-  if (dialog == DialogKind::None) return "";
-  return dialog == DialogKind::List ? "list" : "desktop";
-}
-
 Json boundsJson(const BoundsDouble& b) {
   if (b.empty()) return {};
   return {b.minimum.x, b.minimum.y, b.minimum.z, b.maximum.x, b.maximum.y, b.maximum.z};
@@ -145,7 +140,7 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["error"] = facts.error;
   json["messages"] = Json::array();
   for (const Message& message : facts.messages) json["messages"].push_back(message.text);
-  json["dialog"] = dialogName(facts.dialog);
+  json["dialog"] = facts.dialog ? "desktop" : "";
   json["focus"] = facts.focus;
   json["mouse"] = facts.mouse ? Json({facts.mouse->x, facts.mouse->y}) : Json();
   json["places"] = facts.places;

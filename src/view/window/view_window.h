@@ -93,7 +93,6 @@ class Window {
   Interface interface_;
   Display display_;
   FileDialog dialog_;
-  FileQuestion question_;              ///< its latest
   Errand asked_ = Errand::None;        ///< why: Open, SaveAs, SaveModel
   std::filesystem::path savedFolder_;  ///< folder of the latest picture written; empty: none was
   std::vector<SetNumber> saved_;       ///< numbers that the latest model was written with

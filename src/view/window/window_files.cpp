@@ -61,39 +61,38 @@ void Window::askForFile(const Task& task) {
   const RenderOptions& o = state_.options();
   std::error_code error;
   const std::filesystem::path here = std::filesystem::current_path(error);
+  FileQuestion question;
   if (task.errand == Errand::SaveModel) {
     if (o.selection.set.empty()) return say("no number of a material or a light has been set");
     const std::filesystem::path scene = here / o.scene;
-    question_ =
+    question =
         saveModelQuestion(freePictureName(scene.parent_path(), scene, scene.extension().string().c_str()),
                           state_.scene->refersToFiles);
   } else if (task.errand == Errand::SaveAs) {
     const std::filesystem::path folder = savedFolder_.empty() ? here : savedFolder_;
-    question_ = saveQuestion(freePictureName(folder, o.scene, ".png"));
+    question = saveQuestion(freePictureName(folder, o.scene, ".png"));
   } else {
     const bool environment = task.index == 1;
-    if (!environment && facts_.dialog == DialogKind::None && !mayLeave("open")) return;
+    if (!environment && !dialog_.open() && !mayLeave("open")) return;
     const std::filesystem::path& beside =
         environment && !o.light.hdriFile.empty() ? o.light.hdriFile : wanted_.scene;
-    question_ = openQuestion((here / beside).parent_path(), environment);
-    if (beside.empty()) question_.folder = here;
+    question = openQuestion((here / beside).parent_path(), environment);
+    if (beside.empty()) question.folder = here;
   }
   asked_ = task.errand;
-  dialog_.ask(question_, portalName(window_.get()), glfwGetTime());
+  dialog_.ask(std::move(question), portalName(window_.get()), glfwGetTime());
 }
 
 void Window::takeFile() {
   const FileDialog::News news = dialog_.take(glfwGetTime());
-  facts_.dialog = dialog_.kind();
-  state_.fileList = facts_.dialog == DialogKind::List;
-  if (news.changed) frames_ = std::max(frames_, kSettleFrames);
+  facts_.dialog = dialog_.open();
   if (!news.message.empty()) say(news.message);
   if (news.file.empty()) return;
   frames_ = std::max(frames_, kSettleFrames);
   if (asked_ == Errand::Open) return openFiles({news.file}, true);
   if (!state_.scene) return;
   std::filesystem::path file = news.file;
-  const FileFilter& filter = question_.filters.front();
+  const FileFilter& filter = dialog_.question().filters.front();
   if (file.extension().empty()) file += filter.extensions.front();
   if (!passes(filter, file))
     return say("not written: " + file.extension().string() + " is not among " + filter.name);

@@ -328,9 +328,6 @@ void Window::draw() {
   fades_ = now + secondsToFade(facts_.messages, now);
   if (panel) execute(drawPanel(state_, facts_, layout));
   execute(said);
-  // It comes last: Dear ImGui 1.86 asserts that no window appears after a modal one in the latter's first
-  // frame.
-  dialog_.draw(facts_.places, layout);
   askForThumbnails();
   // Software would draw the same picture again, with the processors that trace the next one.
   skipped_ = askedMoving_ && !display_.hasNews() && now - drawn_ < kSameSeconds;

@@ -38,8 +38,6 @@ void Window::execute(const Task& task) {
       return askForFile(task);
     case Errand::OpenFile:
       return openFiles({task.file});
-    case Errand::ListKey:
-      return dialog_.press(int(task.index));
     case Errand::CancelLoad:
       return cancelLoad();
     case Errand::DropReference:
