@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The changes that each control of the table makes in the viewer's state.
+// The changes that commands make in the viewer's state.
 #include "view/view_state.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ void setPose(ViewState& state, const CameraPose& pose) {
 
 /// The place where the wheel was turned, in halves of the picture's height to the right and up; a drag zooms
 /// the picture's middle.
-glm::dvec2 fromMiddle(const ViewState& state, const Movement& m) {
+glm::dvec2 fromMiddle(const ViewState& state, const Invocation& m) {
   if (m.notches == 0.0) return glm::dvec2(0.0);
   const double aspectRatio = double(state.size.x) / std::max(state.size.y, 1);
   const glm::dvec2 place = magnifiedPlace(state, m.place);
@@ -76,66 +76,6 @@ void nextSceneCamera(ViewState& state, int further) {
   if (count > 0) chooseSceneCamera(state, (std::max(state.sceneCamera, 0) + further + count) % count);
 }
 
-bool moveCamera(ViewState& state, const Control& control, const Movement& m) {
-  const CameraPose& pose = state.pose;
-  const double argument = control.argument;
-  const double fly_ = state.flySpeed * m.seconds * argument;
-  switch (control.action) {
-    case Action::Orbit:
-      setPose(state, orbit(pose, kHalfTurn * m.drag.x, kHalfTurn * m.drag.y));
-      return true;
-    case Action::Pan:
-      setPose(state, pan(pose, {m.drag.x, -m.drag.y}));
-      return true;
-    case Action::Zoom:
-      setPose(state,
-              zoomAt(pose, kZoomPerNotch * m.notches - kZoomPerHeight * m.drag.y, fromMiddle(state, m)));
-      return true;
-    case Action::Roll:
-      setPose(state, roll(pose, kHalfTurn * m.drag.x));
-      return true;
-    case Action::FlyRight:
-      setPose(state, fly(pose, {fly_, 0, 0}));
-      return true;
-    case Action::FlyUp:
-      setPose(state, fly(pose, {0, fly_, 0}));
-      return true;
-    case Action::FlyForward:
-      setPose(state, fly(pose, {0, 0, fly_}));
-      return true;
-    case Action::FrameAll:
-      if (state.scene) frame(state, argument == 0 && !state.selected.empty());
-      return true;
-    case Action::ResetCamera:
-      resetCamera(state);
-      return true;
-    case Action::StandardView:
-      setPose(state, standardView(pose, StandardViewOf(control.argument)));
-      if (state.scene) frame(state, !state.selected.empty());
-      return true;
-    case Action::Elevate:
-      setPose(state, orbit(pose, 0.0, 0.5 * kHalfTurn * argument));
-      return true;
-    case Action::RollQuarter:
-      setPose(state, roll(pose, 0.5 * kHalfTurn * argument));
-      return true;
-    case Action::OtherProjection:
-      setPose(state, withOtherProjection(pose));
-      return true;
-    case Action::Widen:
-      setPose(state, widen(pose, kWiden * argument));
-      return true;
-    case Action::SceneCamera:
-      chooseSceneCamera(state, control.argument);
-      return true;
-    case Action::NextCamera:
-      nextSceneCamera(state, control.argument);
-      return true;
-    default:
-      return false;
-  }
-}
-
 /// The filter that the viewer was started with.
 Denoise filterOf(const ViewState& state) {
   const bool chosen = state.scene && state.scene->options.output.denoise != Denoise::None;
@@ -154,11 +94,10 @@ void playOrPause(ViewState& state) {
 }
 
 /// Shows a debug view by its number. Numbers beyond the last one begin again at the first.
-bool showDebugView(ViewState& state, int number) {
+void showDebugView(ViewState& state, int number) {
   const int count = int(kDebugViewRows.size());
   state.options().output.debugView = DebugView((number + count) % count);
   state.overview = false;
-  return true;
 }
 
 /// Moves the sun by degrees to the left and down, as a drag turns the environment.
@@ -167,71 +106,6 @@ void moveSun(SkyOptions& sky, const glm::dvec2& degrees) {
   sun.azimuth = std::remainder(sun.azimuth - degrees.x, 360.0);
   sun.elevation = std::clamp(sun.elevation - 0.5 * degrees.y, kLowestSun, 90.0);
   placeSun(sky, sun);
-}
-
-// NOLINTNEXTLINE(readability-function-size): a table
-bool changePicture(ViewState& state, const Control& control, const Movement& m) {
-  RenderOptions& o = state.options();
-  switch (control.action) {
-    case Action::ToggleStage:
-      o.stages.flip(size_t(control.argument));
-      // In the overview, each picture has the stages up to its own.
-      if (stageRows()[size_t(control.argument)].cumulative) state.overview = false;
-      return true;
-    case Action::StagesUpTo:
-      o.stages = withStagesUpTo(o.stages, Stage(control.argument));
-      state.overview = false;
-      return true;
-    case Action::ToggleDebugView:
-      return showDebugView(state, o.output.debugView == DebugView(control.argument) ? 0 : control.argument);
-    case Action::NextDebugView:
-      return showDebugView(state, int(o.output.debugView) + control.argument);
-    case Action::ToggleTreeBoxes:
-      state.treeBoxes = !state.treeBoxes;
-      return true;
-    case Action::TreeLevel:
-      state.treeLevel = std::clamp(state.treeLevel + control.argument, 0, kDeepestLevel);
-      return true;
-    case Action::NextToneMap:
-      for (RenderOptions& side : state.sides)
-        side.output.toneMap = ToneMap((int(side.output.toneMap) + 1) % int(toneMapNames().size()));
-      return true;
-    case Action::Exposure:
-      for (RenderOptions& side : state.sides)
-        side.output.exposure =
-            std::clamp(side.output.exposure.value_or(0.0) + kExposureStep * control.argument, -kMostExposure,
-                       kMostExposure);
-      return true;
-    case Action::RotateEnvironment:
-      for (RenderOptions& side : state.sides) {
-        LightOptions& light = side.light;
-        if (light.sky.on)
-          moveSun(light.sky, kDegreesPerHeight * m.drag);
-        else
-          light.hdriRotationDegrees =
-              std::remainder(light.hdriRotationDegrees + kDegreesPerHeight * m.drag.x, 360.0);
-      }
-      return true;
-    case Action::ToggleDenoise:
-      o.output.denoise = o.output.denoise == Denoise::None ? filterOf(state) : Denoise::None;
-      return true;
-    case Action::PlayAnimation:
-      playOrPause(state);
-      return true;
-    case Action::NextAnimation: {
-      const int count = animationCount(state);
-      if (count > 0) showAnimation(state, (shownAnimation(state) + control.argument + count) % count, 0.0);
-      return true;
-    }
-    case Action::ToggleGround:
-      for (RenderOptions& side : state.sides) side.light.shadowCatcher = !side.light.shadowCatcher;
-      return true;
-    case Action::ToggleBackground:
-      for (RenderOptions& side : state.sides) side.light.background = !side.light.background;
-      return true;
-    default:
-      return false;
-  }
 }
 
 /// Magnifies by steps; the place under the cursor stays there.
@@ -244,104 +118,214 @@ void magnify(ViewState& state, int steps, const glm::dvec2& cursor) {
   magnifier.center = glm::clamp(magnifier.center, half, 1.0 - half);
 }
 
-bool changeWindow(ViewState& state, const Control& control, const Movement& m) {
-  switch (control.action) {
-    case Action::ToggleOverview:
+/// Closes what lies over the picture, one at a time. Returns false if nothing does.
+bool closeOverlay(ViewState& state) {
+  return std::exchange(state.sheet, false) || std::exchange(state.overview, false) ||
+         std::exchange(state.magnifier, {}).steps > 0;
+}
+
+/// Returns true if the sheet leaves the command in view.
+bool isForSheet(Command command) {
+  return command == Command::ToggleSheet || command == Command::Close || command == Command::Quit ||
+         command == Command::Fullscreen;
+}
+
+}  // namespace
+
+bool needsScene(Command command) {
+  switch (command) {
+    case Command::Reload:
+    case Command::Open:
+    case Command::OpenFile:
+    case Command::CancelLoad:
+    case Command::DropReference:
+      return false;
+    default:
+      return !isForSheet(command);
+  }
+}
+
+bool isUsable(const ViewState& state, Command command) {
+  return state.sheet ? isForSheet(command) : state.scene || !needsScene(command);
+}
+
+Invocation invocationOf(const Control& control, Invocation about) {
+  about.command = control.command;
+  about.argument = control.argument;
+  return about;
+}
+
+// NOLINTNEXTLINE(readability-function-size): the table of what commands do
+bool apply(ViewState& state, const Invocation& m) {
+  if (!isUsable(state, m.command)) return false;
+  RenderOptions& options = state.options();
+  const double flown = state.flySpeed * m.seconds * m.argument;
+  switch (m.command) {
+    case Command::Orbit:
+      setPose(state, orbit(state.pose, kHalfTurn * m.drag.x, kHalfTurn * m.drag.y));
+      break;
+    case Command::Pan:
+      setPose(state, pan(state.pose, {m.drag.x, -m.drag.y}));
+      break;
+    case Command::Zoom:
+      setPose(state, zoomAt(state.pose, kZoomPerNotch * m.notches - kZoomPerHeight * m.drag.y,
+                            fromMiddle(state, m)));
+      break;
+    case Command::Roll:
+      setPose(state, roll(state.pose, kHalfTurn * m.drag.x));
+      break;
+    case Command::FlyRight:
+      setPose(state, fly(state.pose, {flown, 0, 0}));
+      break;
+    case Command::FlyUp:
+      setPose(state, fly(state.pose, {0, flown, 0}));
+      break;
+    case Command::FlyForward:
+      setPose(state, fly(state.pose, {0, 0, flown}));
+      break;
+    case Command::FrameAll:
+      if (state.scene) frame(state, m.argument == 0 && !state.selected.empty());
+      break;
+    case Command::ResetCamera:
+      resetCamera(state);
+      break;
+    case Command::StandardView:
+      setPose(state, standardView(state.pose, StandardViewOf(m.argument)));
+      if (state.scene) frame(state, !state.selected.empty());
+      break;
+    case Command::Elevate:
+      setPose(state, orbit(state.pose, 0.0, 0.5 * kHalfTurn * m.argument));
+      break;
+    case Command::RollQuarter:
+      setPose(state, roll(state.pose, 0.5 * kHalfTurn * m.argument));
+      break;
+    case Command::OtherProjection:
+      setPose(state, withOtherProjection(state.pose));
+      break;
+    case Command::Widen:
+      setPose(state, widen(state.pose, kWiden * m.argument));
+      break;
+    case Command::SceneCamera:
+      chooseSceneCamera(state, m.argument);
+      break;
+    case Command::NextCamera:
+      nextSceneCamera(state, m.argument);
+      break;
+    // Picture.
+    case Command::ToggleStage:
+      options.stages.flip(size_t(m.argument));
+      // In the overview, each picture has the stages up to its own.
+      if (stageRows()[size_t(m.argument)].cumulative) state.overview = false;
+      break;
+    case Command::StagesUpTo:
+      options.stages = withStagesUpTo(options.stages, Stage(m.argument));
+      state.overview = false;
+      break;
+    case Command::ToggleDebugView:
+      showDebugView(state, options.output.debugView == DebugView(m.argument) ? 0 : m.argument);
+      break;
+    case Command::NextDebugView:
+      showDebugView(state, int(options.output.debugView) + m.argument);
+      break;
+    case Command::ToggleTreeBoxes:
+      state.treeBoxes = !state.treeBoxes;
+      break;
+    case Command::TreeLevel:
+      state.treeLevel = std::clamp(state.treeLevel + m.argument, 0, kDeepestLevel);
+      break;
+    case Command::NextToneMap:
+      for (RenderOptions& side : state.sides)
+        side.output.toneMap = ToneMap((int(side.output.toneMap) + 1) % int(toneMapNames().size()));
+      break;
+    case Command::Exposure:
+      for (RenderOptions& side : state.sides)
+        side.output.exposure = std::clamp(side.output.exposure.value_or(0.0) + kExposureStep * m.argument,
+                                          -kMostExposure, kMostExposure);
+      break;
+    case Command::RotateEnvironment:
+      for (RenderOptions& side : state.sides) {
+        LightOptions& light = side.light;
+        if (light.sky.on)
+          moveSun(light.sky, kDegreesPerHeight * m.drag);
+        else
+          light.hdriRotationDegrees =
+              std::remainder(light.hdriRotationDegrees + kDegreesPerHeight * m.drag.x, 360.0);
+      }
+      break;
+    case Command::ToggleDenoise:
+      options.output.denoise = options.output.denoise == Denoise::None ? filterOf(state) : Denoise::None;
+      break;
+    case Command::PlayAnimation:
+      playOrPause(state);
+      break;
+    case Command::NextAnimation: {
+      const int count = animationCount(state);
+      if (count > 0) showAnimation(state, (shownAnimation(state) + m.argument + count) % count, 0.0);
+      break;
+    }
+    case Command::ToggleGround:
+      for (RenderOptions& side : state.sides) side.light.shadowCatcher = !side.light.shadowCatcher;
+      break;
+    case Command::ToggleBackground:
+      for (RenderOptions& side : state.sides) side.light.background = !side.light.background;
+      break;
+    // Window.
+    case Command::ToggleOverview:
       // A reference has the place of a side.
       state.overview = !state.overview && state.reference.empty();
       if (state.overview) state.playback.playing = false;
       state.magnifier = {};
-      return true;
-    case Action::ToggleSplit:
+      break;
+    case Command::ToggleSplit:
       state.overview = false;
       state.split = !state.split;
       // The second side begins as the first, and keeps what was set there.
       if (state.split && state.sides[1].scene.empty()) state.sides[1] = state.sides[0];
       if (!state.split) state.active = 0;
-      return true;
-    case Action::FlipSides:
-      if (!state.split) return true;
+      break;
+    case Command::FlipSides:
+      if (!state.split) break;
       state.comparison = state.comparison == CompareMode::Left ? CompareMode::Right : CompareMode::Left;
       state.active = state.comparison == CompareMode::Left || !state.reference.empty() ? 0 : 1;
-      return true;
-    case Action::ToggleDifference:
-      if (!state.split) return true;
+      break;
+    case Command::ToggleDifference:
+      if (!state.split) break;
       state.comparison =
           state.comparison == CompareMode::Difference ? CompareMode::Bar : CompareMode::Difference;
-      return true;
-    case Action::ShowBar:
+      break;
+    case Command::ShowBar:
       state.comparison = CompareMode::Bar;
-      return true;
-    case Action::Magnify:
-      if (state.overview) return true;
-      magnify(state, m.notches > 0.0 ? 1 : m.notches < 0.0 ? -1 : control.argument, m.place);
-      return true;
-    case Action::MoveMagnifier: {
+      break;
+    case Command::Magnify:
+      if (state.overview) break;
+      magnify(state, m.notches > 0.0 ? 1 : m.notches < 0.0 ? -1 : m.argument, m.place);
+      break;
+    case Command::MoveMagnifier: {
       const double half = 0.5 * std::exp2(-state.magnifier.steps);
       const glm::dvec2 moved(m.drag.x * state.size.y / std::max(state.size.x, 1), m.drag.y);
       state.magnifier.center = glm::clamp(state.magnifier.center - 2.0 * half * moved, half, 1.0 - half);
-      return true;
+      break;
     }
-    case Action::FlySpeed:
+    case Command::FlySpeed:
       state.flySpeed =
           std::clamp(state.flySpeed * std::exp(kFlySpeedPerNotch * m.notches), kSlowest, kFastest);
-      return true;
-    case Action::TogglePanel:
+      break;
+    case Command::TogglePanel:
       state.panel = !state.panel;
       state.panelWaits = false;
-      return true;
-    case Action::ToggleHud:
+      break;
+    case Command::ToggleHud:
       state.figures = !state.figures;
-      return true;
-    case Action::ToggleSheet:
+      break;
+    case Command::ToggleSheet:
       state.sheet = !state.sheet;
-      return true;
+      break;
+    case Command::Close:
+      return closeOverlay(state);
     default:
       return false;
   }
-}
-
-/// The actions that the window carries out, beyond its state.
-constexpr std::pair<Action, Errand> kErrands[] = {
-    {Action::CenterOn, Errand::CenterOn},
-    {Action::Inspect, Errand::Inspect},
-    {Action::Measure, Errand::Measure},
-    {Action::Level, Errand::Level},
-    {Action::CopyCommand, Errand::CopyCommand},
-    {Action::PasteCommand, Errand::PasteCommand},
-    {Action::Undo, Errand::Undo},
-    {Action::Redo, Errand::Redo},
-    {Action::Fullscreen, Errand::Fullscreen},
-    {Action::Reload, Errand::Reload},
-    {Action::Open, Errand::Open},
-    {Action::SaveAs, Errand::SaveAs},
-    {Action::SaveModel, Errand::SaveModel},
-    {Action::Screenshot, Errand::Screenshot},
-    {Action::WriteExr, Errand::WriteExr},
-    {Action::Close, Errand::Close},
-    {Action::Quit, Errand::Quit},
-};
-
-}  // namespace
-
-bool isUsable(const ViewState& state, Action action) {
-  if (state.scene && !state.sheet) return true;
-  return action == Action::ToggleSheet || action == Action::Close || action == Action::Quit ||
-         action == Action::Fullscreen ||
-         ((action == Action::Reload || action == Action::Open) && !state.sheet);
-}
-
-Errand apply(ViewState& state, const Control& control, const Movement& movement) {
-  if (!isUsable(state, control.action)) return Errand::None;
-  if (moveCamera(state, control, movement) || changePicture(state, control, movement) ||
-      changeWindow(state, control, movement))
-    return Errand::None;
-  if (control.action == Action::Close) {
-    if (std::exchange(state.sheet, false) || std::exchange(state.overview, false)) return Errand::None;
-    if (std::exchange(state.magnifier, {}).steps > 0) return Errand::None;
-  }
-  const auto errand = std::ranges::find(kErrands, control.action, &std::pair<Action, Errand>::first);
-  return errand == std::end(kErrands) ? Errand::None : errand->second;
+  return true;
 }
 
 }  // namespace fragtrace

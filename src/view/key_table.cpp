@@ -15,56 +15,56 @@ constexpr int kControl = kControlModifier;
 
 void addCamera(std::vector<Control>& rows) {
   using enum Gesture;
-  const auto add = [&](Gesture gesture, int code, int modifiers, Action action, const char* sentence,
+  const auto add = [&](Gesture gesture, int code, int modifiers, Command command, const char* sentence,
                        int argument = 0) {
-    rows.push_back({gesture, code, modifiers, action, argument, sentence});
+    rows.push_back({gesture, code, modifiers, command, argument, sentence});
   };
-  add(Drag, mouse::kLeft, 0, Action::Orbit, "turn about the focal point");
-  add(Drag, mouse::kLeft, kShift, Action::Pan, "move in the plane of the picture");
-  add(Drag, mouse::kMiddle, 0, Action::Pan, "move in the plane of the picture");
-  add(Drag, mouse::kLeft, kControl, Action::Roll, "turn about the axis of the view");
-  add(Drag, mouse::kRight, 0, Action::Zoom, "zoom");
-  add(Wheel, 0, 0, Action::Zoom, "zoom, towards the cursor");
-  add(DoubleClick, mouse::kLeft, 0, Action::CenterOn, "centre on the point under the cursor");
-  add(Click, mouse::kMiddle, 0, Action::CenterOn, "centre on the point under the cursor");
-  add(Hold, 'W', 0, Action::FlyForward, "fly forwards", 1);
-  add(Hold, 'S', 0, Action::FlyForward, "fly backwards", -1);
-  add(Hold, 'A', 0, Action::FlyRight, "fly to the left", -1);
-  add(Hold, 'D', 0, Action::FlyRight, "fly to the right", 1);
-  add(Hold, 'E', 0, Action::FlyUp, "fly up", 1);
-  add(Hold, 'Q', 0, Action::FlyUp, "fly down", -1);
-  add(HoldWheel, 0, 0, Action::FlySpeed, "fly faster or slower; Shift flies four times as fast");
-  add(Press, 'F', 0, Action::FrameAll,
+  add(Drag, mouse::kLeft, 0, Command::Orbit, "turn about the focal point");
+  add(Drag, mouse::kLeft, kShift, Command::Pan, "move in the plane of the picture");
+  add(Drag, mouse::kMiddle, 0, Command::Pan, "move in the plane of the picture");
+  add(Drag, mouse::kLeft, kControl, Command::Roll, "turn about the axis of the view");
+  add(Drag, mouse::kRight, 0, Command::Zoom, "zoom");
+  add(Wheel, 0, 0, Command::Zoom, "zoom, towards the cursor");
+  add(DoubleClick, mouse::kLeft, 0, Command::CenterOn, "centre on the point under the cursor");
+  add(Click, mouse::kMiddle, 0, Command::CenterOn, "centre on the point under the cursor");
+  add(Hold, 'W', 0, Command::FlyForward, "fly forwards", 1);
+  add(Hold, 'S', 0, Command::FlyForward, "fly backwards", -1);
+  add(Hold, 'A', 0, Command::FlyRight, "fly to the left", -1);
+  add(Hold, 'D', 0, Command::FlyRight, "fly to the right", 1);
+  add(Hold, 'E', 0, Command::FlyUp, "fly up", 1);
+  add(Hold, 'Q', 0, Command::FlyUp, "fly down", -1);
+  add(HoldWheel, 0, 0, Command::FlySpeed, "fly faster or slower; Shift flies four times as fast");
+  add(Press, 'F', 0, Command::FrameAll,
       "frame the selected object, or the whole scene if nothing is selected");
-  add(Press, 'F', kShift, Action::FrameAll, "frame the whole scene", 1);
-  add(Press, key::kEnter, 0, Action::ResetCamera, "back to the first camera");
-  add(Press, '1', 0, Action::StandardView, "from the front", int(StandardViewOf::Front));
-  add(Press, '3', 0, Action::StandardView, "from the right", int(StandardViewOf::Right));
-  add(Press, '7', 0, Action::StandardView, "from above", int(StandardViewOf::Top));
-  add(Press, '9', 0, Action::StandardView, "isometric", int(StandardViewOf::Isometric));
-  add(Press, '2', 0, Action::Elevate, "a quarter turn up", 1);
-  add(Press, '8', 0, Action::Elevate, "a quarter turn down", -1);
-  add(Press, '4', 0, Action::RollQuarter, "roll a quarter turn to the left", -1);
-  add(Press, '6', 0, Action::RollQuarter, "roll a quarter turn to the right", 1);
-  add(Press, '5', 0, Action::OtherProjection, "perspective or orthographic");
-  add(Press, key::kPageUp, 0, Action::Widen, "wider view angle", 1);
-  add(Press, key::kPageDown, 0, Action::Widen, "narrower view angle", -1);
+  add(Press, 'F', kShift, Command::FrameAll, "frame the whole scene", 1);
+  add(Press, key::kEnter, 0, Command::ResetCamera, "back to the first camera");
+  add(Press, '1', 0, Command::StandardView, "from the front", int(StandardViewOf::Front));
+  add(Press, '3', 0, Command::StandardView, "from the right", int(StandardViewOf::Right));
+  add(Press, '7', 0, Command::StandardView, "from above", int(StandardViewOf::Top));
+  add(Press, '9', 0, Command::StandardView, "isometric", int(StandardViewOf::Isometric));
+  add(Press, '2', 0, Command::Elevate, "a quarter turn up", 1);
+  add(Press, '8', 0, Command::Elevate, "a quarter turn down", -1);
+  add(Press, '4', 0, Command::RollQuarter, "roll a quarter turn to the left", -1);
+  add(Press, '6', 0, Command::RollQuarter, "roll a quarter turn to the right", 1);
+  add(Press, '5', 0, Command::OtherProjection, "perspective or orthographic");
+  add(Press, key::kPageUp, 0, Command::Widen, "wider view angle", 1);
+  add(Press, key::kPageDown, 0, Command::Widen, "narrower view angle", -1);
   for (int digit = 0; digit <= 9; ++digit)
-    add(Press, '0' + digit, kControl, Action::SceneCamera, "the scene's camera of that number", digit);
-  add(Press, 'N', 0, Action::NextCamera, "the scene's next camera", 1);
-  add(Press, 'N', kShift, Action::NextCamera, "the scene's previous camera", -1);
-  add(Press, 'C', kControl, Action::CopyCommand, "copy the command that renders this picture");
-  add(Press, 'V', kControl, Action::PasteCommand, "paste a copied command or camera options");
-  add(Press, 'Z', kControl, Action::Undo, "undo the latest change of camera or settings");
-  add(Press, 'Y', kControl, Action::Redo, "redo it");
-  add(Press, 'Z', kControl | kShift, Action::Redo, "redo it");
+    add(Press, '0' + digit, kControl, Command::SceneCamera, "the scene's camera of that number", digit);
+  add(Press, 'N', 0, Command::NextCamera, "the scene's next camera", 1);
+  add(Press, 'N', kShift, Command::NextCamera, "the scene's previous camera", -1);
+  add(Press, 'C', kControl, Command::CopyCommand, "copy the command that renders this picture");
+  add(Press, 'V', kControl, Command::PasteCommand, "paste a copied command or camera options");
+  add(Press, 'Z', kControl, Command::Undo, "undo the latest change of camera or settings");
+  add(Press, 'Y', kControl, Command::Redo, "redo it");
+  add(Press, 'Z', kControl | kShift, Command::Redo, "redo it");
 }
 
 void addPicture(std::vector<Control>& rows) {
   using enum Gesture;
-  const auto add = [&](Gesture gesture, int code, int modifiers, Action action, const std::string& sentence,
+  const auto add = [&](Gesture gesture, int code, int modifiers, Command command, const std::string& sentence,
                        int argument = 0) {
-    rows.push_back({gesture, code, modifiers, action, argument, sentence});
+    rows.push_back({gesture, code, modifiers, command, argument, sentence});
   };
   // Function keys in the order of the stages: Shift for all up to that one. The first is always on.
   int code = key::kF1;
@@ -73,71 +73,72 @@ void addPicture(std::vector<Control>& rows) {
     // F11 alone is what desktops use it for.
     const int modifiers = code == key::kF11 ? kShift : 0;
     if (row.stage != Stage::Flat)
-      add(Press, code, modifiers, Action::ToggleStage, std::string(row.label) + " on or off", int(row.stage));
+      add(Press, code, modifiers, Command::ToggleStage, std::string(row.label) + " on or off",
+          int(row.stage));
     ++code;
   }
   code = key::kF1;
   for (const StageRow& row : stageRows()) {
     if (row.cumulative)
-      add(Press, code, kShift, Action::StagesUpTo, "the stages up to that one", int(row.stage));
+      add(Press, code, kShift, Command::StagesUpTo, "the stages up to that one", int(row.stage));
     ++code;
   }
-  add(Press, 'X', 0, Action::ToggleDebugView, "node heat map on or off", int(DebugView::Visits));
-  add(Press, 'M', 0, Action::ToggleStage, "watertight triangle test on or off", int(Stage::Watertight));
-  add(Press, 'V', 0, Action::NextDebugView, "the next debug view", 1);
-  add(Press, 'V', kShift, Action::NextDebugView, "the previous debug view", -1);
-  add(Press, 'B', 0, Action::ToggleTreeBoxes, "boxes of the tree on or off");
-  add(Press, ']', 0, Action::TreeLevel, "boxes of the next level", 1);
-  add(Press, '[', 0, Action::TreeLevel, "boxes of the previous level", -1);
-  add(Press, 'T', 0, Action::NextToneMap, "the next tone map");
-  add(Press, 'L', 0, Action::Exposure, "brighter by half a stop", 1);
-  add(Press, 'L', kShift, Action::Exposure, "darker by half a stop", -1);
-  add(Drag, mouse::kRight, kShift, Action::RotateEnvironment,
+  add(Press, 'X', 0, Command::ToggleDebugView, "node heat map on or off", int(DebugView::Visits));
+  add(Press, 'M', 0, Command::ToggleStage, "watertight triangle test on or off", int(Stage::Watertight));
+  add(Press, 'V', 0, Command::NextDebugView, "the next debug view", 1);
+  add(Press, 'V', kShift, Command::NextDebugView, "the previous debug view", -1);
+  add(Press, 'B', 0, Command::ToggleTreeBoxes, "boxes of the tree on or off");
+  add(Press, ']', 0, Command::TreeLevel, "boxes of the next level", 1);
+  add(Press, '[', 0, Command::TreeLevel, "boxes of the previous level", -1);
+  add(Press, 'T', 0, Command::NextToneMap, "the next tone map");
+  add(Press, 'L', 0, Command::Exposure, "brighter by half a stop", 1);
+  add(Press, 'L', kShift, Command::Exposure, "darker by half a stop", -1);
+  add(Drag, mouse::kRight, kShift, Command::RotateEnvironment,
       "rotate the environment, or move the sun of a sky");
-  add(Press, 'J', 0, Action::ToggleBackground, "background on or off");
-  add(Press, 'K', 0, Action::ToggleGround, "shadow catcher on or off");
-  add(Press, 'G', 0, Action::ToggleDenoise, "denoising on or off");
-  add(Press, key::kSpace, 0, Action::PlayAnimation, "play the animation, or pause it");
-  add(Press, 'P', 0, Action::NextAnimation, "the next animation", 1);
-  add(Press, 'P', kShift, Action::NextAnimation, "the previous animation", -1);
+  add(Press, 'J', 0, Command::ToggleBackground, "background on or off");
+  add(Press, 'K', 0, Command::ToggleGround, "shadow catcher on or off");
+  add(Press, 'G', 0, Command::ToggleDenoise, "denoising on or off");
+  add(Press, key::kSpace, 0, Command::PlayAnimation, "play the animation, or pause it");
+  add(Press, 'P', 0, Command::NextAnimation, "the next animation", 1);
+  add(Press, 'P', kShift, Command::NextAnimation, "the previous animation", -1);
 }
 
 void addWindow(std::vector<Control>& rows) {
   using enum Gesture;
-  const auto add = [&](Gesture gesture, int code, int modifiers, Action action, const char* sentence,
+  const auto add = [&](Gesture gesture, int code, int modifiers, Command command, const char* sentence,
                        int argument = 0) {
-    rows.push_back({gesture, code, modifiers, action, argument, sentence});
+    rows.push_back({gesture, code, modifiers, command, argument, sentence});
   };
-  add(Click, mouse::kLeft, 0, Action::Inspect, "select what is under the cursor, and say what it is");
-  add(Click, mouse::kLeft, kShift, Action::Measure, "measure from there to the point under the cursor");
-  add(Click, mouse::kLeft, kControl | kShift, Action::Level,
+  add(Click, mouse::kLeft, 0, Command::Inspect, "select what is under the cursor, and say what it is");
+  add(Click, mouse::kLeft, kShift, Command::Measure, "measure from there to the point under the cursor");
+  add(Click, mouse::kLeft, kControl | kShift, Command::Level,
       "turn the model until the plane of both points and the one under the cursor is level");
-  add(Press, 'O', 0, Action::ToggleOverview,
+  add(Press, 'O', 0, Command::ToggleOverview,
       "all seven stages side by side, with the times of their frames, on or off");
-  add(Press, 'C', 0, Action::ToggleSplit, "compare: split view on or off");
-  add(Press, 'R', 0, Action::FlipSides, "compare: the left side alone, then the right one");
-  add(Press, 'U', 0, Action::ToggleDifference, "compare: the difference between the two sides");
-  add(Press, 'I', 0, Action::ShowBar, "compare: back to both sides and the bar");
-  add(Wheel, 0, kControl, Action::Magnify, "magnify the pixels around the cursor");
-  add(Press, '=', 0, Action::Magnify, "magnify the pixels around the cursor", 1);
-  add(Press, '-', 0, Action::Magnify, "reduce the magnification", -1);
-  add(Drag, mouse::kMiddle, kControl, Action::MoveMagnifier, "move the magnified picture");
-  add(Press, key::kTab, 0, Action::TogglePanel, "panel on or off");
-  add(Press, 'Z', 0, Action::ToggleHud, "figures on or off");
-  add(Press, key::kF11, 0, Action::Fullscreen, "full screen on or off");
-  add(Press, 'H', 0, Action::ToggleSheet, "this sheet on or off");
-  add(Press, key::kF1, 0, Action::ToggleSheet, "this sheet on or off");
-  add(Press, '/', kShift, Action::ToggleSheet, "this sheet on or off");
-  add(Press, key::kUp, 0, Action::Reload, "read scene and shaders again");
-  add(Press, 'O', kControl, Action::Open, "open a scene or an environment");
-  add(Press, 'S', kControl, Action::SaveAs, "write the picture under a name");
-  add(Press, 'S', kControl | kShift, Action::SaveModel, "write the model with the numbers set in the panel");
-  add(Press, key::kF12, 0, Action::Screenshot, "write the picture as .png");
-  add(Press, key::kF12, kShift, Action::WriteExr, "write the accumulated radiance as .exr");
-  add(Press, key::kEscape, 0, Action::Close,
+  add(Press, 'C', 0, Command::ToggleSplit, "compare: split view on or off");
+  add(Press, 'R', 0, Command::FlipSides, "compare: the left side alone, then the right one");
+  add(Press, 'U', 0, Command::ToggleDifference, "compare: the difference between the two sides");
+  add(Press, 'I', 0, Command::ShowBar, "compare: back to both sides and the bar");
+  add(Wheel, 0, kControl, Command::Magnify, "magnify the pixels around the cursor");
+  add(Press, '=', 0, Command::Magnify, "magnify the pixels around the cursor", 1);
+  add(Press, '-', 0, Command::Magnify, "reduce the magnification", -1);
+  add(Drag, mouse::kMiddle, kControl, Command::MoveMagnifier, "move the magnified picture");
+  add(Press, key::kTab, 0, Command::TogglePanel, "panel on or off");
+  add(Press, 'Z', 0, Command::ToggleHud, "figures on or off");
+  add(Press, key::kF11, 0, Command::Fullscreen, "full screen on or off");
+  add(Press, 'H', 0, Command::ToggleSheet, "this sheet on or off");
+  add(Press, key::kF1, 0, Command::ToggleSheet, "this sheet on or off");
+  add(Press, '/', kShift, Command::ToggleSheet, "this sheet on or off");
+  add(Press, key::kUp, 0, Command::Reload, "read scene and shaders again");
+  add(Press, 'O', kControl, Command::Open, "open a scene or an environment");
+  add(Press, 'S', kControl, Command::SaveAs, "write the picture under a name");
+  add(Press, 'S', kControl | kShift, Command::SaveModel, "write the model with the numbers set in the panel");
+  add(Press, key::kF12, 0, Command::Screenshot, "write the picture as .png");
+  add(Press, key::kF12, kShift, Command::WriteExr, "write the accumulated radiance as .exr");
+  add(Press, key::kEscape, 0, Command::Close,
       "close what is open: a list, the sheet, magnified pixels, a load, the selection, full screen; else "
       "quit, if pressed twice");
-  add(Press, 'Q', kControl, Action::Quit, "quit");
+  add(Press, 'Q', kControl, Command::Quit, "quit");
 }
 
 std::vector<Control> makeControls() {
@@ -210,9 +211,9 @@ const Control* controlFor(Gesture gesture, int code, int modifiers) {
   return found == controls().end() ? nullptr : &*found;
 }
 
-const Control* controlOf(Action action, int argument) {
+const Control* controlOf(Command command, int argument) {
   const auto found = std::ranges::find_if(
-      controls(), [&](const Control& c) { return c.action == action && c.argument == argument; });
+      controls(), [&](const Control& c) { return c.command == command && c.argument == argument; });
   return found == controls().end() ? nullptr : &*found;
 }
 

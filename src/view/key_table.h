@@ -11,8 +11,9 @@
 
 namespace fragtrace {
 
-/// The action of a control; `Control::argument` chooses one of several.
-enum class Action : uint8_t {
+/// All that the viewer's user can ask for; `Invocation::argument` chooses one of several. apply() carries out
+/// what the state alone can, Window::execute() the rest.
+enum class Command : uint8_t {
   // Camera.
   Orbit,
   Pan,
@@ -67,16 +68,27 @@ enum class Action : uint8_t {
   ToggleHud,
   ToggleSheet,
   Reload,
-  Open,
+  Open,  ///< argument: 1 for an environment
   SaveAs,
   SaveModel,
   Screenshot,
   WriteExr,
   Close,  ///< closes an open window; if none is open, the viewer
-  Quit
+  Quit,
+  // Commands without a key.
+  SelectNode,  ///< argument: SceneNode::index
+  Deselect,
+  ResetAll,
+  OpenFile,       ///< Invocation::file
+  DropReference,  ///< side B is traced again
+  Load,           ///< Invocation::load
+  CancelLoad,
+  AddBookmark,    ///< Invocation::text is its name
+  ShowBookmark,   ///< argument: its index
+  RemoveBookmark  ///< argument: its index
 };
 
-/// Views along an axis, for Action::StandardView.
+/// Views along an axis, for Command::StandardView.
 enum class StandardViewOf : uint8_t { Front, Right, Top, Isometric };
 
 /// The use of a control: a key pressed once (repeats count as presses) or held, a mouse button clicked or
@@ -112,12 +124,12 @@ inline constexpr int kRight = 1;
 inline constexpr int kMiddle = 2;
 }  // namespace mouse
 
-/// A row of the table: a key or button, exactly these modifiers, the gesture, and the action.
+/// A row of the table: a key or button, exactly these modifiers, the gesture, and the command.
 struct Control {
   Gesture gesture = Gesture::Press;
   int code = 0;
   int modifiers = 0;
-  Action action = Action::Quit;
+  Command command = Command::Quit;
   int argument = 0;
   /// The sentence of the sheet; neighbours with the same one are one line there.
   std::string sentence{};
@@ -133,7 +145,7 @@ int mainKey(int code);
 const Control* controlFor(Gesture gesture, int code, int modifiers);
 
 /// The row that does something, or null.
-const Control* controlOf(Action action, int argument = 0);
+const Control* controlOf(Command command, int argument = 0);
 
 /// "Ctrl+C", "Shift+F2", "Left drag".
 std::string controlName(const Control& control);

@@ -76,63 +76,31 @@ struct ViewState {
   double shownBar() const;
 };
 
-/// A request of a control that the state alone cannot fulfil.
-enum class Errand : uint8_t {
-  None,
-  CenterOn,
-  Inspect,
-  Measure,
-  Level,
-  SelectNode,  ///< Task::index, as SceneNode::index
-  Deselect,
-  CopyCommand,
-  PasteCommand,
-  Undo,
-  Redo,
-  ResetAll,
-  Fullscreen,
-  Open,           ///< Task::index: 1 for an environment
-  OpenFile,       ///< Task::file
-  DropReference,  ///< side B is traced again
-  Load,           ///< Task::load
-  CancelLoad,
-  AddBookmark,     ///< Task::text is its name
-  ShowBookmark,    ///< Task::index
-  RemoveBookmark,  ///< Task::index
-  Reload,
-  Screenshot,
-  SaveAs,
-  SaveModel,
-  WriteExr,
-  Close,  ///< closes what is open beside the sheet, or the selection, or else asks whether to quit
-  Quit
-};
-
-/// An errand, and what it is about.
-struct Task {
-  Errand errand = Errand::None;
-  glm::dvec2 place{0.0};  ///< the cursor in parts of the picture's width and height, from the top left
-  std::filesystem::path file{};
-  std::optional<RenderOptions> load{};
-  size_t index = 0;
-  std::string text{};
-};
-
-/// The movement of a control: of a drag or the wheel, in parts of the picture's height (y downwards) or
-/// notches; of a held key, in seconds. And the place of the cursor: parts of the picture's width and height,
-/// from the top left.
-struct Movement {
+/// A command, and what it is about. A drag and the wheel move in parts of the picture's height (y downwards)
+/// or notches, a held key by seconds.
+struct Invocation {
+  Command command = Command::Quit;
+  int argument = 0;
   glm::dvec2 drag{0.0};
   double notches = 0.0;
   double seconds = 0.0;
-  glm::dvec2 place{0.5};
+  glm::dvec2 place{0.5};  ///< the cursor in parts of the picture's width and height, from the top left
+  std::filesystem::path file{};
+  std::optional<RenderOptions> load{};
+  std::string text{};
 };
 
-/// Controls change nothing that cannot be seen: no scene is shown, or the sheet covers it.
-bool isUsable(const ViewState& state, Action action);
+/// The control's command, about that.
+Invocation invocationOf(const Control& control, Invocation about = {});
 
-/// Does what the control says, if that is usable, or returns what is left to be done.
-Errand apply(ViewState& state, const Control& control, const Movement& movement = {});
+/// Returns true if the command is about the scene that is shown.
+bool needsScene(Command command);
+
+/// Returns true if a key may do it: keys change nothing that cannot be seen.
+bool isUsable(const ViewState& state, Command command);
+
+/// Changes the state as a usable command wants it. Returns true if that is all of the command.
+bool apply(ViewState& state, const Invocation& invocation);
 
 /// The number of choices: the scene's animations, and all at once where there are several.
 int animationCount(const ViewState& state);

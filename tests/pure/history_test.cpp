@@ -96,7 +96,7 @@ TEST(History, SceneLightAndTimeStay) {
   ViewState state = shownState();
   History history;
   restart(history, state);
-  apply(state, *controlOf(Action::ToggleSplit));
+  apply(state, {Command::ToggleSplit});
   record(history, state);
   for (RenderOptions& side : state.sides) side.selection.animationTime = 0.5;
   record(history, state);

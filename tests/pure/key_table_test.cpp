@@ -28,17 +28,17 @@ TEST(KeyTable, EveryStageAndSwitchHasAKey) {
   for (const StageRow& row : stageRows()) {
     // Flat is what is left when all else is off.
     if (row.stage != Stage::Flat) {
-      EXPECT_NE(controlOf(Action::ToggleStage, int(row.stage)), nullptr) << row.name;
+      EXPECT_NE(controlOf(Command::ToggleStage, int(row.stage)), nullptr) << row.name;
     }
     if (row.cumulative) {
-      EXPECT_NE(controlOf(Action::StagesUpTo, int(row.stage)), nullptr) << row.name;
+      EXPECT_NE(controlOf(Command::StagesUpTo, int(row.stage)), nullptr) << row.name;
     }
   }
 }
 
 TEST(KeyTable, FunctionKeysEndBeforeTheScreenshot) {
   for (const Control& c : controls()) {
-    if (c.action == Action::ToggleStage || c.action == Action::StagesUpTo) {
+    if (c.command == Command::ToggleStage || c.command == Command::StagesUpTo) {
       EXPECT_TRUE(c.code < key::kF12) << controlName(c);
     }
   }
@@ -47,10 +47,10 @@ TEST(KeyTable, FunctionKeysEndBeforeTheScreenshot) {
 TEST(KeyTable, IsFoundByGesture) {
   const Control* quit = controlFor(Gesture::Press, 'Q', kControlModifier);
   ASSERT_NE(quit, nullptr);
-  EXPECT_EQ(quit->action, Action::Quit);
+  EXPECT_EQ(quit->command, Command::Quit);
   const Control* down = controlFor(Gesture::Hold, 'Q', 0);
   ASSERT_NE(down, nullptr);
-  EXPECT_EQ(down->action, Action::FlyUp);
+  EXPECT_EQ(down->command, Command::FlyUp);
   EXPECT_EQ(down->argument, -1);
   EXPECT_EQ(controlFor(Gesture::Press, 'Q', 0), nullptr);
   EXPECT_EQ(controlFor(Gesture::Press, 'Q', kControlModifier | kShiftModifier), nullptr);
@@ -67,30 +67,30 @@ TEST(KeyTable, TheKeypadDoesWhatItsKeysSay) {
 TEST(KeyTable, KeysAreThoseOfF3d) {
   const auto does = [](Gesture gesture, int code, int modifiers) {
     const Control* control = controlFor(gesture, code, modifiers);
-    return control == nullptr ? -1 : int(control->action);
+    return control == nullptr ? -1 : int(control->command);
   };
-  EXPECT_EQ(does(Gesture::Drag, mouse::kLeft, 0), int(Action::Orbit));
-  EXPECT_EQ(does(Gesture::Drag, mouse::kLeft, kShiftModifier), int(Action::Pan));
-  EXPECT_EQ(does(Gesture::Drag, mouse::kMiddle, 0), int(Action::Pan));
-  EXPECT_EQ(does(Gesture::Drag, mouse::kLeft, kControlModifier), int(Action::Roll));
-  EXPECT_EQ(does(Gesture::Drag, mouse::kRight, 0), int(Action::Zoom));
-  EXPECT_EQ(does(Gesture::Drag, mouse::kRight, kShiftModifier), int(Action::RotateEnvironment));
-  EXPECT_EQ(does(Gesture::Click, mouse::kMiddle, 0), int(Action::CenterOn));
+  EXPECT_EQ(does(Gesture::Drag, mouse::kLeft, 0), int(Command::Orbit));
+  EXPECT_EQ(does(Gesture::Drag, mouse::kLeft, kShiftModifier), int(Command::Pan));
+  EXPECT_EQ(does(Gesture::Drag, mouse::kMiddle, 0), int(Command::Pan));
+  EXPECT_EQ(does(Gesture::Drag, mouse::kLeft, kControlModifier), int(Command::Roll));
+  EXPECT_EQ(does(Gesture::Drag, mouse::kRight, 0), int(Command::Zoom));
+  EXPECT_EQ(does(Gesture::Drag, mouse::kRight, kShiftModifier), int(Command::RotateEnvironment));
+  EXPECT_EQ(does(Gesture::Click, mouse::kMiddle, 0), int(Command::CenterOn));
   for (const int digit : {int('1'), int('3'), int('7'), int('9')})
-    EXPECT_EQ(does(Gesture::Press, digit, 0), int(Action::StandardView));
+    EXPECT_EQ(does(Gesture::Press, digit, 0), int(Command::StandardView));
   for (const int digit : {int('2'), int('8')})
-    EXPECT_EQ(does(Gesture::Press, digit, 0), int(Action::Elevate));
+    EXPECT_EQ(does(Gesture::Press, digit, 0), int(Command::Elevate));
   for (const int digit : {int('4'), int('6')})
-    EXPECT_EQ(does(Gesture::Press, digit, 0), int(Action::RollQuarter));
-  EXPECT_EQ(does(Gesture::Press, '5', 0), int(Action::OtherProjection));
-  EXPECT_EQ(does(Gesture::Press, key::kEnter, 0), int(Action::ResetCamera));
-  EXPECT_EQ(does(Gesture::Press, 'H', 0), int(Action::ToggleSheet));
-  EXPECT_EQ(does(Gesture::Press, 'J', 0), int(Action::ToggleBackground));
-  EXPECT_EQ(does(Gesture::Press, 'T', 0), int(Action::NextToneMap));
-  EXPECT_EQ(does(Gesture::Press, 'Z', 0), int(Action::ToggleHud));
-  EXPECT_EQ(does(Gesture::Press, key::kUp, 0), int(Action::Reload));
-  EXPECT_EQ(does(Gesture::Press, key::kF12, 0), int(Action::Screenshot));
-  EXPECT_EQ(does(Gesture::Press, 'Q', kControlModifier), int(Action::Quit));
+    EXPECT_EQ(does(Gesture::Press, digit, 0), int(Command::RollQuarter));
+  EXPECT_EQ(does(Gesture::Press, '5', 0), int(Command::OtherProjection));
+  EXPECT_EQ(does(Gesture::Press, key::kEnter, 0), int(Command::ResetCamera));
+  EXPECT_EQ(does(Gesture::Press, 'H', 0), int(Command::ToggleSheet));
+  EXPECT_EQ(does(Gesture::Press, 'J', 0), int(Command::ToggleBackground));
+  EXPECT_EQ(does(Gesture::Press, 'T', 0), int(Command::NextToneMap));
+  EXPECT_EQ(does(Gesture::Press, 'Z', 0), int(Command::ToggleHud));
+  EXPECT_EQ(does(Gesture::Press, key::kUp, 0), int(Command::Reload));
+  EXPECT_EQ(does(Gesture::Press, key::kF12, 0), int(Command::Screenshot));
+  EXPECT_EQ(does(Gesture::Press, 'Q', kControlModifier), int(Command::Quit));
 }
 
 TEST(KeyTable, NamesReadAsOnTheKeyboard) {

@@ -22,7 +22,7 @@ using Names = std::vector<std::string>;
 
 TEST(Visibility, NodesAreHiddenByTheirNameWhereThatIsTheirsAlone) {
   ViewState state = withNodes();
-  apply(state, *controlOf(Action::ToggleSplit));
+  apply(state, {Command::ToggleSplit});
   hideNode(state, 0, true);
   hideNode(state, 2, true);
   hideNode(state, 3, true);

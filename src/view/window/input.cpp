@@ -25,8 +25,8 @@ constexpr double kShiftFaster = 4.0;
 Input& inputOf(GLFWwindow* window) { return *static_cast<Input*>(glfwGetWindowUserPointer(window)); }
 
 /// Held down, these go on; all else happens once a press.
-bool repeats(Action action) {
-  return action == Action::Exposure || action == Action::Widen || action == Action::TreeLevel;
+bool repeats(Command command) {
+  return command == Command::Exposure || command == Command::Widen || command == Command::TreeLevel;
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ std::vector<std::filesystem::path> Input::takeDrops() { return std::exchange(dro
 
 glm::dvec2 Input::place() const { return cursor_ / glm::dvec2(layout_.picture); }
 
-std::optional<glm::dvec2> Input::update(ViewState& state, const WindowLayout& layout, const RunTask& run) {
+std::optional<glm::dvec2> Input::update(ViewState& state, const WindowLayout& layout, const RunCommand& run) {
   layout_ = layout;
   const ImGuiIO& io = ImGui::GetIO();
   for (const Event& event : std::exchange(events_, {})) {
@@ -84,16 +84,16 @@ std::optional<glm::dvec2> Input::update(ViewState& state, const WindowLayout& la
           press(event, state);
         break;
       case Kind::Cursor:
-        move(event, state);
+        move(event, state, run);
         break;
       case Kind::Wheel:
-        if (!io.WantCaptureMouse) wheel(event, state);
+        if (!io.WantCaptureMouse) wheel(event, run);
         break;
     }
   }
   const double now = glfwGetTime();
   const double passed = std::clamp(now - lastUpdate_, 0.0, kLongestFrame);
-  for (const Control* control : held_) apply(state, *control, {.seconds = hurry() * passed});
+  for (const Control* control : held_) run(invocationOf(*control, {.seconds = hurry() * passed}));
   lastUpdate_ = now;
   woken_ = false;
   const glm::dvec2 at = place();
@@ -109,14 +109,14 @@ double Input::hurry() const {
   return shift ? kShiftFaster : 1.0;
 }
 
-void Input::wheel(const Event& event, ViewState& state) {
+void Input::wheel(const Event& event, const RunCommand& run) {
   const int modifiers = event.modifiers;
   const Control* control =
       held_.empty() ? controlFor(Gesture::Wheel, 0, modifiers) : controlFor(Gesture::HoldWheel, 0, 0);
-  if (control) apply(state, *control, {.notches = event.value.y, .place = place()});
+  if (control) run(invocationOf(*control, {.notches = event.value.y, .place = place()}));
 }
 
-void Input::key(const Event& event, ViewState& state, const RunTask& run) {
+void Input::key(const Event& event, const ViewState& state, const RunCommand& run) {
   if (event.action == GLFW_RELEASE) {
     std::erase_if(held_, [&](const Control* c) { return c->code == event.code; });
     return;
@@ -127,20 +127,19 @@ void Input::key(const Event& event, ViewState& state, const RunTask& run) {
   const Control* control = controlFor(Gesture::Press, event.code, modifiers);
   // No key acts behind an open list, and one closes it.
   if (Interface::hasPopup()) {
-    if (control && control->action == Action::Close) Interface::closePopup();
+    if (control && control->command == Command::Close) Interface::closePopup();
     return;
   }
   const Control* hold = controlFor(Gesture::Hold, event.code, modifiers & ~kShiftModifier);
-  if (hold && event.action == GLFW_PRESS && isUsable(state, hold->action)) {
+  if (hold && event.action == GLFW_PRESS && isUsable(state, hold->command)) {
     // The first moment counts, however soon the key is released.
-    apply(state, *hold, {.seconds = hurry() * kFirstFrame});
+    run(invocationOf(*hold, {.seconds = hurry() * kFirstFrame}));
     lastUpdate_ = glfwGetTime();
     held_.push_back(hold);
   }
-  if (!control || !isUsable(state, control->action)) return;
-  if (event.action == GLFW_REPEAT && !repeats(control->action)) return;
-  const Errand errand = apply(state, *control, {.place = place()});
-  if (errand != Errand::None) run({errand, place()});
+  if (!control || !isUsable(state, control->command)) return;
+  if (event.action == GLFW_REPEAT && !repeats(control->command)) return;
+  run(invocationOf(*control, {.place = place()}));
 }
 
 /// Events are seen here in their order, and Dear ImGui sees where the cursor is at the end of them: so what
@@ -161,14 +160,14 @@ void Input::press(const Event& event, const ViewState& state) {
                 event.code == GLFW_MOUSE_BUTTON_LEFT && away <= kBarPixels * layout_.scale;
 }
 
-void Input::release(const Event& event, ViewState& state, const RunTask& run) {
+void Input::release(const Event& event, ViewState& state, const RunCommand& run) {
   if (event.code != button_.code) return;
   const Button button = std::exchange(button_, {});
   if (button.dragging || button.bar || button.edge) return;
   const size_t side = sideAt(state, place());
   if (state.overview && button.code == GLFW_MOUSE_BUTTON_LEFT) {
-    const Control* stage = controlOf(Action::StagesUpTo, int(side));
-    if (stage) apply(state, *stage, {});
+    const Control* stage = controlOf(Command::StagesUpTo, int(side));
+    if (stage) run(invocationOf(*stage));
     return;
   }
   const bool chooses =
@@ -182,12 +181,11 @@ void Input::release(const Event& event, ViewState& state, const RunTask& run) {
   const Control* control =
       controlFor(twice ? Gesture::DoubleClick : Gesture::Click, button.code, button.modifiers);
   // A click that chooses a side selects nothing.
-  if (!control || (chooses && control->action == Action::Inspect)) return;
-  const Errand errand = apply(state, *control, {});
-  if (errand != Errand::None) run({errand, place()});
+  if (!control || (chooses && control->command == Command::Inspect)) return;
+  if (isUsable(state, control->command)) run(invocationOf(*control, {.place = place()}));
 }
 
-void Input::move(const Event& event, ViewState& state) {
+void Input::move(const Event& event, ViewState& state, const RunCommand& run) {
   const glm::dvec2 from = std::exchange(cursor_, event.value);
   if (button_.code < 0) return;
   if (button_.edge) {
@@ -205,7 +203,7 @@ void Input::move(const Event& event, ViewState& state) {
   if (!button_.dragging) return;
   const Control* control = controlFor(Gesture::Drag, button_.code, button_.modifiers);
   const glm::dvec2 moved = cursor_ - (begins ? button_.start : from);
-  if (control) apply(state, *control, {.drag = moved / double(layout_.picture.y)});
+  if (control) run(invocationOf(*control, {.drag = moved / double(layout_.picture.y)}));
 }
 
 }  // namespace fragtrace

@@ -17,7 +17,7 @@ namespace fragtrace {
 /// Either side of the edge between picture and panel, that takes hold of it; at 96 dots an inch.
 inline constexpr float kEdgePixels = 5.0f;
 
-using RunTask = std::function<void(const Task&)>;
+using RunCommand = std::function<void(const Invocation&)>;
 
 class Input {
  public:
@@ -26,10 +26,10 @@ class Input {
   Input(const Input&) = delete;
   Input& operator=(const Input&) = delete;
 
-  /// Applies what has happened since the last call, in its order, and gives `run` the errands among it; to be
+  /// Gives `run` the commands of what has happened since the last call, in its order; to be
   /// called inside Dear ImGui's frame, which knows by then whether mouse and keys are its own. Returns where
   /// the cursor is over the picture, parts of its width and height from the top left.
-  std::optional<glm::dvec2> update(ViewState& state, const WindowLayout& layout, const RunTask& run);
+  std::optional<glm::dvec2> update(ViewState& state, const WindowLayout& layout, const RunCommand& run);
 
   /// Returns true if anything has happened since the last update().
   bool waiting() const { return !events_.empty() || woken_; }
@@ -57,11 +57,11 @@ class Input {
     bool edge = false;  ///< the panel's edge is dragged
   };
 
-  void key(const Event& event, ViewState& state, const RunTask& run);
+  void key(const Event& event, const ViewState& state, const RunCommand& run);
   void press(const Event& event, const ViewState& state);
-  void release(const Event& event, ViewState& state, const RunTask& run);
-  void move(const Event& event, ViewState& state);
-  void wheel(const Event& event, ViewState& state);
+  void release(const Event& event, ViewState& state, const RunCommand& run);
+  void move(const Event& event, ViewState& state, const RunCommand& run);
+  void wheel(const Event& event, const RunCommand& run);
   double hurry() const;
   bool onEdge() const;
   /// The place of the cursor, in parts of the picture.

@@ -157,7 +157,7 @@ void drawViewName(const ViewState& state, ViewFacts& facts, const WindowLayout& 
   if (!state.scene || view == DebugView::None) return;
   const std::string name(rowOf(view).label);
   const float right = float(layout.picture.x);
-  const std::string keys = keyOf(Action::NextDebugView, 1) + ", " + keyOf(Action::NextDebugView, -1);
+  const std::string keys = keyOf(Command::NextDebugView, 1) + ", " + keyOf(Command::NextDebugView, -1);
   drawLabel({{name + "  (" + keys + ": others)", name}, {right, 0.0f}, right, true}, facts, "name view",
             layout);
 }
@@ -204,9 +204,9 @@ ImVec2 newsSize(const std::vector<NewsLine>& lines, float left, float right) {
 }
 
 /// The latest news at the bottom left.
-Errand drawNews(const ViewState& state, ViewFacts& facts, const WindowLayout& layout, double now) {
+void drawNews(const ViewState& state, ViewFacts& facts, const WindowLayout& layout, double now) {
   const std::vector<NewsLine> lines = newsLines(state, facts, now);
-  if (lines.empty()) return Errand::None;
+  if (lines.empty()) return;
   const bool closes = facts.pick || !std::isinf(secondsToFade(facts.messages, now));
   const ImGuiStyle& style = ImGui::GetStyle();
   const float button = ImGui::CalcTextSize("x").x + 2 * style.FramePadding.x + style.ItemSpacing.x;
@@ -216,7 +216,6 @@ Errand drawNews(const ViewState& state, ViewFacts& facts, const WindowLayout& la
                           {0.0f, 1.0f});
   ImGui::SetNextWindowSize({std::min(size.x, layout.newsMost.x), std::min(size.y, layout.newsMost.y)});
   ImGui::SetNextWindowBgAlpha(0.78f);
-  Errand errand = Errand::None;
   if (ImGui::Begin("news", nullptr, kPageFlags)) {
     const bool close = closes && closeButton(facts.places, "news");
     ImGui::BeginGroup();
@@ -231,11 +230,10 @@ Errand drawNews(const ViewState& state, ViewFacts& facts, const WindowLayout& la
     addWindowPlace(facts.places, "news");
     if (close) {
       closeMessages(facts.messages);
-      if (facts.pick) errand = Errand::Deselect;
+      if (facts.pick) facts.commands.push_back({Command::Deselect});
     }
   }
   ImGui::End();
-  return errand;
 }
 
 void drawError(ViewFacts& facts, const WindowLayout& layout) {
@@ -254,30 +252,28 @@ void drawError(ViewFacts& facts, const WindowLayout& layout) {
   ImGui::PopStyleColor();
 }
 
-Errand drawLoading(const LoadStatus& load, const WindowLayout& layout) {
+void drawLoading(ViewFacts& facts, const WindowLayout& layout) {
+  const LoadStatus& load = facts.load;
   const ImVec2 display = sizeOf(layout);
-  Errand errand = Errand::None;
   ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowBgAlpha(0.88f);
   if (ImGui::Begin("loading", nullptr, kLabelFlags)) {
     drawText("Loading " + shownText(load.name, kMostNameCharacters), kMostLineCharacters);
     const float width = std::min(kProgressWidth * layout.scale, display.x - 6 * layout.margin);
     ImGui::ProgressBar(float(load.fraction), {width, 0.0f}, load.step.c_str());
-    if (ImGui::Button("Cancel")) errand = Errand::CancelLoad;
+    commandButton(facts, "Cancel", Command::CancelLoad);
   }
   ImGui::End();
-  return errand;
 }
 
 /// The choices of an empty window: drop a file, or take one that was shown before.
-Task drawWelcome(ViewFacts& facts, const WindowLayout& layout) {
+void drawWelcome(ViewFacts& facts, const WindowLayout& layout) {
   const ImVec2 display = sizeOf(layout);
-  Task task;
   ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x - 2 * layout.margin, display.y - 2 * layout.margin});
   if (ImGui::Begin("welcome", nullptr, kPageFlags)) {
     addWindowPlace(facts.places, "welcome");
-    errandButton(facts.places, "Open...", Errand::Open, task);
+    commandButton(facts, "Open...", Command::Open);
     ImGui::SameLine();
     ImGui::TextUnformatted("or drop a model here");
     ImGui::PushTextWrapPos(display.x - 4 * layout.margin);
@@ -286,11 +282,10 @@ Task drawWelcome(ViewFacts& facts, const WindowLayout& layout) {
     if (!facts.remembered.recent.empty()) {
       ImGui::Separator();
       ImGui::TextDisabled("Shown before");
-      drawRecentFiles(facts.recent, facts.remembered.recent, facts.places, task);
+      drawRecentFiles(facts);
     }
   }
   ImGui::End();
-  return task;
 }
 
 /// Returns the lines of the sheet that hold the text, in upper or lower case.
@@ -350,8 +345,7 @@ void drawSheet(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
 
 }  // namespace
 
-Task drawOverlay(ViewState& state, ViewFacts& facts, const WindowLayout& layout, double now) {
-  Task task;
+void drawOverlay(ViewState& state, ViewFacts& facts, const WindowLayout& layout, double now) {
   drawLines(state, facts, layout);
   drawPixelValues(state, facts, layout);
   if (state.compares() && state.comparison == CompareMode::Bar) drawBar(state, layout);
@@ -359,14 +353,13 @@ Task drawOverlay(ViewState& state, ViewFacts& facts, const WindowLayout& layout,
   if (state.overview) drawStageNames(state, facts, layout);
   if (!state.compares() && !state.overview) drawViewName(state, facts, layout);
   if (state.figures && state.scene && !state.overview) drawFigures(state, facts, layout);
-  task.errand = drawNews(state, facts, layout, now);
-  if (!state.scene && !facts.load.busy) task = drawWelcome(facts, layout);
+  drawNews(state, facts, layout, now);
+  if (!state.scene && !facts.load.busy) drawWelcome(facts, layout);
   if (!facts.error.empty() && !facts.errorClosed) drawError(facts, layout);
   drawStatusBar(state, facts, layout);
-  if (const Task pressed = drawStageBar(state, facts, layout); pressed.errand != Errand::None) task = pressed;
+  drawStageBar(state, facts, layout);
   if (state.sheet) drawSheet(state, facts, layout);
-  if (facts.load.busy && task.errand == Errand::None) task.errand = drawLoading(facts.load, layout);
-  return task;
+  if (facts.load.busy) drawLoading(facts, layout);
 }
 
 }  // namespace fragtrace

@@ -53,16 +53,16 @@ struct ViewFacts {
   std::string status;  ///< text of the status bar
   Remembered remembered;
   RecentFiles recent;
-  bool dialog = false;             ///< the desktop's dialog for a file is open
-  size_t sheetLines = 0;           ///< lines of the sheet that the search has found
-  const char* focus = "picture";   ///< receiver of keys (Interface::focus)
-  std::optional<glm::vec2> mouse;  ///< Interface::mouse
-  Places places;                   ///< places in the latest frame
+  bool dialog = false;               ///< the desktop's dialog for a file is open
+  size_t sheetLines = 0;             ///< lines of the sheet that the search has found
+  const char* focus = "picture";     ///< receiver of keys (Interface::focus)
+  std::optional<glm::vec2> mouse;    ///< Interface::mouse
+  Places places;                     ///< places in the latest frame
+  std::vector<Invocation> commands;  ///< commands of the latest frame's widgets
 };
 
-/// Draws all of that into Dear ImGui's frame, `now` being seconds of the messages' clock. Returns what is
-/// left to be done.
-Task drawOverlay(ViewState& state, ViewFacts& facts, const WindowLayout& layout, double now);
+/// Draws all of that into Dear ImGui's frame, `now` being seconds of the messages' clock.
+void drawOverlay(ViewState& state, ViewFacts& facts, const WindowLayout& layout, double now);
 
 /// The linear value at a place: of a side, or its difference from the other; none if it is not known.
 std::optional<glm::dvec3> shownValue(const ViewFacts& facts, size_t side, bool difference,
@@ -86,7 +86,6 @@ void drawFigures(const ViewState& state, ViewFacts& facts, const WindowLayout& l
 void drawStatusBar(const ViewState& state, ViewFacts& facts, const WindowLayout& layout);
 
 /// Draws the stages above it in the same way, each a click away, and what is wanted beside them at any time.
-/// Returns what is left to be done.
-Task drawStageBar(ViewState& state, ViewFacts& facts, const WindowLayout& layout);
+void drawStageBar(const ViewState& state, ViewFacts& facts, const WindowLayout& layout);
 
 }  // namespace fragtrace

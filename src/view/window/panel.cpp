@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kMostBouncesShown = 64;
 
-void drawPresets(ViewState& state, Places& places) {
+void drawPresets(const ViewState& state, ViewFacts& facts) {
   const ImGuiStyle& style = ImGui::GetStyle();
   const float count = float(kPresets.size());
   const float width = (ImGui::GetContentRegionAvail().x - (count - 1) * style.ItemSpacing.x) / count;
@@ -28,10 +28,10 @@ void drawPresets(ViewState& state, Places& places) {
     if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, kAccent);
     if (&preset != kPresets.data()) ImGui::SameLine();
     if (ImGui::Button(preset.name, {width, 0.0f}))
-      apply(state, *controlOf(Action::StagesUpTo, int(preset.last)), {});
+      facts.commands.push_back({Command::StagesUpTo, int(preset.last)});
     if (chosen) ImGui::PopStyleColor();
-    addItemPlace(places, preset.name);
-    tip(places, preset.sentence);
+    addItemPlace(facts.places, preset.name);
+    tip(facts.places, preset.sentence);
   }
 }
 
@@ -46,7 +46,7 @@ void drawStages(ViewState& state, Places& places, bool cumulative) {
     if (ImGui::Checkbox(row.label, &on)) o.stages.set(size_t(row.stage), on);
     ImGui::EndDisabled();
     tip(places, row.sentence);
-    dimAtEnd(reason.empty() ? keyOf(Action::ToggleStage, int(row.stage)) : reason);
+    dimAtEnd(reason.empty() ? keyOf(Command::ToggleStage, int(row.stage)) : reason);
   }
 }
 
@@ -70,7 +70,8 @@ void drawSampling(ViewState& state, Places& places) {
   choose("##traversal", kTraversalNames, o.device.traversal);
 }
 
-void drawAnimation(ViewState& state, Places& places) {
+void drawAnimation(ViewState& state, ViewFacts& facts) {
+  Places& places = facts.places;
   const int shown = shownAnimation(state);
   const std::vector<std::string>& names = state.scene->animationNames;
   const auto nameOf = [&](int i) {
@@ -91,19 +92,19 @@ void drawAnimation(ViewState& state, Places& places) {
   }
   slider(places, "Speed", state.playback.speed, 0.1f, 10.0f, "%.2f", kBoundedLogarithmic);
   if (ImGui::Button(state.playback.playing ? "Pause" : "Play"))
-    apply(state, *controlOf(Action::PlayAnimation), {});
+    facts.commands.push_back({Command::PlayAnimation});
   addItemPlace(places, "Play");
   ImGui::SameLine();
   ImGui::Checkbox("Loop", &state.playback.loops);
   addItemPlace(places, "Loop");
-  dimAtEnd(keyOf(Action::PlayAnimation));
+  dimAtEnd(keyOf(Command::PlayAnimation));
 }
 
 /// Draws the choice of the side whose settings are shown. If side B is a file, draws its name instead.
-void drawSides(ViewState& state, Places& places, Task& task) {
+void drawSides(ViewState& state, ViewFacts& facts) {
   if (!state.reference.empty()) {
-    if (ImGui::SmallButton("x")) task = {.errand = Errand::DropReference};
-    addItemPlace(places, "close reference");
+    if (ImGui::SmallButton("x")) facts.commands.push_back({Command::DropReference});
+    addItemPlace(facts.places, "close reference");
     ImGui::SameLine();
     ImGui::Text("B: %s", shownText(state.reference.filename().string(), kMostNameCharacters).c_str());
     return;
@@ -118,18 +119,17 @@ void drawSides(ViewState& state, Places& places, Task& task) {
   state.active = size_t(active);
 }
 
-void drawCompare(ViewState& state, Places& places, Task& task) {
-  bool split = state.split;
-  if (ImGui::Checkbox("Split view", &split)) apply(state, *controlOf(Action::ToggleSplit), {});
+void drawCompare(ViewState& state, ViewFacts& facts) {
+  Places& places = facts.places;
+  commandBox(facts, "Split view", state.split, Command::ToggleSplit);
   stayOnLineFor("[ ] Denoise");
   const std::string reason = whyWithoutNoise(state.options());
-  bool denoise = state.options().output.denoise != Denoise::None && reason.empty();
+  const bool denoises = state.options().output.denoise != Denoise::None && reason.empty();
   ImGui::BeginDisabled(!reason.empty());
-  if (ImGui::Checkbox("Denoise", &denoise)) apply(state, *controlOf(Action::ToggleDenoise), {});
+  commandBox(facts, "Denoise", denoises, Command::ToggleDenoise);
   ImGui::EndDisabled();
-  addItemPlace(places, "Denoise");
   tip(places, reason.empty() ? "all of it up to 64 samples per pixel, nothing from 256 on" : reason);
-  dimAtEnd(keyOf(Action::ToggleSplit) + ", " + keyOf(Action::ToggleDenoise));
+  dimAtEnd(keyOf(Command::ToggleSplit) + ", " + keyOf(Command::ToggleDenoise));
   if (!state.split) return;
   int comparison = int(state.comparison);
   constexpr std::array kNames{"bar", "A", "B", "difference"};
@@ -142,7 +142,7 @@ void drawCompare(ViewState& state, Places& places, Task& task) {
   if (state.comparison == CompareMode::Difference)
     slider(places, "Amplify", state.differenceStops, -8.0f, 16.0f,
            formatted("%.3g", std::exp2(state.differenceStops)).c_str());
-  drawSides(state, places, task);
+  drawSides(state, facts);
 }
 
 void drawAdvanced(ViewState& state, ViewFacts& facts) {
@@ -159,13 +159,12 @@ void drawAdvanced(ViewState& state, ViewFacts& facts) {
     ImGui::EndCombo();
   }
   ImGui::Checkbox("Boxes of the tree", &state.treeBoxes);
-  dimAtEnd(keyOf(Action::ToggleTreeBoxes));
+  dimAtEnd(keyOf(Command::ToggleTreeBoxes));
   label(places, "Level");
   ImGui::SliderInt("##level", &state.treeLevel, 0, 31, "%d", kBounded);
-  bool figures = state.figures;
-  if (ImGui::Checkbox("Figures over the picture", &figures)) state.figures = figures;
+  ImGui::Checkbox("Figures over the picture", &state.figures);
   addItemPlace(places, "Figures");
-  dimAtEnd(keyOf(Action::ToggleHud));
+  dimAtEnd(keyOf(Command::ToggleHud));
   ImGui::TextDisabled("Features in the shader");
   ImGui::PushTextWrapPos(0.0f);
   std::string variant = facts.statistics[state.shownSide()].variant;
@@ -182,26 +181,26 @@ void drawEdge(const WindowLayout& layout) {
   if (near) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
 }
 
-void drawButtons(Places& places, Task& task) {
+void drawButtons(ViewFacts& facts) {
   ImGui::Separator();
-  const auto next = [&](const char* text, Errand errand) {
+  const auto next = [&](const char* text, Command command) {
     stayOnLineFor(text);
-    errandButton(places, text, errand, task);
+    commandButton(facts, text, command);
   };
-  errandButton(places, "Open...", Errand::Open, task);
-  next("Save as...", Errand::SaveAs);
-  next("Save model...", Errand::SaveModel);
-  next("Write .exr", Errand::WriteExr);
-  next("Reload", Errand::Reload);
-  next("Reset all", Errand::ResetAll);
-  next("Full screen", Errand::Fullscreen);
-  ImGui::TextDisabled("%s: all keys   %s: this panel", keyOf(Action::ToggleSheet).c_str(),
-                      keyOf(Action::TogglePanel).c_str());
+  commandButton(facts, "Open...", Command::Open);
+  next("Save as...", Command::SaveAs);
+  next("Save model...", Command::SaveModel);
+  next("Write .exr", Command::WriteExr);
+  next("Reload", Command::Reload);
+  next("Reset all", Command::ResetAll);
+  next("Full screen", Command::Fullscreen);
+  ImGui::TextDisabled("%s: all keys   %s: this panel", keyOf(Command::ToggleSheet).c_str(),
+                      keyOf(Command::TogglePanel).c_str());
 }
 
 }  // namespace
 
-Task drawPanel(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
+void drawPanel(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
   Places& places = facts.places;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float margin = layout.docked ? 0.0f : layout.margin;
@@ -216,41 +215,36 @@ Task drawPanel(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
                                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoNav |
                                  ImGuiWindowFlags_NoResize |
                                  (layout.docked ? 0 : ImGuiWindowFlags_AlwaysAutoResize);
-  Task task;
-  const auto part = [&](const Task& other) {
-    if (other.errand != Errand::None) task = other;
-  };
   if (ImGui::Begin("Settings", nullptr, flags)) {
     addWindowPlace(places, "panel");
     if (layout.docked) drawEdge(layout);
-    drawPresets(state, places);
-    drawCompare(state, places, task);
+    drawPresets(state, facts);
+    drawCompare(state, facts);
     const auto open = [&](const char* name, bool first = true) {
       const bool shown = ImGui::CollapsingHeader(name, first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
       addItemPlace(places, std::string("section ") + name);
       return shown;
     };
-    if (shownAnimation(state) >= 0 && open("Animation")) drawAnimation(state, places);
-    if (hasParts(state) && open("File")) part(drawParts(state, facts));
+    if (shownAnimation(state) >= 0 && open("Animation")) drawAnimation(state, facts);
+    if (hasParts(state) && open("File")) drawParts(state, facts);
     const std::optional<uint32_t> picked = facts.pick ? facts.pick->material : std::nullopt;
     if (picked && *picked < state.scene->materials.size() && open("Material")) {
       ImGui::TextDisabled("%s", partText(*picked, state.scene->materials[*picked].name).c_str());
       drawMaterial(state, places, *picked);
     }
-    if (open("Scene", false)) part(drawTree(state, facts));
-    if (open("Light and display")) part(drawLight(state, facts));
+    if (open("Scene", false)) drawTree(state, facts);
+    if (open("Light and display")) drawLight(state, facts);
     if (open("Histogram", false)) drawHistogram(state, facts);
-    if (open("Camera")) part(drawCamera(state, facts));
+    if (open("Camera")) drawCamera(state, facts);
     if (open("Stages")) drawStages(state, places, true);
     if (open("Switches", false)) drawStages(state, places, false);
     if (open("Sampling", false)) drawSampling(state, places);
     if (open("Advanced", false)) drawAdvanced(state, facts);
-    if (open("Shown before", false)) drawRecentFiles(facts.recent, facts.remembered.recent, places, task);
-    drawButtons(places, task);
+    if (open("Shown before", false)) drawRecentFiles(facts);
+    drawButtons(facts);
   }
   ImGui::End();
   ImGui::PopStyleVar();
-  return task;
 }
 
 }  // namespace fragtrace

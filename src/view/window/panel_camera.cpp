@@ -13,7 +13,7 @@ constexpr double kLeastStop = 0.001;  // the range that the panel offers
 constexpr double kMostStop = 32.0;
 
 /// A line for a new name, then one a view: go there, or forget it.
-void drawBookmarks(ViewState& state, ViewFacts& facts, Task& task) {
+void drawBookmarks(ViewState& state, ViewFacts& facts) {
   Places& places = facts.places;
   const float button = ImGui::CalcTextSize("Keep view").x + 4 * ImGui::GetStyle().FramePadding.x;
   ImGui::SetNextItemWidth(-button);
@@ -27,17 +27,18 @@ void drawBookmarks(ViewState& state, ViewFacts& facts, Task& task) {
   const size_t count = found == all.end() ? 0 : found->second.size();
   if (ImGui::Button("Keep view", ImVec2(-1, 0)) || typed) {
     const std::string name(state.bookmarkName.data());
-    task = {.errand = Errand::AddBookmark, .text = name.empty() ? "View " + std::to_string(count + 1) : name};
+    facts.commands.push_back(
+        {.command = Command::AddBookmark, .text = name.empty() ? "View " + std::to_string(count + 1) : name});
     state.bookmarkName = {};
   }
   addItemPlace(places, "Keep view");
   for (size_t i = 0; i < count; ++i) {
     ImGui::PushID(int(i));
-    if (ImGui::SmallButton("x")) task = {.errand = Errand::RemoveBookmark, .index = i};
+    if (ImGui::SmallButton("x")) facts.commands.push_back({Command::RemoveBookmark, int(i)});
     addItemPlace(places, "forget view " + std::to_string(i));
     ImGui::SameLine();
     const std::string name = shownText(found->second[i].name, kMostNameCharacters) + "##view";
-    if (ImGui::Selectable(name.c_str())) task = {.errand = Errand::ShowBookmark, .index = i};
+    if (ImGui::Selectable(name.c_str())) facts.commands.push_back({Command::ShowBookmark, int(i)});
     addItemPlace(places, "view " + std::to_string(i));
     ImGui::PopID();
   }
@@ -70,9 +71,8 @@ void drawLens(ViewState& state, Places& places) {
 
 }  // namespace
 
-Task drawCamera(ViewState& state, ViewFacts& facts) {
+void drawCamera(ViewState& state, ViewFacts& facts) {
   Places& places = facts.places;
-  Task task;
   label(places, "Projection");
   CameraType type = state.pose.type;
   choose("##projection", kCameraTypeNames, type);
@@ -96,21 +96,20 @@ Task drawCamera(ViewState& state, ViewFacts& facts) {
     };
     if (ImGui::BeginCombo("##camera", nameOf(state.sceneCamera).c_str())) {
       for (int i = 0; i < int(cameras.size()); ++i) {
-        Control control{.action = Action::SceneCamera, .argument = i};
-        if (ImGui::Selectable(nameOf(i).c_str(), i == state.sceneCamera)) apply(state, control, {});
+        if (ImGui::Selectable(nameOf(i).c_str(), i == state.sceneCamera))
+          facts.commands.push_back({Command::SceneCamera, i});
       }
       ImGui::EndCombo();
     }
   }
-  controlButton(state, places, "Frame all", Action::FrameAll, 1);
+  commandButton(facts, "Frame all", Command::FrameAll, 1);
   stayOnLineFor("Reset view");
-  controlButton(state, places, "Reset view", Action::ResetCamera);
+  commandButton(facts, "Reset view", Command::ResetCamera);
   stayOnLineFor("Copy");
-  errandButton(places, "Copy", Errand::CopyCommand, task);
+  commandButton(facts, "Copy", Command::CopyCommand);
   stayOnLineFor("Paste");
-  errandButton(places, "Paste", Errand::PasteCommand, task);
-  drawBookmarks(state, facts, task);
-  return task;
+  commandButton(facts, "Paste", Command::PasteCommand);
+  drawBookmarks(state, facts);
 }
 
 }  // namespace fragtrace

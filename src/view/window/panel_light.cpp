@@ -33,14 +33,13 @@ void drawThumbnail(const ViewFacts& facts, const EnvironmentChoice& choice, floa
     ImGui::Image(ImTextureID(intptr_t(found->second)), size);  // NOLINT(performance-no-int-to-ptr)
 }
 
-/// A list of what can light the scene. Returns what is to be done for the one that was chosen.
-Task chooseEnvironment(const ViewedScene& scene, ViewFacts& facts) {
+/// A list of what can light the scene.
+void chooseEnvironment(const ViewedScene& scene, ViewFacts& facts) {
   Places& places = facts.places;
-  Task chosen;
   const std::vector<EnvironmentChoice> choices = environmentChoices(scene);
   const size_t current = currentChoice(scene, choices);
   if (!ImGui::BeginCombo("##environment", shownText(choices[current].name, kMostNameCharacters).c_str()))
-    return chosen;
+    return;
   facts.wantsThumbnails = true;
   const float height = 1.6f * ImGui::GetFontSize();
   for (size_t i = 0; i < choices.size(); ++i) {
@@ -49,14 +48,14 @@ Task chooseEnvironment(const ViewedScene& scene, ViewFacts& facts) {
     ImGui::SameLine();
     const std::string name = shownText(choices[i].name, kMostNameCharacters);
     if (ImGui::Selectable(name.c_str(), i == current, 0, ImVec2(0.0f, height)))
-      chosen = {.errand = Errand::Load, .load = withEnvironment(scene.options, choices[i])};
+      facts.commands.push_back(
+          {.command = Command::Load, .load = withEnvironment(scene.options, choices[i])});
     addItemPlace(places, "environment " + choices[i].name);
     ImGui::PopID();
   }
-  if (ImGui::Selectable("Open...")) chosen = {.errand = Errand::Open, .index = 1};
+  if (ImGui::Selectable("Open...")) facts.commands.push_back({Command::Open, 1});
   addItemPlace(places, "environment Open...");
   ImGui::EndCombo();
-  return chosen;
 }
 
 /// The sun of the sky, and its haze.
@@ -136,9 +135,8 @@ void drawBackground(ViewState& state, Places& places) {
 
 }  // namespace
 
-Task drawLight(ViewState& state, ViewFacts& facts) {
+void drawLight(ViewState& state, ViewFacts& facts) {
   Places& places = facts.places;
-  Task task;
   RenderOptions& o = state.sides[0];
   double exposure = o.output.exposure.value_or(0.0);
   if (slider(places, "Exposure", exposure, -8.0f, 8.0f, "%.1f EV"))
@@ -149,7 +147,7 @@ Task drawLight(ViewState& state, ViewFacts& facts) {
   for (RenderOptions& side : state.sides) side.output.toneMap = curve;
   const bool map = state.scene->surroundings == Surroundings::Map;
   label(places, "Environment");
-  task = chooseEnvironment(*state.scene, facts);
+  chooseEnvironment(*state.scene, facts);
   label(places, "Rotation");
   ImGui::BeginDisabled(!map);
   auto degrees = float(std::remainder(o.light.hdriRotationDegrees, 360.0));
@@ -177,22 +175,18 @@ Task drawLight(ViewState& state, ViewFacts& facts) {
                            kBounded))
       state.blur = wanted;
     if (ImGui::IsItemDeactivatedAfterEdit() && state.blur) {
-      task.errand = Errand::Load;
-      task.load = state.scene->options;
-      task.load->light.backgroundBlur = *state.blur < kLeastBlur ? 0.0 : double(*state.blur);
+      facts.commands.push_back({.command = Command::Load, .load = state.scene->options});
+      facts.commands.back().load->light.backgroundBlur = *state.blur < kLeastBlur ? 0.0 : double(*state.blur);
       state.blur.reset();
     }
   }
   drawFog(state, places);
   drawBackground(state, places);
   const bool paths = has(state.options().stages, Stage::Gi);
-  bool ground = o.light.shadowCatcher && paths;
   ImGui::BeginDisabled(!paths);
-  if (ImGui::Checkbox("Shadow catcher", &ground)) apply(state, *controlOf(Action::ToggleGround), {});
+  commandBox(facts, "Shadow catcher", o.light.shadowCatcher && paths, Command::ToggleGround);
   ImGui::EndDisabled();
-  addItemPlace(places, "Ground");
-  dimAtEnd(paths ? keyOf(Action::ToggleGround) : "only path traced");
-  return task;
+  dimAtEnd(paths ? keyOf(Command::ToggleGround) : "only path traced");
 }
 
 }  // namespace fragtrace

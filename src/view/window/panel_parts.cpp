@@ -76,19 +76,19 @@ std::string partText(size_t index, const std::string& name) {
   return std::to_string(index) + (name.empty() ? "" : ": " + shownText(name, kMostNameCharacters));
 }
 
-std::string keyOf(Action action, int argument) {
-  const Control* control = controlOf(action, argument);
+std::string keyOf(Command command, int argument) {
+  const Control* control = controlOf(command, argument);
   return control ? controlName(*control) : std::string();
 }
 
-void controlButton(ViewState& state, Places& places, const char* text, Action action, int argument) {
-  if (ImGui::Button(text)) apply(state, *controlOf(action, argument), {});
-  addItemPlace(places, text);
+void commandButton(ViewFacts& facts, const char* text, Command command, int argument) {
+  if (ImGui::Button(text)) facts.commands.push_back({command, argument});
+  addItemPlace(facts.places, text);
 }
 
-void errandButton(Places& places, const char* text, Errand errand, Task& task) {
-  if (ImGui::Button(text)) task = {.errand = errand};
-  addItemPlace(places, text);
+void commandBox(ViewFacts& facts, const char* text, bool on, Command command) {
+  if (ImGui::Checkbox(text, &on)) facts.commands.push_back({command});
+  addItemPlace(facts.places, text);
 }
 
 }  // namespace fragtrace

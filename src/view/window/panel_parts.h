@@ -38,13 +38,13 @@ void stayOnLineFor(const char* text);
 std::string partText(size_t index, const std::string& name);
 
 /// The key that does it.
-std::string keyOf(Action action, int argument = 0);
+std::string keyOf(Command command, int argument = 0);
 
-/// A button that does what a control of the table does.
-void controlButton(ViewState& state, Places& places, const char* text, Action action, int argument = 0);
+/// A button for a command.
+void commandButton(ViewFacts& facts, const char* text, Command command, int argument = 0);
 
-/// A button for an errand: it takes the place of the task when it is pressed.
-void errandButton(Places& places, const char* text, Errand errand, Task& task);
+/// A box for a command that turns something on or off.
+void commandBox(ViewFacts& facts, const char* text, bool on, Command command);
 
 /// A list of names in the order of the values.
 template <typename Choice>
@@ -58,11 +58,14 @@ void choose(const char* id, std::span<const std::string_view> names, Choice& cho
   ImGui::EndCombo();
 }
 
-// Each draws its part, changes the state, and returns what is left to be done.
-Task drawLight(ViewState& state, ViewFacts& facts);
-Task drawCamera(ViewState& state, ViewFacts& facts);
-Task drawTree(ViewState& state, ViewFacts& facts);
-Task drawParts(ViewState& state, ViewFacts& facts);
+// Each draws its part, changes the state, and adds the commands of its widgets.
+void drawLight(ViewState& state, ViewFacts& facts);
+void drawCamera(ViewState& state, ViewFacts& facts);
+void drawTree(ViewState& state, ViewFacts& facts);
+void drawParts(const ViewState& state, ViewFacts& facts);
+
+/// Draws a line for each file that was shown before, grey where it is gone.
+void drawRecentFiles(ViewFacts& facts);
 
 /// Draws sliders for the material at that index of the scene's.
 void drawMaterial(ViewState& state, Places& places, size_t index);
@@ -77,7 +80,7 @@ void drawHistogram(const ViewState& state, ViewFacts& facts);
 bool hasParts(const ViewState& state);
 
 /// Draws the whole panel into the frame that Dear ImGui is making; what is changed there changes the state.
-/// Adds the places of the panel and its controls. Returns what is left to be done.
-Task drawPanel(ViewState& state, ViewFacts& facts, const WindowLayout& layout);
+/// Adds the places of the panel and its controls.
+void drawPanel(ViewState& state, ViewFacts& facts, const WindowLayout& layout);
 
 }  // namespace fragtrace

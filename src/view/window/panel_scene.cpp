@@ -30,24 +30,21 @@ bool hasParts(const ViewState& state) {
   return state.scene->sceneNames.size() > 1 || !state.scene->materialVariants.empty();
 }
 
-Task drawParts(ViewState& state, ViewFacts& facts) {
+void drawParts(const ViewState& state, ViewFacts& facts) {
   const ViewedScene& scene = *state.scene;
-  Task task;
   const auto choose = [&](const char* name, const char* id, const char* none,
                           const std::vector<std::string>& names, std::string SceneSelection::*part) {
     label(facts.places, name);
     const std::string& current = scene.options.selection.*part;
     const std::optional<std::string> chosen = choosePart(id, none, names, current);
     if (!chosen || *chosen == current) return;
-    task.errand = Errand::Load;
-    task.load = scene.options;
-    task.load->selection.*part = *chosen;
+    facts.commands.push_back({.command = Command::Load, .load = scene.options});
+    facts.commands.back().load->selection.*part = *chosen;
   };
   if (scene.sceneNames.size() > 1)
     choose("Scene", "##scene", "the file's own choice", scene.sceneNames, &SceneSelection::scene);
   if (!scene.materialVariants.empty())
     choose("Variant", "##variant", "none", scene.materialVariants, &SceneSelection::materialVariant);
-  return task;
 }
 
 }  // namespace fragtrace

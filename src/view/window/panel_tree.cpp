@@ -23,7 +23,7 @@ std::string notesOf(const SceneNode& node) {
 
 /// Draws a row: a box that shows or hides the node, and its name, which selects it. Returns true if the row
 /// is open.
-bool drawNode(ViewState& state, Places& places, size_t i, bool parentShown, Task& task) {
+bool drawNode(ViewState& state, ViewFacts& facts, size_t i, bool parentShown) {
   const std::vector<SceneNode>& nodes = state.scene->nodes;
   const SceneNode& node = nodes[i];
   const bool leaf = i + 1 == nodes.size() || nodes[i + 1].depth <= node.depth;
@@ -34,7 +34,7 @@ bool drawNode(ViewState& state, Places& places, size_t i, bool parentShown, Task
   if (ImGui::Checkbox("##shown", &shown)) hideNode(state, i, !shown);
   ImGui::PopStyleVar();
   ImGui::EndDisabled();
-  addItemPlace(places, "show " + node.name);
+  addItemPlace(facts.places, "show " + node.name);
   ImGui::SameLine();
   const bool selected = state.selectedNode == node.index;
   const bool open =
@@ -45,13 +45,13 @@ bool drawNode(ViewState& state, Places& places, size_t i, bool parentShown, Task
                             (selected ? ImGuiTreeNodeFlags_Selected : 0),
                         "%s%s", shownText(node.name, kMostNameCharacters).c_str(), notesOf(node).c_str());
   if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen())
-    task = {.errand = Errand::SelectNode, .index = node.index};
-  addItemPlace(places, "node " + node.name);
+    facts.commands.push_back({Command::SelectNode, int(node.index)});
+  addItemPlace(facts.places, "node " + node.name);
   ImGui::PopID();
   return open;
 }
 
-void drawNodes(ViewState& state, Places& places, Task& task) {
+void drawNodes(ViewState& state, ViewFacts& facts) {
   const std::vector<SceneNode>& nodes = state.scene->nodes;
   const float indent = ImGui::GetStyle().IndentSpacing;
   int deepest = nodes.empty() ? 0 : nodes[0].depth;  // depth of the deepest open row
@@ -70,7 +70,7 @@ void drawNodes(ViewState& state, Places& places, Task& task) {
     const bool seen = ImGui::IsRectVisible(row, ImVec2(row.x + 1.0f, row.y + height));
     bool open = false;
     if (seen) {
-      open = drawNode(state, places, i, parentShown, task);
+      open = drawNode(state, facts, i, parentShown);
     } else {
       ImGui::PushID(int(i));
       open = ImGui::GetStateStorage()->GetInt(ImGui::GetID("##node"), depth < kDepthOpen ? 1 : 0) != 0;
@@ -90,10 +90,9 @@ bool beginList(const char* id, size_t rows, ImGuiWindowFlags flags = 0) {
 
 }  // namespace
 
-Task drawTree(ViewState& state, ViewFacts& facts) {
-  Task task;
+void drawTree(ViewState& state, ViewFacts& facts) {
   if (beginList("nodes", state.scene->nodes.size(), ImGuiWindowFlags_HorizontalScrollbar))
-    drawNodes(state, facts.places, task);
+    drawNodes(state, facts);
   ImGui::EndChild();
   const auto list = [&](const char* name, const char* title, size_t count, auto draw) {
     const std::string id = std::string("##") + name;
@@ -106,7 +105,6 @@ Task drawTree(ViewState& state, ViewFacts& facts) {
   };
   list("materials", "Materials", state.scene->materials.size(), drawMaterials);
   if (!state.scene->lights.empty()) list("lights", "Lights", state.scene->lights.size(), drawLights);
-  return task;
 }
 
 }  // namespace fragtrace

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "view/window/recent_files.h"
-
 #include <system_error>
 
 #include "view/window/draw/text.h"
@@ -8,8 +6,9 @@
 
 namespace fragtrace {
 
-void drawRecentFiles(RecentFiles& seen, const std::vector<std::filesystem::path>& files, Places& places,
-                     Task& task) {
+void drawRecentFiles(ViewFacts& facts) {
+  RecentFiles& seen = facts.recent;
+  const std::vector<std::filesystem::path>& files = facts.remembered.recent;
   const int frame = ImGui::GetFrameCount();
   if (frame > seen.frame + 1 || files != seen.files) {
     seen.files = files;
@@ -24,10 +23,11 @@ void drawRecentFiles(RecentFiles& seen, const std::vector<std::filesystem::path>
     const std::string text =
         shownText(files[i].filename().string(), kMostNameCharacters) + "##" + std::to_string(i);
     ImGui::BeginDisabled(seen.gone[i]);
-    if (ImGui::Selectable(text.c_str())) task = {.errand = Errand::OpenFile, .file = files[i]};
+    if (ImGui::Selectable(text.c_str()))
+      facts.commands.push_back({.command = Command::OpenFile, .file = files[i]});
     ImGui::EndDisabled();
-    addItemPlace(places, "recent " + std::to_string(i));
-    tip(places, shownText(files[i].string(), kMostLineCharacters) + (seen.gone[i] ? " is gone" : ""));
+    addItemPlace(facts.places, "recent " + std::to_string(i));
+    tip(facts.places, shownText(files[i].string(), kMostLineCharacters) + (seen.gone[i] ? " is gone" : ""));
   }
 }
 

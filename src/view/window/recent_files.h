@@ -5,9 +5,6 @@
 #include <filesystem>
 #include <vector>
 
-#include "view/view_state.h"
-#include "view/window/draw/places.h"
-
 namespace fragtrace {
 
 /// The recent files as they were when the list was opened: the disk is not asked in each frame.
@@ -16,9 +13,5 @@ struct RecentFiles {
   std::vector<bool> gone;
   int frame = -1;  ///< Dear ImGui's frame in which the list was drawn last
 };
-
-/// A line for each file, grey where it is gone. One that is pressed becomes the task.
-void drawRecentFiles(RecentFiles& seen, const std::vector<std::filesystem::path>& files, Places& places,
-                     Task& task);
 
 }  // namespace fragtrace

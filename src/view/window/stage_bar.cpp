@@ -33,33 +33,31 @@ float widthOf(Naming naming) {
   return width;
 }
 
-void drawStage(ViewState& state, Places& places, const StageRow& row, Naming naming) {
+void drawStage(const ViewState& state, ViewFacts& facts, const StageRow& row, Naming naming) {
   const std::string reason = whyGrey(state, row.stage);
   const bool on = has(state.options().stages, row.stage) && reason.empty();
   if (on) ImGui::PushStyleColor(ImGuiCol_Button, kAccent);
   if (!reason.empty()) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  const Control& control = *controlOf(Action::StagesUpTo, int(row.stage));
-  if (ImGui::Button(nameOf(row, naming).c_str())) apply(state, control, {});
+  const Control& control = *controlOf(Command::StagesUpTo, int(row.stage));
+  if (ImGui::Button(nameOf(row, naming).c_str())) facts.commands.push_back(invocationOf(control));
   ImGui::PopStyleColor(int(on) + int(!reason.empty()));
-  addItemPlace(places, std::string("stage ") + row.name);
+  addItemPlace(facts.places, std::string("stage ") + row.name);
   const char* upTo = row.stage == Stage::Flat ? "" : "All stages up to ";
-  tip(places, controlName(control) + ": " + upTo + row.label + ": " + row.sentence +
-                  (reason.empty() ? "" : " (" + reason + ")"));
+  tip(facts.places, controlName(control) + ": " + upTo + row.label + ": " + row.sentence +
+                        (reason.empty() ? "" : " (" + reason + ")"));
   ImGui::SameLine();
 }
 
 /// A button at the right end.
 struct EndButton {
   const char* text;
-  Action action;
-  int rank;                      ///< 0: the last to be left out
-  Errand errand = Errand::None;  ///< none: the state alone changes
+  Command command;
+  int rank;  ///< 0: the last to be left out
 };
-constexpr std::array kEndButtons{EndButton{"All", Action::ToggleOverview, 2},
-                                 EndButton{"Undo", Action::Undo, 3, Errand::Undo},
-                                 EndButton{"Redo", Action::Redo, 4, Errand::Redo},
-                                 EndButton{"Screenshot", Action::Screenshot, 1, Errand::Screenshot},
-                                 EndButton{"Panel", Action::TogglePanel, 0}};
+constexpr std::array kEndButtons{EndButton{"All", Command::ToggleOverview, 2},
+                                 EndButton{"Undo", Command::Undo, 3}, EndButton{"Redo", Command::Redo, 4},
+                                 EndButton{"Screenshot", Command::Screenshot, 1},
+                                 EndButton{"Panel", Command::TogglePanel, 0}};
 
 /// Returns the width of the first `ranks` ranks.
 float widthOf(int ranks) {
@@ -68,8 +66,7 @@ float widthOf(int ranks) {
   return width;
 }
 
-Task drawEndButtons(ViewState& state, ViewFacts& facts, float left, float right) {
-  Task task;
+void drawEndButtons(const ViewState& state, ViewFacts& facts, float left, float right) {
   int ranks = int(kEndButtons.size());
   while (ranks > 0 && widthOf(ranks) > right - left) --ranks;
   float place = right - widthOf(ranks);
@@ -77,21 +74,17 @@ Task drawEndButtons(ViewState& state, ViewFacts& facts, float left, float right)
     if (button.rank >= ranks) continue;
     ImGui::SameLine(place);
     place += widthOf(button.text);
-    const bool off = (button.errand == Errand::Undo && !facts.canUndo) ||
-                     (button.errand == Errand::Redo && !facts.canRedo);
+    const bool off = (button.command == Command::Undo && !facts.canUndo) ||
+                     (button.command == Command::Redo && !facts.canRedo);
     ImGui::BeginDisabled(off);
-    const bool lit = button.action == Action::ToggleOverview && state.overview;
+    const bool lit = button.command == Command::ToggleOverview && state.overview;
     if (lit) ImGui::PushStyleColor(ImGuiCol_Button, kAccent);
-    if (button.errand == Errand::None)
-      controlButton(state, facts.places, button.text, button.action);
-    else
-      errandButton(facts.places, button.text, button.errand, task);
+    commandButton(facts, button.text, button.command);
     if (lit) ImGui::PopStyleColor();
     ImGui::EndDisabled();
-    const Control& control = *controlOf(button.action);
+    const Control& control = *controlOf(button.command);
     tip(facts.places, controlName(control) + ": " + control.sentence);
   }
-  return task;
 }
 
 /// Stages get labels if all buttons at the end still fit, names if the first two ranks do, else numbers.
@@ -102,9 +95,8 @@ Naming namingFor(float room) {
 
 }  // namespace
 
-Task drawStageBar(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
+void drawStageBar(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  Task task;
   ImGui::SetNextWindowPos({0.0f, float(layout.picture.y)});
   ImGui::SetNextWindowSize({display.x, layout.stagesHeight});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(layout.margin, 0.0f));
@@ -121,13 +113,12 @@ Task drawStageBar(ViewState& state, ViewFacts& facts, const WindowLayout& layout
     const float right = display.x - layout.margin + ImGui::GetStyle().ItemSpacing.x;
     const Naming naming = namingFor(right - layout.margin);
     for (const StageRow& row : stageRows()) {
-      if (row.cumulative) drawStage(state, facts.places, row, naming);
+      if (row.cumulative) drawStage(state, facts, row, naming);
     }
-    task = drawEndButtons(state, facts, layout.margin + widthOf(naming), right);
+    drawEndButtons(state, facts, layout.margin + widthOf(naming), right);
     ImGui::EndDisabled();
   }
   ImGui::End();
-  return task;
 }
 
 }  // namespace fragtrace

@@ -54,15 +54,17 @@ class Window {
   // window_tasks.cpp
   void takePictures(std::vector<TracedPicture> pictures);
   void takeReference(const TracedPicture& picture);
-  void pick(const Task& task);
+  void pick(const Invocation& invocation);
   void level(const PickAnswer& answer);
   void takePick(PickAnswer answer);
   void compareSizes();
   void takeThumbnail(const EnvironmentThumbnail& thumbnail);
   void askForThumbnails();
-  void execute(const Task& task);
-  void executeOnScene(const Task& task);
-  void executeOnBookmark(const Task& task);
+  void execute(const Invocation& invocation);
+  void close();
+  void deselect();
+  std::string sceneFile() const;
+  void changeBookmarks(const Invocation& invocation);
   void load(RenderOptions options);
   void loadStep();
   void cancelLoad();
@@ -78,7 +80,7 @@ class Window {
   void takeDrops();
   void openFiles(const std::vector<std::filesystem::path>& files, bool isAsked = false);
   void save(const std::filesystem::path& file);
-  void askForFile(const Task& task);
+  void askForFile(const Invocation& invocation);
   void takeFile();
   void remember(const std::function<void(Remembered&)>& change);
 
@@ -93,7 +95,7 @@ class Window {
   Interface interface_;
   Display display_;
   FileDialog dialog_;
-  Errand asked_ = Errand::None;        ///< why: Open, SaveAs, SaveModel
+  Command asked_ = Command::Open;      ///< why it asks: Open, SaveAs, SaveModel
   std::filesystem::path savedFolder_;  ///< folder of the latest picture written; empty: none was
   std::vector<SetNumber> saved_;       ///< numbers that the latest model was written with
   std::map<std::filesystem::path, GlTexture> thumbnails_;

@@ -57,29 +57,29 @@ void Window::save(const std::filesystem::path& name) {
 
 /// To open, beside the scene that is shown; to save a picture, where one was saved last; to save the model,
 /// beside it.
-void Window::askForFile(const Task& task) {
+void Window::askForFile(const Invocation& invocation) {
   const RenderOptions& o = state_.options();
   std::error_code error;
   const std::filesystem::path here = std::filesystem::current_path(error);
   FileQuestion question;
-  if (task.errand == Errand::SaveModel) {
+  if (invocation.command == Command::SaveModel) {
     if (o.selection.set.empty()) return say("no number of a material or a light has been set");
     const std::filesystem::path scene = here / o.scene;
     question =
         saveModelQuestion(freePictureName(scene.parent_path(), scene, scene.extension().string().c_str()),
                           state_.scene->refersToFiles);
-  } else if (task.errand == Errand::SaveAs) {
+  } else if (invocation.command == Command::SaveAs) {
     const std::filesystem::path folder = savedFolder_.empty() ? here : savedFolder_;
     question = saveQuestion(freePictureName(folder, o.scene, ".png"));
   } else {
-    const bool environment = task.index == 1;
+    const bool environment = invocation.argument == 1;
     if (!environment && !dialog_.open() && !mayLeave("open")) return;
     const std::filesystem::path& beside =
         environment && !o.light.hdriFile.empty() ? o.light.hdriFile : wanted_.scene;
     question = openQuestion((here / beside).parent_path(), environment);
     if (beside.empty()) question.folder = here;
   }
-  asked_ = task.errand;
+  asked_ = invocation.command;
   dialog_.ask(std::move(question), portalName(window_.get()), glfwGetTime());
 }
 
@@ -89,7 +89,7 @@ void Window::takeFile() {
   if (!news.message.empty()) say(news.message);
   if (news.file.empty()) return;
   frames_ = std::max(frames_, kSettleFrames);
-  if (asked_ == Errand::Open) return openFiles({news.file}, true);
+  if (asked_ == Command::Open) return openFiles({news.file}, true);
   if (!state_.scene) return;
   std::filesystem::path file = news.file;
   const FileFilter& filter = dialog_.question().filters.front();
@@ -97,7 +97,7 @@ void Window::takeFile() {
   if (!passes(filter, file))
     return say("not written: " + file.extension().string() + " is not among " + filter.name);
   ask();
-  if (asked_ == Errand::SaveModel) {
+  if (asked_ == Command::SaveModel) {
     std::error_code none;
     savesShown_ = std::filesystem::equivalent(file, state_.scene->options.scene, none);
     return exchange_.saveModel(file);

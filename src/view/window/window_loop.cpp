@@ -317,17 +317,18 @@ void Window::draw() {
       layoutOf(glm::vec2(size), interface_.scale(), {panel, state_.panelWidth, state_.compares()});
   state_.size = state_.overview ? glm::max(layout.picture / kCells, 1) : layout.picture;
   interface_.begin();
-  facts_.cursor = input_.update(state_, layout, [this](const Task& task) { execute(task); });
+  facts_.cursor =
+      input_.update(state_, layout, [this](const Invocation& invocation) { execute(invocation); });
   takeDrops();
   facts_.places.clear();
   facts_.wantsHistogram = false;
   facts_.canUndo = !history_.past.empty();
   facts_.canRedo = !history_.future.empty();
   const double now = glfwGetTime();
-  const Task said = drawOverlay(state_, facts_, layout, now);
+  drawOverlay(state_, facts_, layout, now);
   fades_ = now + secondsToFade(facts_.messages, now);
-  if (panel) execute(drawPanel(state_, facts_, layout));
-  execute(said);
+  if (panel) drawPanel(state_, facts_, layout);
+  for (const Invocation& invocation : std::exchange(facts_.commands, {})) execute(invocation);
   askForThumbnails();
   // Software would draw the same picture again, with the processors that trace the next one.
   skipped_ = askedMoving_ && !display_.hasNews() && now - drawn_ < kSameSeconds;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Window tasks beyond its state: clipboard, undo, bookmarks, the screen, pictures as they come in.
+// Commands beyond the state: clipboard, undo, bookmarks, the screen; pictures as they come in.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
@@ -25,75 +25,32 @@ constexpr const char* kQuitQuestion = "press Escape again to quit";
 
 }  // namespace
 
-void Window::execute(const Task& task) {
-  switch (task.errand) {
-    case Errand::None:
-      return;
-    case Errand::Reload:
-      // A reference that could not be read may be mended by now.
-      if (!state_.reference.empty()) exchange_.compareWith(state_.reference);
-      if (state_.scene || !wanted_.scene.empty()) load(state_.scene ? state_.scene->options : wanted_);
-      return;
-    case Errand::Open:
-      return askForFile(task);
-    case Errand::OpenFile:
-      return openFiles({task.file});
-    case Errand::CancelLoad:
-      return cancelLoad();
-    case Errand::DropReference:
-      state_.reference.clear();
-      return exchange_.compareWith({});
-    case Errand::Fullscreen:
-      return toggleFullscreen();
-    case Errand::Close:
-      if (!facts_.error.empty() && !facts_.errorClosed) {
-        facts_.errorClosed = true;
-        return;
-      }
-      if (facts_.load.busy) return cancelLoad();
-      if (facts_.pick || picksAnswered_ < picksAsked_) return executeOnScene({.errand = Errand::Deselect});
-      if (state_.fullscreen) return toggleFullscreen();
-      // The press that has come here counts, too.
-      if (input_.presses() != std::exchange(quitAskedAt_, input_.presses()) + 1 ||
-          !isSeen(facts_.messages, kQuitQuestion, glfwGetTime()))
-        return say(kQuitQuestion);
-      [[fallthrough]];
-    case Errand::Quit:
-      glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
-      return;
-    default:
-      if (state_.scene) executeOnScene(task);
-  }
-}
-
-void Window::executeOnScene(const Task& task) {
+// NOLINTNEXTLINE(readability-function-size): the table of what commands do
+void Window::execute(const Invocation& invocation) {
+  if (apply(state_, invocation) || (!state_.scene && needsScene(invocation.command))) return;
   // Files and picks are of the present view, which may have changed in this turn of the loop.
   ask();
-  switch (task.errand) {
-    case Errand::CenterOn:
-    case Errand::Inspect:
-    case Errand::Measure:
-    case Errand::Level:
-      return pick(task);
-    case Errand::SelectNode:
-      return exchange_.pick({.node = uint32_t(task.index), .number = ++picksAsked_});
-    case Errand::Deselect:
-      picksAnswered_ = picksAsked_;
-      facts_.pick.reset();
-      state_.selected = {};
-      state_.selectedNode.reset();
-      return exchange_.pick({.clear = true});
-    case Errand::CopyCommand:
+  switch (invocation.command) {
+    case Command::CenterOn:
+    case Command::Inspect:
+    case Command::Measure:
+    case Command::Level:
+      return pick(invocation);
+    case Command::SelectNode:
+      return exchange_.pick({.node = uint32_t(invocation.argument), .number = ++picksAsked_});
+    case Command::Deselect:
+      return deselect();
+    case Command::CopyCommand:
       return copyCommand();
-    case Errand::PasteCommand:
+    case Command::PasteCommand:
       return pasteCommand();
-    case Errand::Undo:
+    case Command::Undo:
       if (!undo(history_, state_)) return say("there is nothing to undo");
       return loadStep();
-    case Errand::Redo:
+    case Command::Redo:
       if (!redo(history_, state_)) return say("there is nothing to redo");
       return loadStep();
-    case Errand::ResetAll:
+    case Command::ResetAll:
       if (const RenderOptions wanted = resetAll(state_, start_.options);
           !sameScene(wanted, state_.scene->options)) {
         load(wanted);
@@ -101,39 +58,86 @@ void Window::executeOnScene(const Task& task) {
         history_.step = 0;
       }
       return;
-    case Errand::Load:
-      return load(*task.load);
-    case Errand::AddBookmark:
-    case Errand::ShowBookmark:
-    case Errand::RemoveBookmark:
-      return executeOnBookmark(task);
-    case Errand::Screenshot:
+    case Command::Load:
+      return load(*invocation.load);
+    case Command::CancelLoad:
+      return cancelLoad();
+    case Command::Reload:
+      // A reference that could not be read may be mended by now.
+      if (!state_.reference.empty()) exchange_.compareWith(state_.reference);
+      if (state_.scene || !wanted_.scene.empty()) load(state_.scene ? state_.scene->options : wanted_);
+      return;
+    case Command::AddBookmark:
+    case Command::RemoveBookmark:
+      return changeBookmarks(invocation);
+    case Command::ShowBookmark:
+      if (const std::vector<Bookmark>& views = facts_.remembered.bookmarks[sceneFile()];
+          size_t(invocation.argument) < views.size())
+        takeText(views[size_t(invocation.argument)].camera, "cannot go there: ");
+      return;
+    case Command::Open:
+    case Command::SaveAs:
+    case Command::SaveModel:
+      return askForFile(invocation);
+    case Command::OpenFile:
+      return openFiles({invocation.file});
+    case Command::DropReference:
+      state_.reference.clear();
+      return exchange_.compareWith({});
+    case Command::Screenshot:
       return save(std::filesystem::absolute(freePictureName(state_.options().scene, ".png")));
-    case Errand::SaveAs:
-    case Errand::SaveModel:
-      return askForFile(task);
-    case Errand::WriteExr:
+    case Command::WriteExr:
       return save(std::filesystem::absolute(freePictureName(state_.options().scene, ".exr")));
+    case Command::Fullscreen:
+      return toggleFullscreen();
+    case Command::Close:
+      return close();
+    case Command::Quit:
+      return glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
     default:
       return;
   }
 }
 
+/// Closes what is open, one at a time. Quits when it is asked twice with nothing open.
+void Window::close() {
+  if (!facts_.error.empty() && !facts_.errorClosed) {
+    facts_.errorClosed = true;
+    return;
+  }
+  if (facts_.load.busy) return cancelLoad();
+  if (state_.scene && (facts_.pick || picksAnswered_ < picksAsked_)) return deselect();
+  if (state_.fullscreen) return toggleFullscreen();
+  // The press that has come here counts, too.
+  if (input_.presses() != std::exchange(quitAskedAt_, input_.presses()) + 1 ||
+      !isSeen(facts_.messages, kQuitQuestion, glfwGetTime()))
+    return say(kQuitQuestion);
+  glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
+}
+
+void Window::deselect() {
+  picksAnswered_ = picksAsked_;
+  facts_.pick.reset();
+  state_.selected = {};
+  state_.selectedNode.reset();
+  exchange_.pick({.clear = true});
+}
+
 /// Asks for what is under the cursor.
-void Window::pick(const Task& task) {
-  if (sideAt(state_, task.place) >= kMostSides) return;
+void Window::pick(const Invocation& invocation) {
+  if (sideAt(state_, invocation.place) >= kMostSides) return;
   PickUse use = PickUse::Select;
-  if (task.errand == Errand::CenterOn) use = PickUse::Center;
+  if (invocation.command == Command::CenterOn) use = PickUse::Center;
   // If there is no first point, this is the first one.
-  if (task.errand == Errand::Measure && facts_.pick && facts_.pick->hit) use = PickUse::Measure;
-  if (task.errand == Errand::Level) {
+  if (invocation.command == Command::Measure && facts_.pick && facts_.pick->hit) use = PickUse::Measure;
+  if (invocation.command == Command::Level) {
     if (!facts_.pick || !facts_.pick->end)
       return say("click on a point and Shift+click on another one first");
     use = PickUse::Level;
   }
   if (use == PickUse::Select) ++picksAsked_;
-  exchange_.pick({.side = sideAt(state_, task.place),
-                  .place = magnifiedPlace(state_, task.place),
+  exchange_.pick({.side = sideAt(state_, invocation.place),
+                  .place = magnifiedPlace(state_, invocation.place),
                   .use = use,
                   .number = picksAsked_});
 }
@@ -231,19 +235,17 @@ void Window::toggleFullscreen() {
   state_.fullscreen = !state_.fullscreen;
 }
 
-void Window::executeOnBookmark(const Task& task) {
-  const std::string scene = std::filesystem::absolute(state_.scene->options.scene).string();
-  if (task.errand == Errand::ShowBookmark) {
-    const std::vector<Bookmark>& views = facts_.remembered.bookmarks[scene];
-    if (task.index < views.size()) takeText(views[task.index].camera, "cannot go there: ");
-    return;
-  }
+std::string Window::sceneFile() const {
+  return std::filesystem::absolute(state_.scene->options.scene).string();
+}
+
+void Window::changeBookmarks(const Invocation& invocation) {
   remember([&](Remembered& remembered) {
-    std::vector<Bookmark>& views = remembered.bookmarks[scene];
-    if (task.errand == Errand::AddBookmark)
-      views.push_back({task.text, start_.cameraText(shownOptions())});
-    else if (task.index < views.size())
-      views.erase(views.begin() + std::ptrdiff_t(task.index));
+    std::vector<Bookmark>& views = remembered.bookmarks[sceneFile()];
+    if (invocation.command == Command::AddBookmark)
+      views.push_back({invocation.text, start_.cameraText(shownOptions())});
+    else if (size_t(invocation.argument) < views.size())
+      views.erase(views.begin() + invocation.argument);
   });
 }
 
