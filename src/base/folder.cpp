@@ -2,8 +2,9 @@
 #include "base/folder.h"
 
 #include <algorithm>
-#include <cctype>
 #include <system_error>
+
+#include "base/text.h"
 
 namespace fragtrace {
 
@@ -14,7 +15,6 @@ namespace fs = std::filesystem;
 constexpr size_t kMostEntries = 100000;
 
 bool isFigure(char c) { return c >= '0' && c <= '9'; }
-int lowered(char c) { return std::tolower(static_cast<unsigned char>(c)); }
 
 /// Removes the number at the front of the text and returns it without leading zeros.
 std::string_view takeNumber(std::string_view& text) {
@@ -38,8 +38,8 @@ bool naturallyBefore(std::string_view a, std::string_view b) {
       if (x != y) return x < y;
       continue;
     }
-    const int x = lowered(a[0]);
-    const int y = lowered(b[0]);
+    const auto x = static_cast<unsigned char>(lowered(a[0]));
+    const auto y = static_cast<unsigned char>(lowered(b[0]));
     if (x != y) return x < y;
     a.remove_prefix(1);
     b.remove_prefix(1);
