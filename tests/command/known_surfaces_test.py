@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: MIT
 """Squares under one directional light, seen straight on: each has one colour, which is a formula of glTF 2.0's appendix B or of an extension, within 3e-4."""
 import math
-import struct
 
 from support import SQUARE, TWO_TRIANGLES, Case, Gltf, data_uri, main, png, quad
 
@@ -16,7 +15,7 @@ CORNERS = ((0.9, 0.2, 0.4), (0.5, 0.7, 0.1), (0.1, 0.9, 0.8), (0.6, 0.3, 0.2))  
 NORMAL = (-0.6, 0, 0.8)
 TANGENT = (0.6, 0.8, 0, -1)
 TEXEL = (180, 90, 230)
-KEPT = [struct.unpack("<e", struct.pack("<e", t / 255))[0] for t in TEXEL]  # the texels as half floats
+KEPT = [t / 255 for t in TEXEL]
 SIDE = 16  # pixels of a square
 
 
@@ -194,7 +193,7 @@ class KnownSurfaces(Case):
 
     def test_light_from_behind(self):
         through = {"diffuseTransmissionFactor": 0.3, "diffuseTransmissionColorFactor": COLOR, "diffuseTransmissionColorTexture": {"index": 0}}
-        kept = [struct.unpack("<e", struct.pack("<e", ((t / 255 + 0.055) / 1.055)**2.4))[0] for t in TEXEL]  # sRGB
+        kept = [((t / 255 + 0.055) / 1.055)**2.4 for t in TEXEL]  # sRGB
         material = base(0, 1, specular={"specularFactor": 0}, diffuse_transmission=through)
         # The others are there for what scene() gives to the last four.
         self.shown([(material, [IRRADIANCE * 0.3 * c * k / math.pi for c, k in zip(COLOR, kept)])] + 4 * [(material, [])], math.pi - ANGLE)
