@@ -20,11 +20,17 @@ vec3 environmentDirection(vec2 uv) {
   return vec3(r.x * c + r.z * s, r.y, -r.x * s + r.z * c);
 }
 
+/// Radiance and pdf of a texel, as src/pack/environment_texel.h packs them.
 vec4 environmentTexel(ivec2 p, ivec2 size, int first) {
-  return uintBitsToFloat(readEnvironment(first + p.y * size.x + p.x));
+  int index = p.y * size.x + p.x;
+  uvec4 row = readEnvironment(first + (index >> 1));
+  uvec2 texel = (index & 1) == 0 ? uvec2(row.x, row.y) : uvec2(row.z, row.w);
+  uvec3 digits = uvec3(texel.x & 4095u, (texel.x >> 12u) & 4095u, ((texel.x >> 24u) << 4u) | (texel.y & 15u));
+  float unit = uintBitsToFloat((((texel.y >> 4u) & 127u) + 64u) << 23u);
+  return vec4(vec3(digits) * unit, uintBitsToFloat((texel.y >> 11u) << 10u));
 }
 
-/// Reads a map whose texels begin at `first`, at a place in texels: the middle of the first texel is 0.5, and places
+/// Reads a map whose rows begin at `first`, at a place in texels: the middle of the first texel is 0.5, and places
 /// reach from -0.5 to half a texel beyond the width.
 vec4 mapAt(vec2 place, ivec2 size, int first) {
   vec2 position = place - vec2(0.5f);
@@ -67,10 +73,10 @@ vec3 mapBesideSun(vec3 direction) {
 
 /// Radiance that camera rays see in place of the environment (kBackdrop).
 vec3 backdropAlong(vec3 direction) {
-  ivec2 lit = ivec2(frame.environmentSize);
   ivec2 size = frame.backdropSize;
+  int first = mapRows(ivec2(frame.environmentSize));
   float intensity = frame.environmentScale;
-  return vec3(mapAt(environmentCoordinates(direction) * vec2(size), size, lit.x * lit.y)) * intensity;
+  return vec3(mapAt(environmentCoordinates(direction) * vec2(size), size, first)) * intensity;
 }
 
 /// The pdf over solid angle with which sampleEnvironment draws a direction. along: environmentAlong of that

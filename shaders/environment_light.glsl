@@ -4,11 +4,7 @@
 
 const bool kEnvironmentLight = kEnvironment && kPhong && !kGi;
 
-int environmentLightRow() {
-  ivec2 lit = ivec2(frame.environmentSize);
-  if (kSun) return int(kSunRows) + lit.x * lit.y + frame.backdropSize.x * frame.backdropSize.y;
-  return lit.x * lit.y + frame.backdropSize.x * frame.backdropSize.y;
-}
+int environmentLightRow() { return kSun ? sunRow() + int(kSunRows) : sunRow(); }
 
 vec3 irradianceFactor(int index) { return vec3(uintBitsToFloat(readEnvironment(environmentLightRow() + index))); }
 

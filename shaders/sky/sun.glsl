@@ -9,10 +9,10 @@ struct Sun {
   float pdf;       // over solid angle, of a direction to its middle when the sun is taken
 };
 
-int sunRow() {
-  ivec2 lit = ivec2(frame.environmentSize);
-  return lit.x * lit.y + frame.backdropSize.x * frame.backdropSize.y;
-}
+/// Rows of a map, two texels each.
+int mapRows(ivec2 size) { return (size.x * size.y + 1) >> 1; }
+
+int sunRow() { return mapRows(ivec2(frame.environmentSize)) + mapRows(frame.backdropSize); }
 
 /// Returns true if so bright a place of the map is its sun (kMapSun).
 bool isMapSun(vec3 radiance) {

@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/words.h"
+#include "pack/environment_texel.h"
 
 namespace fragtrace {
 
@@ -77,9 +78,9 @@ glm::dvec3 texelOf(const MapRows& map, size_t y, size_t x) {
 
 void appendMap(const MapRows& map, Words& texels) {
   for (const MapRows::Row& row : map.rows) {
-    for (size_t x = 0; x < size_t(map.width); ++x)
-      appendRow(texels, glm::vec4(row[0][x], row[1][x], row[2][x], 0.0f));
+    for (size_t x = 0; x < size_t(map.width); ++x) appendTexel(texels, {row[0][x], row[1][x], row[2][x]});
   }
+  endMap(texels);
 }
 
 /// Reads a map of one colour.
@@ -158,7 +159,7 @@ MapRows lobesOf(const MapRows& map, int level) {
 
 size_t mostLightWords() {
   size_t rows = layout::kIrradianceRows + layout::kLobeLevels;
-  for (const int height : kRowsOfLevel) rows += size_t(2 * height) * size_t(height + 1);
+  for (const int height : kRowsOfLevel) rows += size_t(height) * size_t(height + 1);
   return rows * 4;
 }
 
@@ -179,7 +180,7 @@ void appendEnvironmentLight(const Image& image, Words& texels) {
   auto first = uint32_t(texels.size() / 4 + levels.size());
   for (const MapRows& level : levels) {
     texels.insert(texels.end(), {uint32_t(level.width), uint32_t(level.height()), first, 0u});
-    first += uint32_t(level.width * level.height());
+    first += uint32_t(level.width * level.height() + 1) / 2;
   }
   for (const MapRows& level : levels) appendMap(level, texels);
 }

@@ -14,6 +14,7 @@
 #include "base/vectors.h"
 #include "base/words.h"
 #include "pack/environment_light.h"
+#include "pack/environment_texel.h"
 #include "pack/inversion_table.h"
 
 namespace fragtrace {
@@ -36,33 +37,31 @@ void forEachRow(int rows, const Work& work) {
 
 double sineOfRow(const Image& image, int y) { return std::sin(glm::pi<double>() * (y + 0.5) / image.height); }
 
-/// Writes radiance and luminance of a row's texels; returns the sum of the luminance.
+/// Writes the radiance of a row's texels; returns the sum of their luminance.
 double copyRow(const Image& image, int y, std::span<uint32_t> texels) {
   const float* p = image.pixel(0, y);
   double sum = 0.0;
-  for (size_t i = 0; i < texels.size(); i += 4, p += image.channelCount()) {
-    const float bright = std::max(0.0f, glm::dot(glm::vec3(p[0], p[1], p[2]), glm::vec3(kLuminance)));
-    std::memcpy(&texels[i], p, 3 * sizeof(float));
-    texels[i + 3] = floatWord(bright);
-    sum += double(bright);
+  for (size_t i = 0; i < texels.size(); i += 2, p += image.channelCount()) {
+    const glm::uvec2 texel = packTexel({p[0], p[1], p[2]});
+    texels[i] = texel.x;
+    texels[i + 1] = texel.y;
+    sum += double(luminanceOfTexel(texel.x, texel.y));
   }
   return sum;
 }
 
 /// Luminance above a level.
-std::vector<float> weightsOf(std::span<const uint32_t> texels, float level) {
-  std::vector<float> weights(texels.size() / 4);
+void storeWeights(std::span<const uint32_t> texels, float level, std::span<float> weights) {
   for (size_t i = 0; i < weights.size(); ++i)
-    weights[i] = std::max(0.0f, std::bit_cast<float>(texels[4 * i + 3]) - level);
-  return weights;
+    weights[i] = std::max(0.0f, luminanceOfTexel(texels[2 * i], texels[2 * i + 1]) - level);
 }
 
 /// The mean, unless the map is so even that hardly any texel is brighter, and there is no sun.
 float levelOf(const PackedEnvironment& packed, double mean, bool sun) {
   constexpr double kEven = 1.01;
   if (sun) return float(mean);
-  for (size_t i = 3; i < packed.texels.size(); i += 4) {
-    if (double(std::bit_cast<float>(packed.texels[i])) > kEven * mean) return float(mean);
+  for (size_t i = 0; i < packed.texels.size(); i += 2) {
+    if (double(luminanceOfTexel(packed.texels[i], packed.texels[i + 1])) > kEven * mean) return float(mean);
   }
   return 0.0f;
 }
@@ -71,9 +70,9 @@ void storeSteps(std::span<uint32_t> words, std::span<const InversionStep> steps)
   std::memcpy(words.data(), steps.data(), steps.size_bytes());
 }
 
-void scalePdfs(std::span<uint32_t> texels, float factor) {
-  for (size_t i = 3; i < texels.size(); i += 4)
-    texels[i] = floatWord(std::bit_cast<float>(texels[i]) * factor);
+void storeDensities(std::span<const float> densities, float factor, std::span<uint32_t> texels) {
+  for (size_t i = 0; i < densities.size(); ++i)
+    texels[2 * i + 1] = withDensity(texels[2 * i + 1], densities[i] * factor);
 }
 
 }  // namespace
@@ -102,13 +101,14 @@ glm::vec3 upwardIrradiance(const Image& image) {
 }
 
 void appendBackdrop(const Image& image, Words& texels) {
-  texels.reserve(texels.size() + size_t(image.width) * size_t(image.height) * 4);
+  texels.reserve(texels.size() + size_t(image.width) * size_t(image.height) * 2 + 2);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       const float* p = image.pixel(x, y);
-      texels.insert(texels.end(), {floatWord(p[0]), floatWord(p[1]), floatWord(p[2]), 0u});
+      appendTexel(texels, {p[0], p[1], p[2]});
     }
   }
+  endMap(texels);
 }
 
 double powerOf(const SunDisc& sun) { return glm::pi<double>() * luminance(sun.irradiance); }
@@ -130,22 +130,27 @@ PackedEnvironment packEnvironment(const Image& image, EnvironmentDraws draws, do
   PackedEnvironment packed;
   packed.size = {image.width, image.height};
   const auto rows = size_t(image.height);
-  const size_t rowWords = size_t(image.width) * 4;
+  const auto width = size_t(image.width);
+  const size_t rowWords = width * 2;
   const size_t stepCount = size_t(std::clamp(image.width / 2, 1, layout::kMostEnvironmentSteps));
   const size_t stepWords = stepCount * 4;
   const bool drawn = draws != EnvironmentDraws::Nothing;
-  // Step: make two large arrays, whose pages are made at the same time.
+  std::vector<float> densities;  // over each row
+  // Step: make large arrays, whose pages are made at the same time.
   runOnThreads(2, [&](uint32_t part) {
     // The light of a map that is not drawn from, or suns, may be appended, which must not copy the whole
     // array.
     const size_t appended = drawn ? size_t(layout::kSunRows) * 4 : mostLightWords();
-    if (part == 0) packed.texels.reserve(rows * rowWords + appended);
+    if (part == 0) packed.texels.reserve(rows * rowWords + 2 + appended);
     if (part == 0) packed.texels.resize(rows * rowWords);
+    if (part == 0) endMap(packed.texels);
     if (part == 1 && drawn) packed.inversion.resize(rows * 4 + rows * stepWords);
+    if (part == 1 && drawn) densities.resize(rows * width);
   });
   const auto texelsOf = [&](int y) {
     return std::span(packed.texels).subspan(size_t(y) * rowWords, rowWords);
   };
+  const auto densitiesOf = [&](int y) { return std::span(densities).subspan(size_t(y) * width, width); };
 
   // Step: copy the radiance.
   std::vector<double> sums(rows);
@@ -165,18 +170,17 @@ PackedEnvironment packEnvironment(const Image& image, EnvironmentDraws draws, do
   std::vector<float> pdfs(rows);
   const float level = draws == EnvironmentDraws::LightAndPaths ? levelOf(packed, mean, sunPower > 0.0) : 0.0f;
   forEachRow(image.height, [&](int y) {
-    const std::span<uint32_t> texels = texelsOf(y);
-    std::vector<float> row = weightsOf(texels, level);
+    const std::span<float> row = densitiesOf(y);
+    storeWeights(texelsOf(y), level, row);
     std::vector<InversionStep> steps(stepCount);
     pdfs[size_t(y)] = float(makeInversionTable(row, steps) / image.width * sineOfRow(image, y));
-    for (size_t x = 0; x < row.size(); ++x) texels[4 * x + 3] = floatWord(row[x]);
     storeSteps(inversion.subspan(rows * 4 + size_t(y) * stepWords, stepWords), steps);
   });
   if (sum > 0.0) packed.drawnPower *= std::accumulate(pdfs.begin(), pdfs.end(), 0.0) / sum;
   std::vector<InversionStep> steps(rows);
   makeInversionTable(pdfs, steps);
   storeSteps(inversion.first(rows * 4), steps);
-  forEachRow(image.height, [&](int y) { scalePdfs(texelsOf(y), pdfs[size_t(y)]); });
+  forEachRow(image.height, [&](int y) { storeDensities(densitiesOf(y), pdfs[size_t(y)], texelsOf(y)); });
   return packed;
 }
 

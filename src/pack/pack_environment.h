@@ -14,7 +14,7 @@ enum class EnvironmentDraws {
 };
 
 struct PackedEnvironment {
-  Words texels;     ///< radiance, and the density that shaders/environment.glsl draws by (mean 1)
+  Words texels;     ///< two a row: radiance, and the density that shaders/environment.glsl draws by (mean 1)
   Words inversion;  ///< empty for Nothing, else a row per step: as many steps as the map has rows, then
                     ///< kMostEnvironmentSteps or half as many as it has columns for each row
   glm::ivec2 size{0};
@@ -26,7 +26,7 @@ struct PackedEnvironment {
 /// Irradiance of a plane that faces up (+Y), from all of an equirectangular map with R, G, B.
 glm::vec3 upwardIrradiance(const Image& image);
 
-/// Appends radiance and, in place of a density, 0.
+/// Appends radiance, with a density of 0.
 void appendBackdrop(const Image& image, Words& texels);
 
 /// Luminance that the sun sends to a disk of unit radius.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "glsl_lights.h"
+#include "pack/environment_texel.h"
 #include "pack/pack_environment.h"
 #include "shader_statistics.h"
 
@@ -22,7 +23,8 @@ using glsl_variant::With;
 
 constexpr int kWidth = 32;
 constexpr int kHeight = 16;
-constexpr double kTurn = 2.0 * M_PI / 9.0;  // 40 degrees: no whole number of texels
+constexpr double kTexelError = 1.0 / 4096.0;  // of the largest channel
+constexpr double kTurn = 2.0 * M_PI / 9.0;    // 40 degrees: no whole number of texels
 constexpr double kRotations[] = {0.0, kTurn};
 
 /// The left half black, the rest uneven, one texel a thousand times as bright.
@@ -118,10 +120,38 @@ TEST(ShaderEnvironment, MiddleOfATexelShowsTheTexelAndTheMiddleOfTheMapIsAlongX)
     for (int x = 0; x < kWidth; ++x) {
       const float* p = image.pixel(x, y);
       const dvec3 seen = radianceAlong(directionAt((x + 0.5) / kWidth, (y + 0.5) / kHeight));
-      EXPECT_LE(glm::distance(seen, dvec3(p[0], p[1], p[2])), 1e-10 * p[1] + 1e-12) << x << ", " << y;
+      const double rounding = kTexelError * std::max({p[0], p[1], p[2]});
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(seen[c], p[c], rounding + 1e-10 * p[1] + 1e-12) << x << ", " << y;
     }
   }
   EXPECT_LE(glm::distance(glsl_double::environmentCoordinates(dvec3(1, 0, 0)), dvec2(0.5)), 1e-14);
+}
+
+TEST(ShaderEnvironment, TexelsKeepSunsHuesGreysAndDensities) {
+  Draw draw(97);
+  const auto read = [](const vec3& radiance, float density) {
+    const glm::uvec2 texel = packTexel(radiance);
+    const std::vector<uint32_t> words{0, 0, texel.x, withDensity(texel.y, density)};
+    const With<std::span<const uint32_t>> texels(glsl_variant::environment, words);
+    EXPECT_EQ(luminanceOfTexel(texel.x, texel.y),
+              glm::dot(vec3(glsl_float::environmentTexel({1, 0}, {2, 1}, 0)), vec3(kLuminance)));
+    return glsl_float::environmentTexel({1, 0}, {2, 1}, 0);
+  };
+  for (int k = 0; k < 20000; ++k) {
+    const double scale = std::pow(10.0, draw.between(-15.0, 22.0));
+    const vec3 light(scale * dvec3(draw.between(0.0, 1.0), draw.between(0.5, 1.0), draw.between(0.0, 1.0)));
+    const auto density = float(std::pow(10.0, draw.between(-12.0, 9.0)));
+    const glm::vec4 seen = read(light, density);
+    const double most = std::max({light.x, light.y, light.z});
+    for (int c = 0; c < 3; ++c) EXPECT_LE(std::abs(seen[c] - light[c]), kTexelError * most) << scale;
+    EXPECT_LE(std::abs(seen.w - density), 6.2e-5f * density);
+    const glm::vec4 grey = read(vec3(light.x), 0.0f);
+    EXPECT_TRUE(grey.x == grey.y && grey.x == grey.z && grey.w == 0.0f);
+  }
+  EXPECT_EQ(read(vec3(0.0f), 1.0f), glm::vec4(0.0f, 0.0f, 0.0f, 1.0f));
+  EXPECT_EQ(read(vec3(1.0f, 0.5f, 0.25f), 1.0f), glm::vec4(1.0f, 0.5f, 0.25f, 1.0f));
+  EXPECT_EQ(read(vec3(1.0f, 3e38f, -1.0f), 1.0f), glm::vec4(0.0f, kMostRadiance, 0.0f, 1.0f));
 }
 
 TEST(ShaderEnvironment, FilteringIsBilinearAndWrapsAround) {
@@ -129,7 +159,9 @@ TEST(ShaderEnvironment, FilteringIsBilinearAndWrapsAround) {
   const Surrounded here(image, 0.0);
   // The point is between the last column and the first, a quarter of the way from row 7 to row 8.
   const double v = (7.75) / kHeight;
-  const auto at = [&](int x, int y) { return double(image.pixel(x, y)[1]); };
+  const auto at = [&](int x, int y) {
+    return radianceAlong(directionAt((x + 0.5) / kWidth, (y + 0.5) / kHeight)).y;
+  };
   const double expected =
       0.75 * (0.5 * at(kWidth - 1, 7) + 0.5 * at(0, 7)) + 0.25 * (0.5 * at(kWidth - 1, 8) + 0.5 * at(0, 8));
   EXPECT_NEAR(radianceAlong(directionAt(1e-12, v)).y, expected, 1e-9);
