@@ -44,7 +44,7 @@ class TracingThread {
           tracer_.run({});
         }) {}
   ~TracingThread() {
-    exchange_.quit();
+    exchange_.request([](Requests& r) { r.quit = true; });
     thread_.join();
   }
   TracingThread(const TracingThread&) = delete;
@@ -65,8 +65,8 @@ class TracingThread {
   std::thread thread_;
 };
 
-/// A wish that no picture has answered yet.
-struct Wish {
+/// A request that no picture has answered yet.
+struct Asked {
   uint64_t number;
   double at;  ///< steadyMilliseconds()
   RenderOptions options;
@@ -130,10 +130,12 @@ void setFactor(ViewState& state, std::string_view member, const std::function<fl
 
 ViewedScene awaitScene(Exchange& exchange) {
   for (;;) {
-    Delivery news = exchange.take();
-    if (news.failure) std::rethrow_exception(news.failure);
-    if (news.scene) return std::move(*news.scene);
-    if (!news.error.empty()) throw InputError(news.error);
+    Results results = exchange.take();
+    throwFailure(results);
+    for (Result& result : results.queue) {
+      if (auto* scene = std::get_if<ViewedScene>(&result)) return std::move(*scene);
+    }
+    if (!results.status.error.empty()) throw InputError(results.status.error);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
 }
@@ -197,7 +199,7 @@ Motion motionOf(const std::string& name, double period, const RenderOptions& opt
 MotionFigures runMotion(const MotionPlan& plan, const std::function<bool(double fraction)>& goOn) {
   Exchange exchange;
   TracingThread thread(plan.view, exchange);
-  exchange.load(plan.view.render);
+  exchange.request(&Requests::load, {plan.view.render});
   ViewState state;
   state.sides[0] = plan.view.render;
   showScene(state, awaitScene(exchange));
@@ -205,7 +207,8 @@ MotionFigures runMotion(const MotionPlan& plan, const std::function<bool(double 
   state.posed = true;
   const CameraPose start = state.pose;
   MotionFigures figures;
-  std::deque<Wish> wishes;
+  std::deque<Asked> unanswered;
+  uint64_t asked = 0;
   const int all = plan.warmUp + plan.pictures;
   int seen = 0;
   const double begin = steadyMilliseconds();
@@ -221,14 +224,14 @@ MotionFigures runMotion(const MotionPlan& plan, const std::function<bool(double 
     if (now >= next) {
       plan.move(state, start, 1e-3 * (now - begin));
       const bool kept = isDue(figures, plan, std::min(figures.pictures + 1, plan.pictures));
-      wishes.push_back(
-          {exchange.ask(tracedSides(state), plan.size, true, kept), now, renderOptionsOf(state, 0)});
+      exchange.request(&Requests::trace, {++asked, tracedSides(state), plan.size, true, kept});
+      unanswered.push_back({asked, now, renderOptionsOf(state, 0)});
       next = std::max(next + plan.intervalMs, now);
     }
-    Delivery news = exchange.take();
-    if (news.failure) std::rethrow_exception(news.failure);
-    if (!news.error.empty()) throw RenderError(news.error);
-    for (TracedPicture& picture : news.pictures) {
+    Results results = exchange.take();
+    throwFailure(results);
+    if (!results.status.error.empty()) throw RenderError(results.status.error);
+    for (TracedPicture& picture : results.pictures) {
       const double at = steadyMilliseconds();
       ++seen;
       if (seen == plan.warmUp) {
@@ -236,10 +239,10 @@ MotionFigures runMotion(const MotionPlan& plan, const std::function<bool(double 
         cpuBefore = thread.cpuMs();
       }
       const bool counts = seen > plan.warmUp && seen <= all;
-      while (!wishes.empty() && wishes.front().number <= picture.request) {
-        if (counts) figures.latencyMs.push_back(at - wishes.front().at);
-        answered = std::move(wishes.front().options);
-        wishes.pop_front();
+      while (!unanswered.empty() && unanswered.front().number <= picture.request) {
+        if (counts) figures.latencyMs.push_back(at - unanswered.front().at);
+        answered = std::move(unanswered.front().options);
+        unanswered.pop_front();
       }
       if (counts) {
         figures.gapMs.push_back(at - last);
@@ -251,7 +254,7 @@ MotionFigures runMotion(const MotionPlan& plan, const std::function<bool(double 
         figures.kept.push_back({std::move(picture.image), answered});
       last = at;
     }
-    if (news.pictures.empty()) std::this_thread::sleep_for(std::chrono::microseconds(500));
+    if (results.pictures.empty()) std::this_thread::sleep_for(std::chrono::microseconds(500));
   }
   return figures;
 }

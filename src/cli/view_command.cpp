@@ -78,7 +78,7 @@ int runView(const ViewOptions& asked) {
     });
   };
   const auto end = [&] {
-    exchange.quit();
+    exchange.request([](Requests& r) { r.quit = true; });
     if (!tracing.joinable()) return;
     const bool failed = std::uncaught_exceptions() > 0;
     std::future<void> end = ended.get_future();

@@ -22,94 +22,37 @@ bool differInCameraAlone(const RenderOptions& a, const RenderOptions& b) {
   return !drawsTheSame(a, b) && drawsTheSame(fixed(a), fixed(b));
 }
 
+void throwFailure(const Results& results) {
+  for (const Result& result : results.queue) {
+    if (const auto* failure = std::get_if<std::exception_ptr>(&result)) std::rethrow_exception(*failure);
+  }
+}
+
 void Exchange::setWake(std::function<void()> wake) {
   const std::lock_guard lock(mutex_);
   wake_ = std::move(wake);
 }
 
-void Exchange::wake() {
-  const std::lock_guard lock(mutex_);
-  if (wake_) wake_();
-}
-
-void Exchange::order(const std::function<void(Orders&)>& change) {
+void Exchange::request(const std::function<void(Requests&)>& change) {
   {
     const std::lock_guard lock(mutex_);
-    change(orders_);
+    change(requests_);
+    ending_ = ending_ || requests_.quit;
+    waiting_ = true;
   }
-  ordered_.notify_all();
+  requested_.notify_all();
 }
 
-void Exchange::inform(const std::function<void(Delivery&)>& change) {
-  {
-    const std::lock_guard lock(mutex_);
-    change(delivery_);
-  }
-  wake();
+void Exchange::wakeTracer() {
+  request([](Requests&) {});
 }
 
-uint64_t Exchange::ask(std::vector<RenderOptions> sides, glm::ivec2 size, bool moving, bool values) {
-  uint64_t number = 0;
-  order([&](Orders& o) {
-    number = ++requests_;
-    o.request = TraceRequest{number, std::move(sides), size, moving, values};
-  });
-  return number;
-}
-
-void Exchange::load(const RenderOptions& options) {
-  order([&](Orders& o) {
-    o.load = options;
-    delivery_.error.clear();
-  });
-}
-
-void Exchange::cancelLoad() {
-  order([](Orders& o) {
-    o.load.reset();
-    o.cancelLoad = true;
-  });
-}
-
-void Exchange::save(SaveRequest request) {
-  order([&](Orders& o) { o.saves.push_back(std::move(request)); });
-}
-
-void Exchange::saveModel(std::filesystem::path path) {
-  order([&](Orders& o) { o.model = std::move(path); });
-}
-
-void Exchange::pick(PickRequest request) {
-  order([&](Orders& o) { o.pick = request; });
-}
-
-void Exchange::makeThumbnails(std::vector<std::filesystem::path> environments) {
-  order([&](Orders& o) { o.thumbnails = std::move(environments); });
-}
-
-void Exchange::compareWith(std::filesystem::path reference) {
-  order([&](Orders& o) { o.reference = std::move(reference); });
-}
-
-void Exchange::quit() {
-  order([this](Orders& o) { o.quit = ending_ = true; });
-}
-
-Delivery Exchange::take() {
+Results Exchange::take() {
   const std::lock_guard lock(mutex_);
-  Delivery taken = std::move(delivery_);
-  for (const TracedPicture& picture : taken.pictures) {
+  for (const TracedPicture& picture : results_.pictures) {
     if (picture.shared.slot >= 0) taken_[picture.side][size_t(picture.shared.slot)] = true;
   }
-  // Members that describe a state stay until it changes.
-  delivery_ = {};
-  delivery_.load = taken.load;
-  delivery_.request = taken.request;
-  delivery_.resting = taken.resting;
-  delivery_.note = taken.note;
-  delivery_.error = taken.error;
-  delivery_.failure = taken.failure;
-  return taken;
+  return {std::exchange(results_.queue, {}), std::exchange(results_.pictures, {}), results_.status};
 }
 
 void Exchange::giveBack(size_t side, const SharedTexture& texture, void* done) {
@@ -121,32 +64,28 @@ void Exchange::giveBack(size_t side, const SharedTexture& texture, void* done) {
 std::pair<int, void*> Exchange::freeSlot(size_t side, bool together) {
   const std::lock_guard lock(mutex_);
   const auto waiting = std::ranges::find_if(
-      delivery_.pictures, [&](const TracedPicture& p) { return p.side == side && p.shared.slot >= 0; });
-  const int reserved = waiting != delivery_.pictures.end() ? waiting->shared.slot : -1;
+      results_.pictures, [&](const TracedPicture& p) { return p.side == side && p.shared.slot >= 0; });
+  const int reserved = waiting != results_.pictures.end() ? waiting->shared.slot : -1;
   for (int slot = 0; slot < int(kSlots); ++slot) {
     if (!taken_[side][size_t(slot)] && slot != reserved)
       return {slot, std::exchange(doneAt_[side][size_t(slot)], nullptr)};
   }
   if (reserved < 0) throw std::logic_error("the window holds all textures of a side");
-  std::erase_if(delivery_.pictures,
+  std::erase_if(results_.pictures,
                 [&](const TracedPicture& p) { return p.shared.slot >= 0 && (together || p.side == side); });
   return {reserved, std::exchange(doneAt_[side][size_t(reserved)], nullptr)};
 }
 
-Orders Exchange::wait(double seconds) {
+Requests Exchange::wait(double seconds) {
   std::unique_lock lock(mutex_);
-  const auto anything = [this] {
-    return orders_.request || orders_.load || orders_.cancelLoad || !orders_.saves.empty() || orders_.pick ||
-           orders_.model || orders_.reference || !orders_.thumbnails.empty() || orders_.quit || nudged_;
-  };
-  ordered_.wait_for(lock, std::chrono::duration<double>(seconds), anything);
-  nudged_ = false;
-  return std::exchange(orders_, {});
+  requested_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return waiting_; });
+  waiting_ = false;
+  return std::exchange(requests_, {});
 }
 
 bool Exchange::interrupted() const {
   const std::lock_guard lock(mutex_);
-  return orders_.request.has_value() || orders_.load.has_value() || ending_;
+  return requests_.trace || requests_.load || ending_;
 }
 
 bool Exchange::ending() const {
@@ -162,87 +101,24 @@ void Exchange::deliver(TracedPicture picture) {
 
 void Exchange::deliver(std::vector<TracedPicture> pictures) {
   if (pictures.empty()) return;
-  inform([&](Delivery& d) {
-    for (TracedPicture& picture : pictures) {
-      const auto old = std::ranges::find(d.pictures, picture.side, &TracedPicture::side);
-      if (old != d.pictures.end())
-        *old = std::move(picture);
-      else
-        d.pictures.push_back(std::move(picture));
-    }
-  });
-}
-
-void Exchange::deliver(ViewedScene scene) {
-  inform([&](Delivery& d) {
-    d.scene = std::move(scene);
-    d.posed.reset();
-    std::erase_if(d.pictures, [](const TracedPicture& picture) { return picture.file.empty(); });
-  });
-}
-
-void Exchange::deliver(PickAnswer answer) {
-  inform([&](Delivery& d) { d.pick = std::move(answer); });
-}
-
-void Exchange::deliver(EnvironmentThumbnail thumbnail) {
-  inform([&](Delivery& d) { d.thumbnails.push_back(std::move(thumbnail)); });
-}
-
-void Exchange::tellPosed(const PosedScene& posed) {
-  inform([&](Delivery& d) { d.posed = posed; });
-}
-
-void Exchange::tellLoad(LoadStatus status) {
-  inform([&](Delivery& d) { d.load = std::move(status); });
-}
-
-void Exchange::tellState(uint64_t request, bool resting) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (delivery_.request == request && delivery_.resting == resting) return;
-    delivery_.request = request;
-    delivery_.resting = resting;
+  const std::lock_guard lock(mutex_);
+  for (TracedPicture& picture : pictures) {
+    const auto old = std::ranges::find(results_.pictures, picture.side, &TracedPicture::side);
+    if (old != results_.pictures.end())
+      *old = std::move(picture);
+    else
+      results_.pictures.push_back(std::move(picture));
   }
-  wake();
+  if (wake_) wake_();
 }
 
-void Exchange::tellNote(std::string note) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (delivery_.note == note) return;
-    delivery_.note = std::move(note);
-  }
-  wake();
-}
-
-void Exchange::tellError(std::string error) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (delivery_.error == error) return;
-    delivery_.error = std::move(error);
-  }
-  wake();
-}
-
-void Exchange::tell(std::string message) {
-  inform([&](Delivery& d) { d.messages.push_back(std::move(message)); });
-}
-
-void Exchange::tellSaved(std::vector<SetNumber> set) {
-  inform([&](Delivery& d) { d.saved = std::move(set); });
-}
-
-void Exchange::fail(std::exception_ptr failure) {
-  inform([&](Delivery& d) { d.failure = std::move(failure); });
-}
-
-void Exchange::nudge() {
-  {
-    const std::lock_guard lock(mutex_);
-    nudged_ = true;
-  }
-  ordered_.notify_all();
+void Exchange::deliver(Result result) {
+  const std::lock_guard lock(mutex_);
+  // Pictures of the scene before are not shown.
+  if (std::holds_alternative<ViewedScene>(result))
+    std::erase_if(results_.pictures, [](const TracedPicture& picture) { return picture.file.empty(); });
+  results_.queue.push_back(std::move(result));
+  if (wake_) wake_();
 }
 
 }  // namespace fragtrace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The passage between the window's thread and the tracing thread: wishes one way, pictures and news the
-// other.
+// Between the window's thread and the tracing thread: requests one way, pictures and results the other.
 #pragma once
 
 #include <array>
@@ -11,6 +10,9 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "bvh/tree_boxes.h"
@@ -39,7 +41,7 @@ inline constexpr std::array kComparisonNames{"bar", "left", "right", "difference
 
 /// The picture that the window wants to show.
 struct TraceRequest {
-  uint64_t number = 0;               ///< counts requests
+  uint64_t number = 0;               ///< the window counts requests
   std::vector<RenderOptions> sides;  ///< one, both of the split view, or one a stage; with their cameras
   glm::ivec2 size{0};                ///< pixels
   bool moving = false;               ///< frames at the resolution that can be had now, rather than samples
@@ -133,6 +135,8 @@ struct LoadStatus {
   std::string name;
   std::string step;
   double fraction = 0.0;
+
+  bool operator==(const LoadStatus&) const = default;
 };
 
 /// A file to be made of what a side has accumulated, linear or as a display shows it, or of both sides.
@@ -182,33 +186,50 @@ struct EnvironmentThumbnail {
   Image image;
 };
 
-/// News for the window since it asked last.
-struct Delivery {
-  std::vector<TracedPicture> pictures;  ///< one per side at most
-  std::optional<ViewedScene> scene;     ///< a new one
-  std::optional<PickAnswer> pick;
-  std::optional<PosedScene> posed;
-  std::vector<EnvironmentThumbnail> thumbnails;
-  std::optional<std::vector<SetNumber>> saved;  ///< numbers that a model has just been written with
-  LoadStatus load;
-  uint64_t request = 0;               ///< the latest that the tracing thread has seen
-  bool resting = false;               ///< the tracing thread has nothing to do
-  std::string note;                   ///< reason why the tracing thread does not draw; empty: it does
-  std::string error;                  ///< why the latest request could not be met; empty if it was met
-  std::vector<std::string> messages;  ///< messages about the driver and about files written
-  std::exception_ptr failure;         ///< ends the program
+/// A model has been written with these numbers.
+struct SavedModel {
+  std::vector<SetNumber> set;
 };
 
-/// News for the tracing thread.
-struct Orders {
-  std::optional<TraceRequest> request;
-  std::optional<RenderOptions> load;
-  bool cancelLoad = false;
+/// A result for the window, which takes all of them in their order. A text is a message about the driver or
+/// about a file that was written; an exception ends the program.
+using Result = std::variant<ViewedScene, PosedScene, PickAnswer, EnvironmentThumbnail, SavedModel,
+                            std::string, std::exception_ptr>;
+
+/// The state of the tracing thread. Only the latest counts.
+struct TraceStatus {
+  LoadStatus load;
+  uint64_t request = 0;  ///< the latest that the tracing thread has seen
+  bool resting = false;  ///< the tracing thread has nothing to do
+  std::string note;      ///< reason why the tracing thread does not draw; empty: it does
+  std::string error;     ///< why the latest request could not be met; empty if it was met
+};
+
+/// Results for the window since it asked last.
+struct Results {
+  std::vector<Result> queue;
+  std::vector<TracedPicture> pictures;  ///< one per side at most
+  TraceStatus status;
+};
+
+/// Throws what the tracing thread failed with, if it did.
+void throwFailure(const Results& results);
+
+/// A scene to be loaded; none: the load is cancelled.
+struct LoadRequest {
+  std::optional<RenderOptions> options;
+};
+
+/// Requests for the tracing thread. Of each kind the latest counts, but all files are written.
+struct Requests {
+  std::optional<TraceRequest> trace;
+  std::optional<LoadRequest> load;
   std::vector<SaveRequest> saves;
   std::optional<std::filesystem::path> model;      ///< file to be written with the numbers that are set
   std::optional<std::filesystem::path> reference;  ///< file to be delivered as side B; empty: side B ends
   std::optional<PickRequest> pick;
-  std::vector<std::filesystem::path> thumbnails;  ///< environments of which small pictures are wanted
+  std::optional<std::vector<std::filesystem::path>>
+      thumbnails;  ///< environments of which small pictures are wanted
   bool quit = false;
 };
 
@@ -218,24 +239,18 @@ class Exchange {
   void setWake(std::function<void()> wake);
 
   // The window's thread.
-  uint64_t ask(std::vector<RenderOptions> sides, glm::ivec2 size, bool moving, bool values = true);
-  /// Loads a scene, and forgets earlier errors.
-  void load(const RenderOptions& options);
-  void cancelLoad();
-  void save(SaveRequest request);
-  /// Writes the scene's file, with the numbers that the latest request sets, to that path.
-  void saveModel(std::filesystem::path path);
-  void pick(PickRequest request);
-  void makeThumbnails(std::vector<std::filesystem::path> environments);
-  void compareWith(std::filesystem::path reference);
-  void quit();
-  Delivery take();
+  template <typename T>
+  void request(std::optional<T> Requests::*kind, T wanted) {
+    request([&](Requests& r) { r.*kind = std::move(wanted); });
+  }
+  void request(const std::function<void(Requests&)>& change);
+  Results take();
   /// The window shows a texture no longer, once the GLsync `done`, now the tracing thread's, is signalled.
   void giveBack(size_t side, const SharedTexture& texture, void* done);
 
   // The tracing thread.
-  /// Waits for orders, at most that long.
-  Orders wait(double seconds);
+  /// Waits for requests or wakeTracer(), at most that long.
+  Requests wait(double seconds);
   /// Returns true if drawing is to stop: a newer request waits, or the end.
   bool interrupted() const;
   bool ending() const;
@@ -246,33 +261,26 @@ class Exchange {
   void deliver(TracedPicture picture);
   /// The window gets these at once.
   void deliver(std::vector<TracedPicture> pictures);
-  void deliver(ViewedScene scene);
-  void deliver(PickAnswer answer);
-  void deliver(EnvironmentThumbnail thumbnail);
-  void tellPosed(const PosedScene& posed);
-  void tellLoad(LoadStatus status);
-  void tellState(uint64_t request, bool resting);
-  void tellNote(std::string note);
-  void tellError(std::string error);
-  void tell(std::string message);
-  void tellSaved(std::vector<SetNumber> set);
-  void fail(std::exception_ptr failure);
+  void deliver(Result result);
+  /// Sets a member of the status, and wakes the window if that changes it. Any thread may call it.
+  template <typename T>
+  void set(T TraceStatus::*member, std::type_identity_t<T> value) {
+    const std::lock_guard lock(mutex_);
+    if (results_.status.*member == value) return;
+    results_.status.*member = std::move(value);
+    if (wake_) wake_();
+  }
   /// Ends a wait() from a third thread.
-  void nudge();
+  void wakeTracer();
 
  private:
-  void wake();
-  void order(const std::function<void(Orders&)>& change);
-  void inform(const std::function<void(Delivery&)>& change);
-
   mutable std::mutex mutex_;
-  std::condition_variable ordered_;
+  std::condition_variable requested_;
   std::function<void()> wake_;
-  uint64_t requests_ = 0;
-  bool nudged_ = false;
+  bool waiting_ = false;  ///< something waits for the tracing thread
   bool ending_ = false;
-  Orders orders_;
-  Delivery delivery_;
+  Requests requests_;
+  Results results_;
   std::array<std::array<bool, kSlots>, kMostSides> taken_{};  ///< slots that the window reads
   std::array<std::array<void*, kSlots>, kMostSides> doneAt_{};
 };

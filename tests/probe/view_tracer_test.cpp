@@ -36,26 +36,34 @@ class Viewed : public testing::Test {
     options_.render.stages = stagesUpTo(Stage::Phong);  // without a preview, which one side has alone
     tracer_.emplace(options_, std::nullopt, exchange_);
     thread_ = std::thread([this] { tracer_->run({}); });
-    exchange_.load(options_.render);
+    exchange_.request(&Requests::load, {options_.render});
   }
   ~Viewed() override {
-    exchange_.quit();
+    exchange_.request([](Requests& r) { r.quit = true; });
     thread_.join();
   }
 
-  Delivery news() {
-    Delivery news = exchange_.take();
-    EXPECT_EQ(news.error, "");
-    if (news.failure) std::rethrow_exception(news.failure);
+  Results take() {
+    Results results = exchange_.take();
+    EXPECT_EQ(results.status.error, "");
+    throwFailure(results);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    return news;
+    return results;
+  }
+
+  void ask(std::vector<RenderOptions> sides, bool moving) {
+    exchange_.request(&Requests::trace, {++asked_, std::move(sides), kSize, moving});
   }
 
   /// The options of the scene once that is loaded, from in front of it.
   RenderOptions shown() {
-    std::optional<ViewedScene> scene;
-    while (!scene && !HasFailure()) scene = news().scene;
-    RenderOptions options = scene ? scene->options : RenderOptions{};
+    std::optional<RenderOptions> loaded;
+    while (!loaded && !HasFailure()) {
+      for (const Result& result : take().queue) {
+        if (const auto* scene = std::get_if<ViewedScene>(&result)) loaded = scene->options;
+      }
+    }
+    RenderOptions options = loaded.value_or(RenderOptions{});
     options.camera.overrides.position = glm::dvec3(0.0, 0.0, 4.0);
     return options;
   }
@@ -63,6 +71,7 @@ class Viewed : public testing::Test {
   gltf_test::TemporaryFolder folder_;
   ViewOptions options_;
   Exchange exchange_;
+  uint64_t asked_ = 0;
   std::optional<ViewTracer> tracer_;
   std::thread thread_;
 };
@@ -76,13 +85,13 @@ TEST_F(Viewed, BothSidesOfAPlaybackShowTheSameMoment) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   for (int turn = 0; shown.size() < 6 && std::chrono::steady_clock::now() < end && !HasFailure(); ++turn) {
     side.selection.animationTime = 1e-3 * (turn % 2000);
-    exchange_.ask({side, side}, kSize, true);
-    const Delivery delivery = news();
-    if (delivery.pictures.empty()) continue;
-    ASSERT_EQ(delivery.pictures.size(), 2u) << "one side alone has a new picture";
-    EXPECT_EQ(delivery.pictures[0].request, delivery.pictures[1].request);
-    EXPECT_EQ(delivery.pictures[0].image.values, delivery.pictures[1].image.values);
-    shown.push_back(delivery.pictures[0].image);
+    ask({side, side}, true);
+    const Results results = take();
+    if (results.pictures.empty()) continue;
+    ASSERT_EQ(results.pictures.size(), 2u) << "one side alone has a new picture";
+    EXPECT_EQ(results.pictures[0].request, results.pictures[1].request);
+    EXPECT_EQ(results.pictures[0].image.values, results.pictures[1].image.values);
+    shown.push_back(results.pictures[0].image);
   }
   ASSERT_EQ(shown.size(), 6u);
   EXPECT_NE(shown.front().values, shown.back().values) << "nothing moves";
@@ -93,13 +102,13 @@ TEST_F(Viewed, ARestingPictureBecomesSharpWhenItsEdgesAreSmooth) {
   side.sampling.spp = 8;
   const auto next = [&] {
     for (;;) {
-      Delivery delivery = news();
-      if (!delivery.pictures.empty() || HasFailure()) return std::move(delivery.pictures);
+      Results results = take();
+      if (!results.pictures.empty() || HasFailure()) return std::move(results.pictures);
     }
   };
-  exchange_.ask({side}, kSize, true);
+  ask({side}, true);
   ASSERT_EQ(next().at(0).size, kSize / 4);
-  exchange_.ask({side}, kSize, false);
+  ask({side}, false);
   auto before = std::chrono::steady_clock::now();
   std::vector<TracedPicture> pictures = next();
   while (pictures.at(0).size != kSize) {

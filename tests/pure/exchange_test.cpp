@@ -17,32 +17,26 @@
 namespace fragtrace {
 namespace {
 
-TEST(Exchange, OnlyTheLatestWishCounts) {
+TEST(Exchange, OnlyTheLatestRequestOfAKindCounts) {
   Exchange exchange;
-  exchange.ask({RenderOptions{}}, {10, 10}, true);
+  exchange.request(&Requests::trace, {1, {RenderOptions{}}, {10, 10}, true});
   EXPECT_TRUE(exchange.interrupted());
-  const uint64_t last = exchange.ask({RenderOptions{}}, {20, 10}, false);
-  const Orders orders = exchange.wait(0.0);
-  ASSERT_TRUE(orders.request);
-  EXPECT_EQ(orders.request->number, last);
-  EXPECT_EQ(orders.request->size, glm::ivec2(20, 10));
+  exchange.request(&Requests::trace, {2, {RenderOptions{}}, {20, 10}, false});
+  exchange.request(&Requests::load, {RenderOptions{}});
+  exchange.request(&Requests::load, {});
+  const Requests requests = exchange.wait(0.0);
+  ASSERT_TRUE(requests.trace && requests.load);
+  EXPECT_EQ(requests.trace->number, 2u);
+  EXPECT_EQ(requests.trace->size, glm::ivec2(20, 10));
+  EXPECT_FALSE(requests.load->options) << "the load is cancelled";
   EXPECT_FALSE(exchange.interrupted());
-  EXPECT_FALSE(exchange.wait(0.0).request);
-}
-
-TEST(Exchange, ANewLoadForgetsTheErrorOfTheOneBefore) {
-  Exchange exchange;
-  exchange.tellError("it is no scene");
-  EXPECT_EQ(exchange.take().error, "it is no scene");
-  EXPECT_EQ(exchange.take().error, "it is no scene");
-  exchange.load({});
-  EXPECT_EQ(exchange.take().error, "");
+  EXPECT_FALSE(exchange.wait(0.0).trace);
 }
 
 TEST(Exchange, FilesToBeWrittenAreAllKept) {
   Exchange exchange;
-  exchange.save({"a.png"});
-  exchange.save({"b.exr"});
+  for (const char* name : {"a.png", "b.exr"})
+    exchange.request([&](Requests& r) { r.saves.push_back({name}); });
   EXPECT_FALSE(exchange.interrupted());
   EXPECT_EQ(exchange.wait(0.0).saves.size(), 2u);
   EXPECT_TRUE(exchange.wait(0.0).saves.empty());
@@ -58,10 +52,10 @@ TEST(Exchange, OfEachSideOnlyTheLatestPictureIsDelivered) {
       exchange.deliver(std::move(picture));
     }
   }
-  const Delivery delivery = exchange.take();
-  ASSERT_EQ(delivery.pictures.size(), 2u);
-  EXPECT_EQ(delivery.pictures[0].request, 2u);
-  EXPECT_EQ(delivery.pictures[1].request, 2u);
+  const Results results = exchange.take();
+  ASSERT_EQ(results.pictures.size(), 2u);
+  EXPECT_EQ(results.pictures[0].request, 2u);
+  EXPECT_EQ(results.pictures[1].request, 2u);
   EXPECT_TRUE(exchange.take().pictures.empty());
 }
 
@@ -69,21 +63,27 @@ TEST(Exchange, PicturesOfTheSceneBeforeAreForgotten) {
   Exchange exchange;
   exchange.deliver(TracedPicture{});
   exchange.deliver(ViewedScene{});
-  const Delivery delivery = exchange.take();
-  EXPECT_TRUE(delivery.scene);
-  EXPECT_TRUE(delivery.pictures.empty());
+  const Results results = exchange.take();
+  ASSERT_EQ(results.queue.size(), 1u);
+  EXPECT_TRUE(std::holds_alternative<ViewedScene>(results.queue[0]));
+  EXPECT_TRUE(results.pictures.empty());
 }
 
-TEST(Exchange, StatesStayUntilTheyChangeAndMessagesComeOnce) {
+TEST(Exchange, TheStatusStaysUntilItChangesAndResultsComeOnceInTheirOrder) {
   Exchange exchange;
-  exchange.tellNote("compiling");
-  exchange.tellError("wrong");
-  exchange.tell("once");
-  EXPECT_EQ(exchange.take().messages.size(), 1u);
-  const Delivery again = exchange.take();
-  EXPECT_TRUE(again.messages.empty());
-  EXPECT_EQ(again.note, "compiling");
-  EXPECT_EQ(again.error, "wrong");
+  exchange.set(&TraceStatus::note, "compiling");
+  exchange.set(&TraceStatus::error, "wrong");
+  exchange.deliver("once");
+  exchange.deliver(PosedScene{});
+  exchange.deliver("again");
+  const std::vector<Result> queue = exchange.take().queue;
+  ASSERT_EQ(queue.size(), 3u);
+  EXPECT_EQ(std::get<std::string>(queue[0]), "once");
+  EXPECT_EQ(std::get<std::string>(queue[2]), "again");
+  const Results again = exchange.take();
+  EXPECT_TRUE(again.queue.empty());
+  EXPECT_EQ(again.status.note, "compiling");
+  EXPECT_EQ(again.status.error, "wrong");
 }
 
 /// Whatever the two threads do in turn, what is drawn to is neither shown nor waited for.
@@ -128,23 +128,23 @@ TEST(Exchange, NothingIsLostBetweenTwoThreads) {
       TracedPicture picture;
       picture.shared.slot = exchange.freeSlot(0, false).first;
       exchange.deliver(std::move(picture));
-      exchange.tell(std::to_string(i));
+      exchange.deliver(std::to_string(i));
     }
     isDone = true;
   });
-  std::vector<std::string> messages;
+  std::vector<Result> messages;
   uint64_t asked = 0;
   for (bool wasDone = false; !wasDone;) {
     wasDone = isDone;
-    asked = exchange.ask({RenderOptions{}}, {1, 1}, false);
-    Delivery news = exchange.take();
-    for (const TracedPicture& picture : news.pictures) exchange.giveBack(0, picture.shared, nullptr);
-    std::ranges::move(news.messages, std::back_inserter(messages));
+    exchange.request(&Requests::trace, {++asked, {RenderOptions{}}, {1, 1}, false});
+    Results results = exchange.take();
+    for (const TracedPicture& picture : results.pictures) exchange.giveBack(0, picture.shared, nullptr);
+    std::ranges::move(results.queue, std::back_inserter(messages));
   }
   tracer.join();
   ASSERT_EQ(messages.size(), kMessages);
-  EXPECT_EQ(messages.back(), std::to_string(kMessages - 1));
-  EXPECT_EQ(exchange.wait(0.0).request->number, asked);
+  EXPECT_EQ(std::get<std::string>(messages.back()), std::to_string(kMessages - 1));
+  EXPECT_EQ(exchange.wait(0.0).trace->number, asked);
 }
 
 /// Else the window would show an old picture beside a new one.
@@ -166,19 +166,21 @@ TEST(Exchange, PicturesThatAreShownTogetherGiveWayTogether) {
   }
 }
 
-TEST(Exchange, WakesTheWindowForNewsAndTheTracerForOrders) {
+TEST(Exchange, WakesTheWindowForResultsAndTheTracerForRequests) {
   Exchange exchange;
   std::atomic<int> wakes = 0;
   exchange.setWake([&] { ++wakes; });
-  exchange.tellState(1, true);
-  exchange.tellState(1, true);
+  exchange.set(&TraceStatus::resting, true);
+  exchange.set(&TraceStatus::resting, true);
   EXPECT_EQ(wakes, 1);
-  std::thread window([&] { exchange.quit(); });
+  exchange.deliver("a message");
+  EXPECT_EQ(wakes, 2);
+  std::thread window([&] { exchange.request([](Requests& r) { r.quit = true; }); });
   EXPECT_TRUE(exchange.wait(60.0).quit);
   window.join();
   EXPECT_TRUE(exchange.ending());
-  exchange.nudge();
-  EXPECT_FALSE(exchange.wait(60.0).request);
+  exchange.wakeTracer();
+  EXPECT_FALSE(exchange.wait(60.0).trace);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ void SceneLoader::start(const RenderOptions& options) {
     const auto progress = [&](const std::string& step, double fraction) {
       const std::lock_guard lock(job->mutex);
       if (job->cancelled) throw Cancelled();
-      exchange.tellLoad({true, options.scene.filename().string(), step, fraction});
+      exchange.set(&TraceStatus::load, {true, options.scene.filename().string(), step, fraction});
     };
     try {
       SceneBefore before;
@@ -78,7 +78,7 @@ void SceneLoader::start(const RenderOptions& options) {
       const std::lock_guard lock(job->mutex);
       job->result = std::move(result);
     }
-    exchange.nudge();
+    exchange.wakeTracer();
     --*threads;
   }).detach();
 }

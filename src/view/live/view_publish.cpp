@@ -101,7 +101,7 @@ bool ViewTracer::show(Side& side, bool past, const std::function<bool()>& goOn) 
   } catch (const RenderError& error) {
     if (!filtered) throw;
     tracer.renderer->use(tracer.variant);  // the renderer may have drawn a layer
-    exchange_.tellError(error.what());
+    exchange_.set(&TraceStatus::error, error.what());
     complete = maker_->show(*side.film, {}, side.options, tracer, side.view, side.memory, into, goOn);
   }
   if (complete) side.shownIn = slot;
@@ -118,8 +118,9 @@ void ViewTracer::count(Side& side) {
   const glm::vec3 totals = maker_->count(*side.film);
   if (side.times.renderMs > 0.0) side.megaRaysPerSecond = double(totals.y) / side.times.renderMs / 1000.0;
   if (totals.z > 0.0f)
-    exchange_.tellError("the driver ended loops early in " + std::to_string(int64_t(totals.z)) +
-                        " pixels; the picture is wrong");
+    exchange_.set(&TraceStatus::error, "the driver ended loops early in " +
+                                           std::to_string(int64_t(totals.z)) +
+                                           " pixels; the picture is wrong");
 }
 
 std::optional<TracedPicture> ViewTracer::pictureOf(Side& side) {
@@ -190,12 +191,12 @@ void ViewTracer::saveBoth(const SaveRequest& request) {
   std::array<ComposedSide, 2> sides;
   for (size_t i = 0; i < 2; ++i) {
     if (i < sides_.size()) {
-      if (!sides_[i].program) return exchange_.tell("not written: one of the sides draws no picture");
+      if (!sides_[i].program) return exchange_.deliver("not written: one of the sides draws no picture");
       RenderOptions shown = sides_[i].options;
       shown.output.file = request.path;
       sides[i] = {seenOf(sides_[i]), showsColors(shown), pageOf(shown)};
     } else {
-      if (!reference_) return exchange_.tell("not written: there is one side alone");
+      if (!reference_) return exchange_.deliver("not written: there is one side alone");
       sides[i] = {*reference_, false};
     }
   }
@@ -209,12 +210,12 @@ void ViewTracer::saveBoth(const SaveRequest& request) {
                          {request.bar, request.both == CompareMode::Difference, request.differenceStops,
                           request.exposure, request.toneMap}),
                {});
-  exchange_.tell("wrote " + request.path.string());
+  exchange_.deliver("wrote " + request.path.string());
 }
 
 void ViewTracer::save(const SaveRequest& request) {
   Side& side = sides_[std::min(request.side, sides_.size() - 1)];
-  if (!side.program) return exchange_.tell("not written: no picture is drawn");
+  if (!side.program) return exchange_.deliver("not written: no picture is drawn");
   try {
     if (request.both) return saveBoth(request);
     RenderOptions options = side.options;
@@ -234,9 +235,9 @@ void ViewTracer::save(const SaveRequest& request) {
           image, {settingsText(options, *loaded_, side.program->tracer), options.sampling.seed,
                   options.sampling.sampleOffset, side.samples, totals.fewestSamples == totals.mostSamples});
     writePicture(options, image, treeLines(options, *loaded_, side.view.camera, pixels.size));
-    exchange_.tell("wrote " + request.path.string());
+    exchange_.deliver("wrote " + request.path.string());
   } catch (const RenderError& error) {
-    exchange_.tellError(error.what());
+    exchange_.set(&TraceStatus::error, error.what());
   }
 }
 
@@ -252,7 +253,7 @@ void ViewTracer::takeReference(const std::filesystem::path& path) {
     reference_ = picture.image;
     exchange_.deliver(std::move(picture));
   } catch (const std::exception& error) {
-    exchange_.tell(error.what());
+    exchange_.deliver(error.what());
   }
 }
 

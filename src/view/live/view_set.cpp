@@ -46,13 +46,13 @@ void ViewTracer::saveModel(const std::filesystem::path& path) {
   const std::vector<SetNumber>& set = request_.sides.front().selection.set;
   try {
     writeChanged(loadedOptions_.scene, path, set);
-    exchange_.tellSaved(set);
-    exchange_.tell("wrote " + path.string());
+    exchange_.deliver(SavedModel{set});
+    exchange_.deliver("wrote " + path.string());
     if (const std::string light = lightToName(loadedOptions_, *loaded_); !light.empty())
-      exchange_.tell("the emission that was set decides how that file is lit: render it with " + light +
-                     " to see it as here");
+      exchange_.deliver("the emission that was set decides how that file is lit: render it with " + light +
+                        " to see it as here");
   } catch (const std::exception& error) {
-    exchange_.tell(std::string("not written: ") + error.what());
+    exchange_.deliver(std::string("not written: ") + error.what());
   }
 }
 

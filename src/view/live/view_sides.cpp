@@ -22,7 +22,7 @@ RenderOptions ViewTracer::withFilter(RenderOptions options) {
   try {
     oidn_ = openDenoiser(options);
   } catch (const UsageError& error) {
-    exchange_.tellError(error.what());
+    exchange_.set(&TraceStatus::error, error.what());
     options.output.denoise = Denoise::Variance;
   }
   return options;
@@ -76,7 +76,7 @@ View ViewTracer::viewOf(const RenderOptions& options) {
     camera = chooseCamera(loaded_->scene.cameras, options.camera.index, options.camera.overrides,
                           loaded_->scene.bounds, framedAspect(loadedOptions_));
   } catch (const UsageError& error) {
-    exchange_.tellError(error.what());
+    exchange_.set(&TraceStatus::error, error.what());
   }
   return makeView(options, *loaded_, camera);
 }
@@ -109,11 +109,11 @@ void ViewTracer::preview(Side& side, const RenderOptions& wanted) {
 void ViewTracer::tellWork(const std::string& what) {
   switch (shows_.load()) {
     case Shows::Nothing:
-      return exchange_.tellNote(what);
+      return exchange_.set(&TraceStatus::note, what);
     case Shows::Preview:
-      return exchange_.tellNote(what + " (this is a preview in Blinn-Phong)");
+      return exchange_.set(&TraceStatus::note, what + " (this is a preview in Blinn-Phong)");
     case Shows::Picture:
-      return exchange_.tellNote(what + " (the last picture stays meanwhile)");
+      return exchange_.set(&TraceStatus::note, what + " (the last picture stays meanwhile)");
   }
 }
 
@@ -126,9 +126,9 @@ std::shared_ptr<ViewProgram> ViewTracer::programFor(const RenderOptions& options
   std::shared_ptr<ViewProgram> program = aside ? programs_->soon(options) : programs_->of(options);
   if (!program) return program;
   for (const std::string& message : std::exchange(program->driverLog, {}))
-    exchange_.tell("driver: " + message);
-  exchange_.tellNote({});
-  exchange_.tellError(program->error.empty() ? loadError_ : program->error);
+    exchange_.deliver("driver: " + message);
+  exchange_.set(&TraceStatus::note, {});
+  exchange_.set(&TraceStatus::error, program->error.empty() ? loadError_ : program->error);
   // The driver's log would only repeat this error.
   if (!program->error.empty()) driverLog_->take();
   return program;
@@ -149,7 +149,7 @@ void ViewTracer::takeCompiled() {
 void ViewTracer::noteAnswered() {
   if (awaitsProgram()) return;
   answered_ = request_.number;
-  exchange_.tellNote({});
+  exchange_.set(&TraceStatus::note, {});
 }
 
 }  // namespace fragtrace

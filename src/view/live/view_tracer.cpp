@@ -47,7 +47,7 @@ ViewTracer::ViewTracer(const ViewOptions& start, std::optional<OidnLibrary> oidn
       thumbnails_(exchange),
       oidn_(std::move(oidn)),
       clock_(start.waitsForPasses) {
-  passOnWhatIsSaid([&exchange](const std::string& text) { exchange.tell(text); });
+  passOnWhatIsSaid([&exchange](const std::string& text) { exchange.deliver(text); });
 }
 
 void ViewTracer::run(const SharedContexts& shared) {
@@ -55,10 +55,10 @@ void ViewTracer::run(const SharedContexts& shared) {
     enterContext(shared);
     bool working = false;
     for (;;) {
-      Orders orders = exchange_.wait(working ? 0.0 : start_.watch ? kWatchSeconds : kLongWait);
-      if (orders.quit) break;
+      Requests requests = exchange_.wait(working ? 0.0 : start_.watch ? kWatchSeconds : kLongWait);
+      if (requests.quit) break;
       try {
-        obey(std::move(orders));
+        carryOut(std::move(requests));
         adoptScene();
         takeCompiled();
         watchFiles();
@@ -68,11 +68,12 @@ void ViewTracer::run(const SharedContexts& shared) {
         recover(error);
         working = true;
       }
-      exchange_.tellState(request_.number, !working && !request_.moving && !awaitsProgram());
+      exchange_.set(&TraceStatus::request, request_.number);
+      exchange_.set(&TraceStatus::resting, !working && !request_.moving && !awaitsProgram());
       tellDriver();
     }
   } catch (...) {
-    exchange_.fail(std::current_exception());
+    exchange_.deliver(std::current_exception());
   }
   loader_.cancel();
   thumbnails_.cancel();
@@ -95,9 +96,9 @@ void ViewTracer::enterContext(const SharedContexts& shared) {
   }
   compiles_ = shares_ && keepsCompiled(*context_) ? shared.compiles : std::nullopt;
   if (start_.render.output.verbose)
-    exchange_.tell(shares_ ? "pictures stay on the device: " + context_->renderer
-                           : "pictures are copied: they are drawn by " + context_->renderer + " (" +
-                                 context_->backend + ")");
+    exchange_.deliver(shares_ ? "pictures stay on the device: " + context_->renderer
+                              : "pictures are copied: they are drawn by " + context_->renderer + " (" +
+                                    context_->backend + ")");
   if (!context_->software) clock_.askDevice();
   resolution_ = controllerFor(context_->software);
   if (start_.movingMs)
@@ -111,7 +112,7 @@ void ViewTracer::enterContext(const SharedContexts& shared) {
 void ViewTracer::recover(ContextLost error) {
   for (;;) {
     if (++losses_ > kMostLosses) throw ContextLost(error);
-    exchange_.tell(std::string(error.what()) + "; drawing anew");
+    exchange_.deliver(std::string(error.what()) + "; drawing anew");
     try {
       leaveContext();
       enterContext({});
@@ -125,7 +126,7 @@ void ViewTracer::recover(ContextLost error) {
 
 void ViewTracer::makePrograms() {
   std::optional<CompileAside> aside;
-  if (compiles_) aside = CompileAside{*compiles_, [this] { exchange_.nudge(); }};
+  if (compiles_) aside = CompileAside{*compiles_, [this] { exchange_.wakeTracer(); }};
   programs_ = std::make_unique<ViewPrograms>(*context_, *loaded_, loadedOptions_, std::move(aside));
 }
 
@@ -141,34 +142,33 @@ void ViewTracer::leaveContext() {
 }
 
 void ViewTracer::tellDriver() {
-  for (const std::string& message : driverLog_->take()) exchange_.tell("driver: " + message);
+  for (const std::string& message : driverLog_->take()) exchange_.deliver("driver: " + message);
 }
 
-void ViewTracer::obey(Orders orders) {
-  if (orders.cancelLoad) {
-    loader_.cancel();
-    exchange_.tellLoad({});
-  }
-  if (orders.load) {
+void ViewTracer::carryOut(Requests requests) {
+  if (requests.load && requests.load->options) {
     loadError_.clear();
-    loader_.start(*orders.load);
+    loader_.start(*requests.load->options);
+  } else if (requests.load) {
+    loader_.cancel();
+    exchange_.set(&TraceStatus::load, {});
   }
-  if (orders.request && loaded_) adopt(*orders.request);
-  if (!orders.thumbnails.empty()) thumbnails_.make(orders.thumbnails, start_.render.limits.memoryBytes);
-  if (orders.reference) takeReference(*orders.reference);
-  for (SaveRequest& save : orders.saves) saves_.push_back(std::move(save));
-  if (orders.model && loaded_) saveModel(*orders.model);
-  if (orders.pick && loaded_) answer(*orders.pick);
+  if (requests.trace && loaded_) adopt(*requests.trace);
+  if (requests.thumbnails) thumbnails_.make(*requests.thumbnails, start_.render.limits.memoryBytes);
+  if (requests.reference) takeReference(*requests.reference);
+  for (SaveRequest& save : requests.saves) saves_.push_back(std::move(save));
+  if (requests.model && loaded_) saveModel(*requests.model);
+  if (requests.pick && loaded_) answer(*requests.pick);
 }
 
 void ViewTracer::adoptScene() {
   std::optional<LoadResult> result = loader_.take();
   if (!result) return;
-  exchange_.tellLoad({});
+  exchange_.set(&TraceStatus::load, {});
   if (result->error) {
     if (!loaded_) endIfHopeless(result->error, result->options.scene);
     loadError_ = whatFailed(result->error);
-    exchange_.tellError(loadError_);
+    exchange_.set(&TraceStatus::error, loadError_);
     return;
   }
   sides_.clear();
@@ -188,7 +188,7 @@ void ViewTracer::adoptScene() {
   loaded_->decoding = [this](size_t decoded, size_t count) { tellDecoded(decoded, count); };
   makePrograms();
   loadError_.clear();
-  exchange_.tellError({});
+  exchange_.set(&TraceStatus::error, {});
   ViewedScene viewed;
   viewed.options = result->options;
   viewed.camera = loaded_->camera;
@@ -286,15 +286,15 @@ void ViewTracer::pose(const TraceRequest& request) {
     if (!stats.treeRefitted && loaded_->scene.instances.empty())
       tree_ = refittable(loaded_->bvh, loaded_->scene);
     programs_->showPose(options);
-    exchange_.tellPosed({loaded_->scene.bounds, loaded_->environment.kind});
+    exchange_.deliver(PosedScene{loaded_->scene.bounds, loaded_->environment.kind});
     selected_.outlined.reset();
     if (!selected_.nodes.empty()) selected_.bounds = boundsOfNodes(loaded_->scene, selected_.nodes);
   } catch (const ContextLost&) {
     throw;
   } catch (const std::exception& error) {
-    exchange_.tellError(error.what());  // the picture shown stays
+    exchange_.set(&TraceStatus::error, error.what());  // the picture shown stays
   }
-  if (!sameNodes) exchange_.tellNote({});
+  if (!sameNodes) exchange_.set(&TraceStatus::note, {});
 }
 
 bool ViewTracer::relight(const TraceRequest& request) {
@@ -306,7 +306,7 @@ bool ViewTracer::relight(const TraceRequest& request) {
   SkyOptions& shown = loadedOptions_.light.sky;
   const SkyOptions& wanted = request.sides[0].light.sky;
   if (!shown.on || !wanted.on || airOf(shown) == airOf(wanted)) return false;
-  if (whyDark(shown).empty() && !whyDark(wanted).empty()) exchange_.tell(whyDark(wanted));
+  if (whyDark(shown).empty() && !whyDark(wanted).empty()) exchange_.deliver(whyDark(wanted));
   shown = wanted;
   const auto shines = [&] {
     const std::optional<SunDisc>& sun = loaded_->environment.sun;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The viewer's tracing thread: a context and renderers of its own, wishes in, finished pictures out.
+// The viewer's tracing thread: a context and renderers of its own, requests in, finished pictures out.
 #pragma once
 
 #include <atomic>
@@ -74,7 +74,7 @@ class ViewTracer {
   void enterContext(const SharedContexts& shared);
   void leaveContext();
   void recover(ContextLost error);
-  void obey(Orders orders);
+  void carryOut(Requests requests);
   void adoptScene();
   void watchFiles();
   void rebuildPrograms();

@@ -40,9 +40,15 @@ class Window {
   void open();
   void wait();
   void take();
-  void adoptScene(ViewedScene scene);
+  void take(ViewedScene scene);
+  void take(const PosedScene& posed);
+  void take(PickAnswer answer);
+  void take(const EnvironmentThumbnail& thumbnail);
+  void take(SavedModel saved);
+  void take(const std::string& message);
+  void take(const std::exception_ptr&) {}  ///< throwFailure() has thrown it
   std::vector<ChangedNumber> numbersSavedIn(const ViewedScene& scene) const;
-  void takeState(const Delivery& news);
+  void takeStatus(const TraceStatus& status);
   void forgetBrokenEnvironment();
   void ask();
   void readValues();
@@ -56,9 +62,7 @@ class Window {
   void takeReference(const TracedPicture& picture);
   void pick(const Invocation& invocation);
   void level(const PickAnswer& answer);
-  void takePick(PickAnswer answer);
   void compareSizes();
-  void takeThumbnail(const EnvironmentThumbnail& thumbnail);
   void askForThumbnails();
   void execute(const Invocation& invocation);
   void close();

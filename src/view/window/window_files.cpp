@@ -21,7 +21,7 @@ void Window::openFiles(const std::vector<std::filesystem::path>& files, bool isA
   std::vector<std::filesystem::path> toLoad;
   for (const std::filesystem::path& file : files) {
     if (state_.split && mayBeReference(file))
-      exchange_.compareWith(file);
+      exchange_.request(&Requests::reference, file);
     else
       toLoad.push_back(file);
   }
@@ -52,7 +52,7 @@ void Window::save(const std::filesystem::path& name) {
   request.differenceStops = state_.differenceStops;
   request.exposure = o.output.exposure.value_or(0.0);
   request.toneMap = o.output.toneMap;
-  exchange_.save(std::move(request));
+  exchange_.request([&](Requests& r) { r.saves.push_back(std::move(request)); });
 }
 
 /// To open, beside the scene that is shown; to save a picture, where one was saved last; to save the model,
@@ -100,7 +100,7 @@ void Window::takeFile() {
   if (asked_ == Command::SaveModel) {
     std::error_code none;
     savesShown_ = std::filesystem::equivalent(file, state_.scene->options.scene, none);
-    return exchange_.saveModel(file);
+    return exchange_.request(&Requests::model, file);
   }
   savedFolder_ = file.parent_path();
   save(file);

@@ -119,7 +119,7 @@ void Window::open() {
   glm::ivec2 size(0);
   glfwGetFramebufferSize(window_.get(), &size.x, &size.y);
   state_.size = layoutOf(glm::vec2(size), interface_.scale(), {.panel = state_.panel}).picture;
-  if (!start_.reference.empty()) exchange_.compareWith(start_.reference);
+  if (!start_.reference.empty()) exchange_.request(&Requests::reference, start_.reference);
   if (start_.options.scene.empty()) return;
   load(start_.options);
   facts_.load = {true, start_.options.scene.filename().string(), kStarting, 0.0};
@@ -173,29 +173,30 @@ void Window::say(const std::string& message) {
 }
 
 void Window::take() {
-  Delivery news = exchange_.take();
-  if (news.failure) std::rethrow_exception(news.failure);
-  if (news.saved) {
-    saved_ = std::move(*news.saved);
-    // The window then shows the numbers of the file, in the light that it has.
-    if (std::exchange(savesShown_, false) && state_.scene) {
-      RenderOptions again = state_.scene->options;
-      nameLight(again, *state_.scene);
-      load(again);
-    }
-  }
-  if (news.scene) adoptScene(std::move(*news.scene));
-  takePictures(std::move(news.pictures));
-  if (news.posed && state_.scene) {
-    state_.scene->bounds = news.posed->bounds;
-    state_.scene->surroundings = news.posed->surroundings;
-  }
-  for (const EnvironmentThumbnail& thumbnail : news.thumbnails) takeThumbnail(thumbnail);
-  if (news.pick) takePick(std::move(*news.pick));
-  for (const std::string& message : news.messages) say(withControls(message));
+  Results results = exchange_.take();
+  throwFailure(results);
+  for (Result& result : results.queue) std::visit([this](auto& one) { take(std::move(one)); }, result);
+  takePictures(std::move(results.pictures));
   if (const std::string errors = takeGlfwErrors(); !errors.empty()) say("window: " + errors);
-  takeState(news);
+  takeStatus(results.status);
   takeFile();
+}
+
+void Window::take(const std::string& message) { say(withControls(message)); }
+
+void Window::take(const PosedScene& posed) {
+  if (!state_.scene) return;
+  state_.scene->bounds = posed.bounds;
+  state_.scene->surroundings = posed.surroundings;
+}
+
+/// The window then shows the numbers of the file, in the light that it has.
+void Window::take(SavedModel saved) {
+  saved_ = std::move(saved.set);
+  if (!std::exchange(savesShown_, false) || !state_.scene) return;
+  RenderOptions again = state_.scene->options;
+  nameLight(again, *state_.scene);
+  load(again);
 }
 
 /// The numbers that a model was written with, and that the scene that is shown has by now, since it was read
@@ -211,7 +212,7 @@ std::vector<ChangedNumber> Window::numbersSavedIn(const ViewedScene& scene) cons
   return changed;
 }
 
-void Window::adoptScene(ViewedScene scene) {
+void Window::take(ViewedScene scene) {
   const bool another = !state_.scene || !sameScene(state_.scene->options, scene.options);
   const bool otherNodes = !state_.scene || !sameNodes(state_.scene->options, scene.options);
   const std::vector<ChangedNumber> changed = numbersSavedIn(scene);
@@ -237,18 +238,17 @@ void Window::adoptScene(ViewedScene scene) {
   frames_ = kSettleFrames;
 }
 
-void Window::takeState(const Delivery& news) {
-  report_.seen = news.request;
-  const bool changed = news.load.busy != facts_.load.busy || news.load.step != facts_.load.step ||
-                       news.load.fraction != facts_.load.fraction || news.note != facts_.note ||
-                       news.error != facts_.error || news.resting != facts_.resting;
+void Window::takeStatus(const TraceStatus& status) {
+  report_.seen = status.request;
+  const bool changed = status.load != facts_.load || status.note != facts_.note ||
+                       status.error != facts_.error || status.resting != facts_.resting;
   // The tracing thread may not know of the first load yet.
-  const bool silent = !news.load.busy && news.error.empty();
+  const bool silent = !status.load.busy && status.error.empty();
   if (!changed || (silent && !state_.scene && facts_.load.step == kStarting)) return;
-  facts_.load = news.load;
-  facts_.note = news.note;
-  if (news.error != facts_.error) facts_.errorClosed = false;
-  facts_.error = news.error;
+  facts_.load = status.load;
+  facts_.note = status.note;
+  if (status.error != facts_.error) facts_.errorClosed = false;
+  facts_.error = status.error;
   if (!facts_.error.empty() && !facts_.load.busy && state_.scene) {
     wanted_ = state_.scene->options;
     pasted_.reset();
@@ -258,7 +258,7 @@ void Window::takeState(const Delivery& news) {
     forgetBrokenEnvironment();
     glfwSetWindowTitle(window_.get(), windowTitle({}).c_str());
   }
-  facts_.resting = news.resting;
+  facts_.resting = status.resting;
   frames_ = std::max(frames_, 2);
 }
 
@@ -287,9 +287,8 @@ void Window::ask() {
   if (turned) changed_ = now;
   const bool moving = changed_ >= 0.0 && now - changed_ < kMovingSeconds;
   if (!other && !more && moving == askedMoving_) return;
-  const uint64_t number = exchange_.ask(sides, state_.size, moving);
-  report_.asked = number;
-  if (other) unanswered_.emplace_back(number, now);
+  exchange_.request(&Requests::trace, {++report_.asked, sides, state_.size, moving});
+  if (other) unanswered_.emplace_back(report_.asked, now);
   askedSides_ = std::move(sides);
   askedSize_ = state_.size;
   askedMoving_ = moving;

@@ -37,7 +37,8 @@ void Window::execute(const Invocation& invocation) {
     case Command::Level:
       return pick(invocation);
     case Command::SelectNode:
-      return exchange_.pick({.node = uint32_t(invocation.argument), .number = ++picksAsked_});
+      return exchange_.request(&Requests::pick,
+                               {.node = uint32_t(invocation.argument), .number = ++picksAsked_});
     case Command::Deselect:
       return deselect();
     case Command::CopyCommand:
@@ -64,7 +65,7 @@ void Window::execute(const Invocation& invocation) {
       return cancelLoad();
     case Command::Reload:
       // A reference that could not be read may be mended by now.
-      if (!state_.reference.empty()) exchange_.compareWith(state_.reference);
+      if (!state_.reference.empty()) exchange_.request(&Requests::reference, state_.reference);
       if (state_.scene || !wanted_.scene.empty()) load(state_.scene ? state_.scene->options : wanted_);
       return;
     case Command::AddBookmark:
@@ -83,7 +84,7 @@ void Window::execute(const Invocation& invocation) {
       return openFiles({invocation.file});
     case Command::DropReference:
       state_.reference.clear();
-      return exchange_.compareWith({});
+      return exchange_.request(&Requests::reference, {});
     case Command::Screenshot:
       return save(std::filesystem::absolute(freePictureName(state_.options().scene, ".png")));
     case Command::WriteExr:
@@ -120,7 +121,7 @@ void Window::deselect() {
   facts_.pick.reset();
   state_.selected = {};
   state_.selectedNode.reset();
-  exchange_.pick({.clear = true});
+  exchange_.request(&Requests::pick, {.clear = true});
 }
 
 /// Asks for what is under the cursor.
@@ -136,10 +137,10 @@ void Window::pick(const Invocation& invocation) {
     use = PickUse::Level;
   }
   if (use == PickUse::Select) ++picksAsked_;
-  exchange_.pick({.side = sideAt(state_, invocation.place),
-                  .place = magnifiedPlace(state_, invocation.place),
-                  .use = use,
-                  .number = picksAsked_});
+  exchange_.request(&Requests::pick, {.side = sideAt(state_, invocation.place),
+                                      .place = magnifiedPlace(state_, invocation.place),
+                                      .use = use,
+                                      .number = picksAsked_});
 }
 
 /// Turns the file, so that the plane through the point and the two that were measured between is level.
@@ -172,7 +173,8 @@ void Window::load(RenderOptions options) {
   wanted_ = options;
   pasted_.reset();
   facts_.error.clear();
-  exchange_.load(options);
+  exchange_.set(&TraceStatus::error, {});
+  exchange_.request(&Requests::load, {options});
 }
 
 /// Loads the light or the variant of an undone step, if another one is shown.
@@ -183,7 +185,8 @@ void Window::loadStep() {
 }
 
 void Window::cancelLoad() {
-  exchange_.cancelLoad();
+  exchange_.request(&Requests::load, {});
+  exchange_.set(&TraceStatus::load, {});
   facts_.load = {};
   pasted_.reset();
   giveUp(history_, state_);
@@ -315,7 +318,7 @@ void Window::takePictures(std::vector<TracedPicture> pictures) {
   compareSizes();
 }
 
-void Window::takeThumbnail(const EnvironmentThumbnail& thumbnail) {
+void Window::take(const EnvironmentThumbnail& thumbnail) {
   const Image& image = thumbnail.image;
   if (image.values.empty()) return;
   GlTexture texture = makeTexture(GL_TEXTURE_2D);
@@ -337,7 +340,7 @@ void Window::askForThumbnails() {
   wanted.emplace_back();
   if (!state_.scene->options.light.hdriFile.empty()) wanted.push_back(state_.scene->options.light.hdriFile);
   std::erase_if(wanted, [&](const auto& file) { return !askedThumbnails_.insert(file).second; });
-  if (!wanted.empty()) exchange_.makeThumbnails(std::move(wanted));
+  if (!wanted.empty()) exchange_.request(&Requests::thumbnails, std::move(wanted));
 }
 
 /// Makes the picture side B.
@@ -353,7 +356,7 @@ void Window::takeReference(const TracedPicture& picture) {
 }
 
 /// Escape may have taken the request back. News say for a while that nothing is there.
-void Window::takePick(PickAnswer answer) {
+void Window::take(PickAnswer answer) {
   frames_ = kSettleFrames;
   const bool awaited = answer.request.number > picksAnswered_;
   picksAnswered_ = std::max(picksAnswered_, answer.request.number);
