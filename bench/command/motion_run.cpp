@@ -166,7 +166,7 @@ Motion motionOf(const std::string& name, double period, const RenderOptions& opt
   if (name == "sun") {
     if (!options.light.sky.on) throw UsageError("--path sun: needs --sky");
     return [shareAt](ViewState& state, const CameraPose&, double s) {
-      SkyOptions& sky = state.sides[0].light.sky;
+      SkyOptions& sky = state.edit.shared.light.sky;
       placeSun(sky, {std::lerp(kLowSun, kHighSun, shareAt(s)), sunOf(sky).azimuth});
     };
   }
@@ -193,7 +193,7 @@ Motion motionOf(const std::string& name, double period, const RenderOptions& opt
   } else {
     path = pathThrough(name, period, options);
   }
-  return [path](ViewState& state, const CameraPose& start, double s) { state.pose = path(start, s); };
+  return [path](ViewState& state, const CameraPose& start, double s) { state.edit.pose = path(start, s); };
 }
 
 MotionFigures runMotion(const MotionPlan& plan, const std::function<bool(double fraction)>& goOn) {
@@ -201,11 +201,11 @@ MotionFigures runMotion(const MotionPlan& plan, const std::function<bool(double 
   TracingThread thread(plan.view, exchange);
   exchange.request(&Requests::load, {plan.view.render});
   ViewState state;
-  state.sides[0] = plan.view.render;
+  state.edit = editOf(plan.view.render);
   showScene(state, awaitScene(exchange));
   state.size = plan.size;
-  state.posed = true;
-  const CameraPose start = state.pose;
+  state.edit.posed = true;
+  const CameraPose start = state.edit.pose;
   MotionFigures figures;
   std::deque<Asked> unanswered;
   uint64_t asked = 0;

@@ -26,8 +26,8 @@ constexpr double kLowestSun = -18.0;    // degrees; it is night
 constexpr double kMostExposure = 32.0;  // either way; far beyond, pictures are not finite
 
 void setPose(ViewState& state, const CameraPose& pose) {
-  state.posed = state.posed || !(pose == state.pose);
-  state.pose = pose;
+  state.edit.posed = state.edit.posed || !(pose == state.edit.pose);
+  state.edit.pose = pose;
 }
 
 /// The place where the wheel was turned, in halves of the picture's height to the right and up; a drag zooms
@@ -42,7 +42,7 @@ glm::dvec2 fromMiddle(const ViewState& state, const Invocation& m) {
 /// Frames the selection, or the whole scene.
 void frame(ViewState& state, bool selection) {
   const BoundsDouble& bounds = selection ? state.selected : state.scene->bounds;
-  setPose(state, frameAll(state.pose, bounds, double(state.size.x) / state.size.y));
+  setPose(state, frameAll(state.edit.pose, bounds, double(state.size.x) / state.size.y));
 }
 
 CameraPose standardView(const CameraPose& pose, StandardViewOf view) {
@@ -61,19 +61,17 @@ CameraPose standardView(const CameraPose& pose, StandardViewOf view) {
 
 void chooseSceneCamera(ViewState& state, int index) {
   if (!state.scene || index < 0 || size_t(index) >= state.scene->cameras.size()) return;
-  state.sceneCamera = index;
-  for (RenderOptions& o : state.sides) {
-    o.camera.index = index;
-    o.camera.overrides = {};
-  }
-  state.pose = poseOf(state.scene->cameras[size_t(index)], state.scene->bounds);
-  state.posed = false;
+  state.edit.sceneCamera = index;
+  state.edit.shared.camera.index = index;
+  state.edit.shared.camera.overrides = {};
+  state.edit.pose = poseOf(state.scene->cameras[size_t(index)], state.scene->bounds);
+  state.edit.posed = false;
 }
 
 /// Moves on by `further` cameras in the file's order, and starts again at the end.
 void nextSceneCamera(ViewState& state, int further) {
   const int count = state.scene ? int(state.scene->cameras.size()) : 0;
-  if (count > 0) chooseSceneCamera(state, (std::max(state.sceneCamera, 0) + further + count) % count);
+  if (count > 0) chooseSceneCamera(state, (std::max(state.edit.sceneCamera, 0) + further + count) % count);
 }
 
 /// The filter that the viewer was started with.
@@ -89,23 +87,27 @@ void playOrPause(ViewState& state) {
   state.playback.playing = !state.playback.playing;
   // Seven pictures a pose would take too long.
   if (state.playback.playing) state.overview = false;
-  const double time = state.sides[0].selection.animationTime.value_or(0.0);
+  const double time = state.edit.shared.selection.animationTime.value_or(0.0);
   if (state.playback.playing && time >= animationLength(state)) showAnimation(state, shown, 0.0);
 }
 
 /// Shows a debug view by its number. Numbers beyond the last one begin again at the first.
 void showDebugView(ViewState& state, int number) {
   const int count = int(kDebugViewRows.size());
-  state.options().output.debugView = DebugView((number + count) % count);
+  state.side().debugView = DebugView((number + count) % count);
   state.overview = false;
 }
 
-/// Moves the sun by degrees to the left and down, as a drag turns the environment.
-void moveSun(SkyOptions& sky, const glm::dvec2& degrees) {
-  SunPlace sun = sunOf(sky);
+/// Turns the environment by degrees to the right, or moves the sun of a sky to the left and down.
+void turnEnvironment(LightOptions& light, const glm::dvec2& degrees) {
+  if (!light.sky.on) {
+    light.hdriRotationDegrees = std::remainder(light.hdriRotationDegrees + degrees.x, 360.0);
+    return;
+  }
+  SunPlace sun = sunOf(light.sky);
   sun.azimuth = std::remainder(sun.azimuth - degrees.x, 360.0);
   sun.elevation = std::clamp(sun.elevation - 0.5 * degrees.y, kLowestSun, 90.0);
-  placeSun(sky, sun);
+  placeSun(light.sky, sun);
 }
 
 /// Magnifies by steps; the place under the cursor stays there.
@@ -158,30 +160,31 @@ Invocation invocationOf(const Control& control, Invocation about) {
 // NOLINTNEXTLINE(readability-function-size): the table of what commands do
 bool apply(ViewState& state, const Invocation& m) {
   if (!isUsable(state, m.command)) return false;
-  RenderOptions& options = state.options();
+  SideOptions& side = state.side();
+  RenderOptions& shared = state.edit.shared;
   const double flown = state.flySpeed * m.seconds * m.argument;
   switch (m.command) {
     case Command::Orbit:
-      setPose(state, orbit(state.pose, kHalfTurn * m.drag.x, kHalfTurn * m.drag.y));
+      setPose(state, orbit(state.edit.pose, kHalfTurn * m.drag.x, kHalfTurn * m.drag.y));
       break;
     case Command::Pan:
-      setPose(state, pan(state.pose, {m.drag.x, -m.drag.y}));
+      setPose(state, pan(state.edit.pose, {m.drag.x, -m.drag.y}));
       break;
     case Command::Zoom:
-      setPose(state, zoomAt(state.pose, kZoomPerNotch * m.notches - kZoomPerHeight * m.drag.y,
+      setPose(state, zoomAt(state.edit.pose, kZoomPerNotch * m.notches - kZoomPerHeight * m.drag.y,
                             fromMiddle(state, m)));
       break;
     case Command::Roll:
-      setPose(state, roll(state.pose, kHalfTurn * m.drag.x));
+      setPose(state, roll(state.edit.pose, kHalfTurn * m.drag.x));
       break;
     case Command::FlyRight:
-      setPose(state, fly(state.pose, {flown, 0, 0}));
+      setPose(state, fly(state.edit.pose, {flown, 0, 0}));
       break;
     case Command::FlyUp:
-      setPose(state, fly(state.pose, {0, flown, 0}));
+      setPose(state, fly(state.edit.pose, {0, flown, 0}));
       break;
     case Command::FlyForward:
-      setPose(state, fly(state.pose, {0, 0, flown}));
+      setPose(state, fly(state.edit.pose, {0, 0, flown}));
       break;
     case Command::FrameAll:
       if (state.scene) frame(state, m.argument == 0 && !state.selected.empty());
@@ -190,20 +193,20 @@ bool apply(ViewState& state, const Invocation& m) {
       resetCamera(state);
       break;
     case Command::StandardView:
-      setPose(state, standardView(state.pose, StandardViewOf(m.argument)));
+      setPose(state, standardView(state.edit.pose, StandardViewOf(m.argument)));
       if (state.scene) frame(state, !state.selected.empty());
       break;
     case Command::Elevate:
-      setPose(state, orbit(state.pose, 0.0, 0.5 * kHalfTurn * m.argument));
+      setPose(state, orbit(state.edit.pose, 0.0, 0.5 * kHalfTurn * m.argument));
       break;
     case Command::RollQuarter:
-      setPose(state, roll(state.pose, 0.5 * kHalfTurn * m.argument));
+      setPose(state, roll(state.edit.pose, 0.5 * kHalfTurn * m.argument));
       break;
     case Command::OtherProjection:
-      setPose(state, withOtherProjection(state.pose));
+      setPose(state, withOtherProjection(state.edit.pose));
       break;
     case Command::Widen:
-      setPose(state, widen(state.pose, kWiden * m.argument));
+      setPose(state, widen(state.edit.pose, kWiden * m.argument));
       break;
     case Command::SceneCamera:
       chooseSceneCamera(state, m.argument);
@@ -213,47 +216,38 @@ bool apply(ViewState& state, const Invocation& m) {
       break;
     // Picture.
     case Command::ToggleStage:
-      options.stages.flip(size_t(m.argument));
+      side.stages.flip(size_t(m.argument));
       // In the overview, each picture has the stages up to its own.
       if (stageRows()[size_t(m.argument)].cumulative) state.overview = false;
       break;
     case Command::StagesUpTo:
-      options.stages = withStagesUpTo(options.stages, Stage(m.argument));
+      side.stages = withStagesUpTo(side.stages, Stage(m.argument));
       state.overview = false;
       break;
     case Command::ToggleDebugView:
-      showDebugView(state, options.output.debugView == DebugView(m.argument) ? 0 : m.argument);
+      showDebugView(state, side.debugView == DebugView(m.argument) ? 0 : m.argument);
       break;
     case Command::NextDebugView:
-      showDebugView(state, int(options.output.debugView) + m.argument);
+      showDebugView(state, int(side.debugView) + m.argument);
       break;
     case Command::ToggleTreeBoxes:
-      state.treeBoxes = !state.treeBoxes;
+      state.edit.treeBoxes = !state.edit.treeBoxes;
       break;
     case Command::TreeLevel:
-      state.treeLevel = std::clamp(state.treeLevel + m.argument, 0, kDeepestLevel);
+      state.edit.treeLevel = std::clamp(state.edit.treeLevel + m.argument, 0, kDeepestLevel);
       break;
     case Command::NextToneMap:
-      for (RenderOptions& side : state.sides)
-        side.output.toneMap = ToneMap((int(side.output.toneMap) + 1) % int(toneMapNames().size()));
+      shared.output.toneMap = ToneMap((int(shared.output.toneMap) + 1) % int(toneMapNames().size()));
       break;
     case Command::Exposure:
-      for (RenderOptions& side : state.sides)
-        side.output.exposure = std::clamp(side.output.exposure.value_or(0.0) + kExposureStep * m.argument,
+      shared.output.exposure = std::clamp(shared.output.exposure.value_or(0.0) + kExposureStep * m.argument,
                                           -kMostExposure, kMostExposure);
       break;
     case Command::RotateEnvironment:
-      for (RenderOptions& side : state.sides) {
-        LightOptions& light = side.light;
-        if (light.sky.on)
-          moveSun(light.sky, kDegreesPerHeight * m.drag);
-        else
-          light.hdriRotationDegrees =
-              std::remainder(light.hdriRotationDegrees + kDegreesPerHeight * m.drag.x, 360.0);
-      }
+      turnEnvironment(shared.light, kDegreesPerHeight * m.drag);
       break;
     case Command::ToggleDenoise:
-      options.output.denoise = options.output.denoise == Denoise::None ? filterOf(state) : Denoise::None;
+      side.denoise = side.denoise == Denoise::None ? filterOf(state) : Denoise::None;
       break;
     case Command::PlayAnimation:
       playOrPause(state);
@@ -264,10 +258,10 @@ bool apply(ViewState& state, const Invocation& m) {
       break;
     }
     case Command::ToggleGround:
-      for (RenderOptions& side : state.sides) side.light.shadowCatcher = !side.light.shadowCatcher;
+      shared.light.shadowCatcher = !shared.light.shadowCatcher;
       break;
     case Command::ToggleBackground:
-      for (RenderOptions& side : state.sides) side.light.background = !side.light.background;
+      shared.light.background = !shared.light.background;
       break;
     // Window.
     case Command::ToggleOverview:
@@ -278,18 +272,18 @@ bool apply(ViewState& state, const Invocation& m) {
       break;
     case Command::ToggleSplit:
       state.overview = false;
-      state.split = !state.split;
-      // The second side begins as the first, and keeps what was set there.
-      if (state.split && state.sides[1].scene.empty()) state.sides[1] = state.sides[0];
-      if (!state.split) state.active = 0;
+      if (!std::exchange(state.edit.split, false))
+        split(state.edit);
+      else
+        state.edit.active = 0;
       break;
     case Command::FlipSides:
-      if (!state.split) break;
+      if (!state.edit.split) break;
       state.comparison = state.comparison == CompareMode::Left ? CompareMode::Right : CompareMode::Left;
-      state.active = state.comparison == CompareMode::Left || !state.reference.empty() ? 0 : 1;
+      state.edit.active = state.comparison == CompareMode::Left || !state.reference.empty() ? 0 : 1;
       break;
     case Command::ToggleDifference:
-      if (!state.split) break;
+      if (!state.edit.split) break;
       state.comparison =
           state.comparison == CompareMode::Difference ? CompareMode::Bar : CompareMode::Difference;
       break;

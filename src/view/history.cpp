@@ -11,81 +11,66 @@ namespace fragtrace {
 
 namespace {
 
-/// The settings, without what undo does not bring back.
-Settings settingsOf(const ViewState& state) {
-  Settings settings{state.sides, state.pose,   state.posed,     state.sceneCamera,
-                    state.split, state.active, state.treeBoxes, state.treeLevel};
-  // A side that was never shown has what the panel makes of it.
-  if (state.sides[1].scene.empty()) settings.sides[1] = {};
-  for (RenderOptions& side : settings.sides) {
-    SceneSelection kept;
-    kept.hiddenNodes = side.selection.hiddenNodes;
-    kept.materialVariant = side.selection.materialVariant;
-    kept.set = side.selection.set;
-    kept.up = side.selection.up;
-    side.selection = kept;
-  }
-  return settings;
+/// The edit without what undo does not restore.
+Edit restorable(const ViewState& state) {
+  Edit edit = state.edit;
+  SceneSelection& selection = edit.shared.selection;
+  selection = {.materialVariant = selection.materialVariant,
+               .hiddenNodes = selection.hiddenNodes,
+               .set = selection.set,
+               .up = selection.up};
+  return edit;
 }
 
 /// Directions that are whole turns apart are the same.
-void keepTurnsWithin(Settings& settings) {
-  for (RenderOptions& side : settings.sides) {
-    for (double* degrees : {&side.light.sky.sun.azimuth, &side.light.hdriRotationDegrees})
-      *degrees -= 360.0 * std::floor(*degrees / 360.0);
-  }
+void keepTurnsWithin(LightOptions& light) {
+  for (double* degrees : {&light.sky.sun.azimuth, &light.hdriRotationDegrees})
+    *degrees -= 360.0 * std::floor(*degrees / 360.0);
 }
 
 /// Returns true if a user made the step, and sees it: an animation that is shown holds the camera where it is
 /// (showAnimation), which nobody sees.
-bool differs(Settings a, Settings b) {
+bool differs(Edit a, Edit b) {
   if (a.pose == b.pose) a.posed = b.posed;
-  keepTurnsWithin(a);
-  keepTurnsWithin(b);
+  keepTurnsWithin(a.shared.light);
+  keepTurnsWithin(b.shared.light);
   return a != b;
 }
 
-/// Restores all settings except those that need loading.
-void take(ViewState& state, const Settings& settings) {
-  const std::array<RenderOptions, 2> before = std::exchange(state.sides, settings.sides);
-  for (size_t i = 0; i < 2; ++i) {
-    if (!state.sides[i].scene.empty()) takeScene(state.sides[i], before[0]);
-    state.sides[i].selection.hiddenNodes = settings.sides[i].selection.hiddenNodes;
-    state.sides[i].selection.set = settings.sides[i].selection.set;
-  }
-  if (state.scene) state.scene->options.selection = state.sides[0].selection;
+/// Restores all of the edit except what needs loading.
+void restore(ViewState& state, const Edit& edit) {
+  const RenderOptions before = std::exchange(state.edit, edit).shared;
+  SceneSelection& selection = state.edit.shared.selection;
+  takeScene(state.edit.shared, before);
+  selection.hiddenNodes = edit.shared.selection.hiddenNodes;
+  selection.set = edit.shared.selection.set;
+  if (!state.scene) return;
+  state.scene->options.selection = selection;
   // This is the same as in showAnimation(): only the user moves the camera of a posed scene.
-  const bool held = state.sides[0].selection.animationTime && state.scene && state.scene->cameras.empty();
-  state.pose = settings.pose;
-  state.posed = settings.posed || held;
-  state.sceneCamera = settings.sceneCamera;
-  state.split = settings.split;
-  state.active = settings.active;
-  state.treeBoxes = settings.treeBoxes;
-  state.treeLevel = settings.treeLevel;
+  state.edit.posed = edit.posed || (selection.animationTime && state.scene->cameras.empty());
 }
 
-bool step(History& history, ViewState& state, std::deque<Settings>& from, std::deque<Settings>& to) {
+bool step(History& history, ViewState& state, std::deque<Edit>& from, std::deque<Edit>& to) {
   record(history, state);
   if (from.empty()) return false;
   to.push_back(std::exchange(*history.now, from.back()));
   from.pop_back();
-  take(state, *history.now);
+  restore(state, *history.now);
   return true;
 }
 
 }  // namespace
 
-void restart(History& history, const ViewState& state) { history = {{}, {}, settingsOf(state)}; }
+void restart(History& history, const ViewState& state) { history = {{}, {}, restorable(state)}; }
 
 void record(History& history, const ViewState& state) {
   if (history.waits) return;
-  Settings settings = settingsOf(state);
-  if (!history.now || !differs(settings, *history.now)) {
-    history.now = std::move(settings);
+  Edit edit = restorable(state);
+  if (!history.now || !differs(edit, *history.now)) {
+    history.now = std::move(edit);
     return;
   }
-  history.past.push_back(std::exchange(*history.now, std::move(settings)));
+  history.past.push_back(std::exchange(*history.now, std::move(edit)));
   if (history.past.size() > kMostSteps) history.past.pop_front();
   history.future.clear();
 }
@@ -104,27 +89,27 @@ void giveUp(History& history, ViewState& state) {
   if (!std::exchange(history.waits, false)) return;
   const int undone = std::exchange(history.step, 0);
   if (undone == 0) return;
-  std::deque<Settings>& from = undone < 0 ? history.future : history.past;
-  std::deque<Settings>& to = undone < 0 ? history.past : history.future;
+  std::deque<Edit>& from = undone < 0 ? history.future : history.past;
+  std::deque<Edit>& to = undone < 0 ? history.past : history.future;
   to.push_back(std::exchange(*history.now, from.back()));
   from.pop_back();
-  take(state, *history.now);
+  restore(state, *history.now);
 }
 
 void overlook(History& history, const ViewState& state) {
-  if (history.now) history.now = settingsOf(state);
+  if (history.now) history.now = restorable(state);
 }
 
 void takeOver(History& history, ViewState& state, const std::vector<ChangedNumber>& changed,
               const LightOptions& lightBefore) {
   if (changed.empty()) return;
-  const LightOptions lightNow = state.sides[0].light;
-  const auto apply = [&](RenderOptions& side) {
-    std::vector<SetNumber>& set = side.selection.set;
-    if (side.scene.empty()) return;
-    if (side.light.studio == lightBefore.studio && side.light.defaultLight == lightBefore.defaultLight) {
-      side.light.studio = lightNow.studio;
-      side.light.defaultLight = lightNow.defaultLight;
+  const LightOptions lightNow = state.edit.shared.light;
+  const auto apply = [&](RenderOptions& options) {
+    std::vector<SetNumber>& set = options.selection.set;
+    if (options.light.studio == lightBefore.studio &&
+        options.light.defaultLight == lightBefore.defaultLight) {
+      options.light.studio = lightNow.studio;
+      options.light.defaultLight = lightNow.defaultLight;
     }
     for (const auto& [before, now] : changed) {
       const auto found = std::ranges::find(set, now.pointer, &SetNumber::pointer);
@@ -132,21 +117,20 @@ void takeOver(History& history, ViewState& state, const std::vector<ChangedNumbe
       setNumberIn(set, shown, now);
     }
   };
-  const auto applyToAll = [&](Settings& settings) { std::ranges::for_each(settings.sides, apply); };
-  std::ranges::for_each(history.past, applyToAll);
-  std::ranges::for_each(history.future, applyToAll);
-  if (history.now) applyToAll(*history.now);
-  std::ranges::for_each(state.sides, apply);
+  for (Edit& edit : history.past) apply(edit.shared);
+  for (Edit& edit : history.future) apply(edit.shared);
+  if (history.now) apply(history.now->shared);
+  apply(state.edit.shared);
   if (state.scene) apply(state.scene->options);
 }
 
 RenderOptions withLight(const History& history, RenderOptions options) {
   const RenderOptions before = options;
-  takeScene(options, history.now->sides[0]);
+  takeScene(options, history.now->shared);
   options.scene = before.scene;
   options.selection = before.selection;
-  options.selection.materialVariant = history.now->sides[0].selection.materialVariant;
-  options.selection.up = history.now->sides[0].selection.up;
+  options.selection.materialVariant = history.now->shared.selection.materialVariant;
+  options.selection.up = history.now->shared.selection.up;
   return options;
 }
 

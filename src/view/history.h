@@ -8,28 +8,15 @@
 
 namespace fragtrace {
 
-/// Undo restores these: camera and settings of both sides, light, material variant and up axis. It restores
-/// neither the scene nor its animation's time.
-struct Settings {
-  std::array<RenderOptions, 2> sides;
-  CameraPose pose;
-  bool posed = false;
-  int sceneCamera = -1;
-  bool split = false;
-  size_t active = 0;
-  bool treeBoxes = false;
-  int treeLevel = 0;
-
-  bool operator==(const Settings&) const = default;
-};
-
 /// The limit of steps back. Older ones are forgotten.
 inline constexpr size_t kMostSteps = 200;
 
+/// Edits, of whose selection undo restores what is hidden or set, the material variant and the up axis: the
+/// rest is the scene and its animation's time, which stay.
 struct History {
-  std::deque<Settings> past;  ///< the latest last
-  std::deque<Settings> future;
-  std::optional<Settings> now;
+  std::deque<Edit> past;  ///< the latest last
+  std::deque<Edit> future;
+  std::optional<Edit> now;
   /// True for a scene that belongs to the latest step; until it is loaded, nothing is recorded.
   bool waits = false;
   int step = 0;  ///< the scene's step: -1 undo(), 1 redo(), 0 neither

@@ -16,7 +16,7 @@ int animationCount(const ViewState& state) {
 int shownAnimation(const ViewState& state) {
   if (animationCount(state) == 0) return -1;
   const std::vector<std::string>& names = state.scene->animationNames;
-  const std::string& wanted = state.sides[0].selection.animation;
+  const std::string& wanted = state.edit.shared.selection.animation;
   const std::optional<size_t> found = findPart(wanted, names);
   if (!found && wanted == kAllAnimations) return animationCount(state) - 1;
   return int(found.value_or(0));
@@ -36,13 +36,12 @@ double animationLength(const ViewState& state) {
 void showAnimation(ViewState& state, int animation, double seconds) {
   if (animation < 0 || animation >= animationCount(state)) return;
   const bool isAll = size_t(animation) == state.scene->animationNames.size();
-  for (RenderOptions& side : state.sides)
-    side.selection.animation = isAll ? kAllAnimations : std::to_string(animation);
-  const double time = std::clamp(seconds, 0.0, animationLength(state));
-  for (RenderOptions& side : state.sides) side.selection.animationTime = time;
-  state.scene->options.selection = state.sides[0].selection;
+  SceneSelection& selection = state.edit.shared.selection;
+  selection.animation = isAll ? kAllAnimations : std::to_string(animation);
+  selection.animationTime = std::clamp(seconds, 0.0, animationLength(state));
+  state.scene->options.selection = selection;
   // A camera that frames the scene stays where it is while that moves.
-  state.posed = state.posed || state.scene->cameras.empty();
+  state.edit.posed = state.edit.posed || state.scene->cameras.empty();
 }
 
 void play(ViewState& state, double now) {
@@ -55,7 +54,7 @@ void play(ViewState& state, double now) {
   }
   const double passed = playback.at < 0.0 ? 0.0 : now - playback.at;
   playback.at = now;
-  double time = state.sides[0].selection.animationTime.value_or(0.0) + playback.speed * passed;
+  double time = state.edit.shared.selection.animationTime.value_or(0.0) + playback.speed * passed;
   if (time > length) {
     playback.playing = playback.loops;
     time = playback.loops ? std::fmod(time, length) : length;

@@ -61,10 +61,9 @@ void setNumberIn(std::vector<SetNumber>& set, SetNumber number, const SetNumber&
 }
 
 void setNumber(ViewState& state, SetNumber number, const SetNumber& inFile) {
-  std::vector<SetNumber> set = state.sides[0].selection.set;
-  setNumberIn(set, std::move(number), inFile);
-  for (RenderOptions& side : state.sides) side.selection.set = set;
-  state.scene->options.selection = state.sides[0].selection;
+  SceneSelection& selection = state.edit.shared.selection;
+  setNumberIn(selection.set, std::move(number), inFile);
+  state.scene->options.selection = selection;
 }
 
 void nameLight(RenderOptions& options, const ViewedScene& scene) {
@@ -77,7 +76,7 @@ void nameLight(RenderOptions& options, const ViewedScene& scene) {
 
 Material shownMaterial(const ViewState& state, size_t index) {
   Material material = state.scene->materials[index];
-  setFactors(material, state.sides[0].selection.set);
+  setFactors(material, state.edit.shared.selection.set);
   return material;
 }
 

@@ -15,7 +15,7 @@ bool isSame(const SetNumber& a, const SetNumber& b);
 /// Sets the number in the list; if it is the file's, ends what was set there.
 void setNumberIn(std::vector<SetNumber>& set, SetNumber number, const SetNumber& inFile);
 
-/// Sets numbers of the scene's materials or lights on both sides. `inFile` are the file's at that place: they
+/// Sets numbers of the scene's materials or lights. `inFile` are the file's at that place: they
 /// end what was set there.
 void setNumber(ViewState& state, SetNumber number, const SetNumber& inFile);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "view/view_state.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -10,13 +11,11 @@ namespace fragtrace {
 
 void resetCamera(ViewState& state) {
   if (!state.scene) return;
-  for (RenderOptions& o : state.sides) {
-    o.camera.index = state.scene->options.camera.index;
-    o.camera.overrides = state.scene->options.camera.overrides;
-  }
-  state.sceneCamera = state.scene->options.camera.index.value_or(state.scene->cameras.empty() ? -1 : 0);
-  state.pose = poseOf(state.scene->camera, state.scene->bounds);
-  state.posed = false;
+  state.edit.shared.camera.index = state.scene->options.camera.index;
+  state.edit.shared.camera.overrides = state.scene->options.camera.overrides;
+  state.edit.sceneCamera = state.scene->options.camera.index.value_or(state.scene->cameras.empty() ? -1 : 0);
+  state.edit.pose = poseOf(state.scene->camera, state.scene->bounds);
+  state.edit.posed = false;
 }
 
 double ViewState::shownBar() const {
@@ -34,10 +33,10 @@ void fitPanel(ViewState& state, bool hasRoom) {
 }
 
 size_t ViewState::shownSide() const {
-  if (!overview) return active;
+  if (!overview) return edit.active;
   size_t last = 0;
   for (const StageRow& row : stageRows()) {
-    if (row.cumulative && has(options().stages, row.stage)) last = size_t(row.stage);
+    if (row.cumulative && has(side().stages, row.stage)) last = size_t(row.stage);
   }
   return last;
 }
@@ -52,7 +51,7 @@ size_t sideAt(const ViewState& state, const glm::dvec2& place) {
     const glm::ivec2 cell(glm::clamp(place, 0.0, 1.0 - 1e-9) * double(kCells));
     return size_t(cell.y) * size_t(kCells) + size_t(cell.x);
   }
-  return state.split && place.x >= state.shownBar() ? 1 : 0;
+  return state.edit.split && place.x >= state.shownBar() ? 1 : 0;
 }
 
 void takeScene(RenderOptions& side, const RenderOptions& from) {
@@ -74,30 +73,29 @@ void showScene(ViewState& state, ViewedScene scene) {
   std::optional<double> asked;
   if (state.scene) asked = state.scene->exposure;
   state.scene = std::move(scene);
-  for (RenderOptions& side : state.sides) {
-    // An exposure that the user has set stays.
-    if (side.output.exposure == asked) side.output.exposure = state.scene->exposure;
-    if (!side.scene.empty() || &side == &state.sides[0]) takeScene(side, state.scene->options);
-  }
+  // An exposure that the user has set stays.
+  std::optional<double>& exposure = state.edit.shared.output.exposure;
+  if (exposure == asked) exposure = state.scene->exposure;
+  takeScene(state.edit.shared, state.scene->options);
   if (another) resetCamera(state);
 }
 
 RenderOptions renderOptionsOf(const ViewState& state, size_t side) {
-  RenderOptions o = state.sides[side];
-  if (state.posed) {
+  RenderOptions o = optionsOf(state.edit, side);
+  if (state.edit.posed) {
     o.camera.index.reset();
-    o.camera.overrides = overridesOf(state.pose);
+    o.camera.overrides = overridesOf(state.edit.pose);
   }
-  if (state.pose.type != CameraType::Perspective) o.camera.lens = {};
-  const bool boxes = state.treeBoxes && isRectilinear(state.pose.type);
-  o.output.treeLevel = boxes ? std::optional<int>(state.treeLevel) : std::nullopt;
+  if (state.edit.pose.type != CameraType::Perspective) o.camera.lens = {};
+  const bool boxes = state.edit.treeBoxes && isRectilinear(state.edit.pose.type);
+  o.output.treeLevel = boxes ? std::optional<int>(state.edit.treeLevel) : std::nullopt;
   return o;
 }
 
 std::vector<RenderOptions> tracedSides(const ViewState& state) {
   std::vector<RenderOptions> sides;
   for (size_t i = 0; i < state.tracedCount(); ++i) {
-    sides.push_back(renderOptionsOf(state, state.overview ? state.active : i));
+    sides.push_back(renderOptionsOf(state, state.overview ? state.edit.active : i));
     sides.back().camera.resolution.reset();
     if (!state.overview) continue;
     sides.back().stages = withStagesUpTo(sides.back().stages, Stage(i));
@@ -112,27 +110,15 @@ void takeOptions(ViewState& state, const RenderOptions& options) {
       cameraIndexOf(options.camera.index, options.selection.camera, state.scene->cameras);
   const Camera camera = chooseCamera(state.scene->cameras, index, options.camera.overrides,
                                      state.scene->bounds, framedAspect(state.scene->options));
-  state.options() = options;
-  for (RenderOptions& side : state.sides) {
-    side.camera.index = index;
-    side.selection.camera = options.selection.camera;
-    side.camera.overrides = options.camera.overrides;
-    side.output.exposure = options.output.exposure;
-    side.output.toneMap = options.output.toneMap;
-    side.light.hdriRotationDegrees = options.light.hdriRotationDegrees;
-    side.light.hdriIntensity = options.light.hdriIntensity;
-    side.light.sky = options.light.sky;
-    side.light.background = options.light.background;
-    side.light.shadowCatcher = options.light.shadowCatcher;
-    side.light.catcherHeight = options.light.catcherHeight;
-    side.light.backgroundColor = options.light.backgroundColor;
-  }
-  state.sceneCamera = index.value_or(state.sceneCamera);
-  state.treeBoxes = options.output.treeLevel.has_value();
-  state.treeLevel = options.output.treeLevel.value_or(state.treeLevel);
-  state.pose = poseOf(camera, state.scene->bounds);
+  state.side() = sideOf(options);
+  state.edit.shared = options;
+  state.edit.shared.camera.index = index;
+  state.edit.sceneCamera = index.value_or(state.edit.sceneCamera);
+  state.edit.treeBoxes = options.output.treeLevel.has_value();
+  state.edit.treeLevel = options.output.treeLevel.value_or(state.edit.treeLevel);
+  state.edit.pose = poseOf(camera, state.scene->bounds);
   // Without the scene's points here, a default view is held as it is shown.
-  state.posed = state.scene->cameras.empty();
+  state.edit.posed = state.scene->cameras.empty();
 }
 
 bool sameScene(const RenderOptions& a, const RenderOptions& b) {
@@ -149,16 +135,15 @@ bool sameNodes(const RenderOptions& a, const RenderOptions& b) {
 }
 
 RenderOptions resetAll(ViewState& state, const RenderOptions& start) {
-  for (RenderOptions& side : state.sides) {
-    const RenderOptions before = std::exchange(side, start);
-    takeScene(side, before);
-  }
-  state.split = false;
+  const RenderOptions before = std::exchange(state.edit.shared, start);
+  takeScene(state.edit.shared, before);
+  std::ranges::fill(state.edit.sides, sideOf(start));
+  state.edit.split = false;
   state.overview = false;
-  state.active = 0;
+  state.edit.active = 0;
   state.comparison = CompareMode::Bar;
   state.magnifier = {};
-  state.treeBoxes = start.output.treeLevel.has_value();
+  state.edit.treeBoxes = start.output.treeLevel.has_value();
   state.playback.playing = false;
   resetCamera(state);
   RenderOptions wanted = state.scene ? state.scene->options : start;
@@ -170,12 +155,12 @@ RenderOptions resetAll(ViewState& state, const RenderOptions& start) {
 }
 
 std::string whyNoFog(const ViewState& state) {
-  if (!has(state.options().stages, Stage::Gi)) return "only path traced";
-  return state.options().light.shadowCatcher ? "not with a shadow catcher" : "";
+  if (!has(state.side().stages, Stage::Gi)) return "only path traced";
+  return state.edit.shared.light.shadowCatcher ? "not with a shadow catcher" : "";
 }
 
 std::string whyGrey(const ViewState& state, Stage stage) {
-  return state.scene ? whyOff(stage, state.scene->present, has(state.options().stages, Stage::Gi))
+  return state.scene ? whyOff(stage, state.scene->present, has(state.side().stages, Stage::Gi))
                      : std::string();
 }
 

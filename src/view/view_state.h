@@ -5,13 +5,13 @@
 #include <array>
 #include <optional>
 
-#include "view/camera_controller.h"
+#include "view/edit.h"
 #include "view/exchange.h"
 #include "view/key_table.h"
 
 namespace fragtrace {
 
-/// The playback of the scene's animation. Clip and time are those of the sides' selection.
+/// The playback of the scene's animation. Clip and time are those of the selection.
 struct Playback {
   bool playing = false;
   bool loops = true;
@@ -28,9 +28,7 @@ struct Magnifier {
 };
 
 struct ViewState {
-  std::array<RenderOptions, 2> sides;  ///< the second is that of the split view
-  size_t active = 0;                   ///< the side that stages and settings are changed of
-  bool split = false;
+  Edit edit;
   /// All stages are shown side by side, with the active side's settings: the pictures of kMostSides cells.
   bool overview = false;
   std::filesystem::path reference;  ///< a picture that is side B; empty: B is traced
@@ -43,9 +41,6 @@ struct ViewState {
   std::optional<ViewedScene> scene;
   BoundsDouble selected;                 ///< box of what was clicked on, world space; empty: nothing
   std::optional<uint32_t> selectedNode;  ///< index of its node (SceneNode::index)
-  CameraPose pose;
-  bool posed = false;  ///< the camera is the pose; else what the options choose, to the last bit
-  int sceneCamera = -1;
   Playback playback;
 
   double flySpeed = 1.0;
@@ -60,16 +55,16 @@ struct ViewState {
   std::array<char, 64> search{};  ///< text that the sheet is searched for; ends with a 0
   bool sheet = false;
   bool fullscreen = false;
-  bool treeBoxes = false;
-  int treeLevel = 4;
 
-  RenderOptions& options() { return sides[active]; }
-  const RenderOptions& options() const { return sides[active]; }
+  /// The active side.
+  SideOptions& side() { return edit.sides[edit.active]; }
+  const SideOptions& side() const { return edit.sides[edit.active]; }
+  RenderOptions options() const { return optionsOf(edit, edit.active); }
   /// Sides that are traced: 2 where the split view compares two of them, rather than one and a file; all
   /// stages in the overview.
-  size_t tracedCount() const { return overview ? kMostSides : split && reference.empty() ? 2 : 1; }
+  size_t tracedCount() const { return overview ? kMostSides : edit.split && reference.empty() ? 2 : 1; }
   /// Returns true if two pictures are compared, at a bar or otherwise.
-  bool compares() const { return split && !overview; }
+  bool compares() const { return edit.split && !overview; }
   /// The traced side whose progress and values are shown: the active one, or that of its last stage.
   size_t shownSide() const;
   /// The place of the bar: 1 if the left side alone is shown.
@@ -121,13 +116,13 @@ void play(ViewState& state, double now);
 /// Returns true if the user hides the scene's node (an index into ViewedScene::nodes) itself.
 bool isHidden(const ViewState& state, size_t node);
 
-/// Hides it with all that is below it, or shows it again, on both sides. Others of its name stay as they are.
+/// Hides it with all that is below it, or shows it again. Others of its name stay as they are.
 void hideNode(ViewState& state, size_t node, bool hidden);
 
 /// Closes the panel when there is no room for it beside the picture, and opens it again when there is.
 void fitPanel(ViewState& state, bool hasRoom);
 
-/// Makes the options load the same scene and light as others: what one side has, both have.
+/// Makes the options load the same scene and light as others.
 void takeScene(RenderOptions& side, const RenderOptions& from);
 
 /// The scene's first camera, or that of the options that it was loaded with.
@@ -142,8 +137,8 @@ std::vector<RenderOptions> tracedSides(const ViewState& state);
 /// Options that give the side's picture on the command line.
 RenderOptions renderOptionsOf(const ViewState& state, size_t side);
 
-/// The active side draws what the options say, as pasted, of the scene that is shown; both sides with their
-/// camera and light. Throws UsageError, and changes nothing, when the scene has no such camera.
+/// The active side draws what the options say, as pasted, of the scene that is shown; so does the other one,
+/// as far as they are shared. Throws UsageError, and changes nothing, when the scene has no such camera.
 void takeOptions(ViewState& state, const RenderOptions& options);
 
 /// Returns true if both load the same scene and environment.

@@ -25,7 +25,7 @@ std::string nameOf(const std::vector<SceneNode>& nodes, const SceneNode& node) {
 
 bool isHidden(const ViewState& state, size_t node) {
   const std::vector<SceneNode>& nodes = state.scene->nodes;
-  return std::ranges::any_of(state.sides[0].selection.hiddenNodes,
+  return std::ranges::any_of(state.edit.shared.selection.hiddenNodes,
                              [&](const std::string& wanted) { return isNamed(nodes, nodes[node], wanted); });
 }
 
@@ -35,10 +35,11 @@ void hideNode(ViewState& state, size_t node, bool hidden) {
   for (size_t i = 0; i < nodes.size(); ++i) {
     if (i == node ? hidden : isHidden(state, i)) names.push_back(nameOf(nodes, nodes[i]));
   }
-  for (RenderOptions& side : state.sides) side.selection.hiddenNodes = names;
-  state.scene->options.selection = state.sides[0].selection;
+  SceneSelection& selection = state.edit.shared.selection;
+  selection.hiddenNodes = names;
+  state.scene->options.selection = selection;
   // A camera that frames the scene stays where it is.
-  state.posed = state.posed || state.scene->cameras.empty();
+  state.edit.posed = state.edit.posed || state.scene->cameras.empty();
 }
 
 }  // namespace fragtrace

@@ -13,7 +13,7 @@ ViewState shownState() {
   scene.options.light.hdriFile = "sky.hdr";
   scene.bounds.include({0.0, 0.0, 0.0});
   scene.bounds.include({1.0, 1.0, 1.0});
-  state.sides[0].scene = "a.gltf";
+  state.edit.shared.scene = "a.gltf";
   showScene(state, scene);
   return state;
 }
@@ -24,34 +24,33 @@ TEST(History, GoesBackAndForth) {
   restart(history, state);
   EXPECT_FALSE(undo(history, state));
   for (int i = 1; i <= 3; ++i) {
-    state.sides[0].output.exposure = i;
+    state.edit.shared.output.exposure = i;
     record(history, state);
     record(history, state);  // nothing has changed
   }
   EXPECT_TRUE(undo(history, state));
-  EXPECT_EQ(state.sides[0].output.exposure, 2.0);
+  EXPECT_EQ(state.edit.shared.output.exposure, 2.0);
   EXPECT_TRUE(undo(history, state));
   EXPECT_TRUE(redo(history, state));
-  EXPECT_EQ(state.sides[0].output.exposure, 2.0);
-  state.sides[0].output.exposure = 7.0;
+  EXPECT_EQ(state.edit.shared.output.exposure, 2.0);
+  state.edit.shared.output.exposure = 7.0;
   record(history, state);
   EXPECT_FALSE(redo(history, state));  // another way was taken
   EXPECT_TRUE(undo(history, state));
-  EXPECT_EQ(state.sides[0].output.exposure, 2.0);
+  EXPECT_EQ(state.edit.shared.output.exposure, 2.0);
 }
 
-TEST(History, TurnsAndASideThatNobodySeesAreNoSteps) {
+TEST(History, WholeTurnsAreNoSteps) {
   ViewState state = shownState();
   History history;
   restart(history, state);
   for (const double turn : {-360.0, 360.0}) {
-    state.sides[0].light.sky.sun.azimuth += turn;
-    state.sides[0].light.hdriRotationDegrees += turn;
-    state.sides[1].output.toneMap = ToneMap::Aces;  // the panel sets both
+    state.edit.shared.light.sky.sun.azimuth += turn;
+    state.edit.shared.light.hdriRotationDegrees += turn;
     record(history, state);
     EXPECT_TRUE(history.past.empty());
   }
-  state.sides[0].light.sky.sun.azimuth += 1.0;
+  state.edit.shared.light.sky.sun.azimuth += 1.0;
   record(history, state);
   EXPECT_EQ(history.past.size(), 1u);
 }
@@ -62,34 +61,53 @@ TEST(History, NumbersThatTheFileHasByNowAreTakenBack) {
   History history;
   restart(history, state);
   const auto set = [&](std::vector<SetNumber> numbers) {
-    state.sides[0].selection.set = std::move(numbers);
+    state.edit.shared.selection.set = std::move(numbers);
     record(history, state);
   };
   set(with(2.0));
   set(with(3.0));
   // The file had 1, and has 2.
-  const LightOptions before = state.sides[0].light;
-  state.sides[0].light.studio = true;
+  const LightOptions before = state.edit.shared.light;
+  state.edit.shared.light.studio = true;
   takeOver(history, state, {{{"/a", {1.0}}, {"/a", {2.0}}}}, before);
-  EXPECT_EQ(state.sides[0].selection.set, with(3.0));
+  EXPECT_EQ(state.edit.shared.selection.set, with(3.0));
   record(history, state);
   ASSERT_EQ(history.past.size(), 2u);
   EXPECT_TRUE(undo(history, state));
-  EXPECT_TRUE(state.sides[0].selection.set.empty());
+  EXPECT_TRUE(state.edit.shared.selection.set.empty());
   EXPECT_TRUE(undo(history, state));
-  EXPECT_EQ(state.sides[0].selection.set, with(1.0));
-  EXPECT_TRUE(history.now->sides[0].light.studio);
+  EXPECT_EQ(state.edit.shared.selection.set, with(1.0));
+  EXPECT_TRUE(history.now->shared.light.studio);
 }
 
 TEST(History, WhatWasNotRecordedIsAStepToo) {
   ViewState state = shownState();
   History history;
   restart(history, state);
-  state.pose.viewAngleDegrees = 30.0;
+  state.edit.pose.viewAngleDegrees = 30.0;
   EXPECT_TRUE(undo(history, state));
-  EXPECT_EQ(state.pose.viewAngleDegrees, 45.0);
+  EXPECT_EQ(state.edit.pose.viewAngleDegrees, 45.0);
   EXPECT_TRUE(redo(history, state));
-  EXPECT_EQ(state.pose.viewAngleDegrees, 30.0);
+  EXPECT_EQ(state.edit.pose.viewAngleDegrees, 30.0);
+}
+
+TEST(History, ASideKeepsWhatIsItsOwn) {
+  ViewState state = shownState();
+  History history;
+  restart(history, state);
+  apply(state, {Command::ToggleSplit});
+  record(history, state);
+  state.edit.active = 1;
+  state.side().denoise = Denoise::Variance;
+  record(history, state);
+  EXPECT_TRUE(undo(history, state));
+  EXPECT_EQ(state.edit.sides.at(1).denoise, Denoise::None);
+  EXPECT_TRUE(undo(history, state));
+  EXPECT_EQ(state.edit.sides.size(), 1u);
+  EXPECT_TRUE(redo(history, state));
+  EXPECT_TRUE(redo(history, state));
+  EXPECT_EQ(state.edit.sides.at(0).denoise, Denoise::None);
+  EXPECT_EQ(state.edit.sides.at(1).denoise, Denoise::Variance);
 }
 
 TEST(History, SceneLightAndTimeStay) {
@@ -98,16 +116,16 @@ TEST(History, SceneLightAndTimeStay) {
   restart(history, state);
   apply(state, {Command::ToggleSplit});
   record(history, state);
-  for (RenderOptions& side : state.sides) side.selection.animationTime = 0.5;
+  state.edit.shared.selection.animationTime = 0.5;
   record(history, state);
   ASSERT_EQ(history.past.size(), 1u);
   EXPECT_TRUE(undo(history, state));
-  EXPECT_FALSE(state.split);
-  EXPECT_EQ(state.sides[0].scene, "a.gltf");
-  EXPECT_EQ(state.sides[0].light.hdriFile, "sky.hdr");
-  EXPECT_EQ(state.sides[0].selection.animationTime, 0.5);
+  EXPECT_FALSE(state.edit.split);
+  EXPECT_EQ(state.edit.shared.scene, "a.gltf");
+  EXPECT_EQ(state.edit.shared.light.hdriFile, "sky.hdr");
+  EXPECT_EQ(state.edit.shared.selection.animationTime, 0.5);
   EXPECT_TRUE(redo(history, state));
-  EXPECT_EQ(state.sides[1].light.hdriFile, "sky.hdr");
+  EXPECT_EQ(state.edit.shared.light.hdriFile, "sky.hdr");
 }
 
 TEST(History, AnAnimationThatHoldsTheCameraIsNoStep) {
@@ -116,16 +134,16 @@ TEST(History, AnAnimationThatHoldsTheCameraIsNoStep) {
   state.scene->animationSeconds = {1.0};
   History history;
   restart(history, state);
-  state.sides[0].output.exposure = 1.0;
+  state.edit.shared.output.exposure = 1.0;
   record(history, state);
   EXPECT_TRUE(undo(history, state));
   showAnimation(state, 0, 0.5);
-  EXPECT_TRUE(state.posed);
+  EXPECT_TRUE(state.edit.posed);
   record(history, state);
   EXPECT_TRUE(history.past.empty());
   EXPECT_TRUE(redo(history, state));
-  EXPECT_EQ(state.sides[0].output.exposure, 1.0);
-  EXPECT_TRUE(state.posed);  // or it would be framed again
+  EXPECT_EQ(state.edit.shared.output.exposure, 1.0);
+  EXPECT_TRUE(state.edit.posed);  // or it would be framed again
 }
 
 /// Changes the state as a newly loaded scene does.
@@ -141,16 +159,16 @@ TEST(History, LightAndVariantAreStepsOfTheirOwn) {
   ViewState state = shownState();
   History history;
   restart(history, state);
-  state.pose.viewAngleDegrees = 30.0;
+  state.edit.pose.viewAngleDegrees = 30.0;
   record(history, state);
   loadAs(state, "other.hdr", "red");
   record(history, state);
   ASSERT_EQ(history.past.size(), 2u);
   EXPECT_EQ(withLight(history, state.scene->options), state.scene->options);
   EXPECT_TRUE(undo(history, state));
-  EXPECT_EQ(state.pose.viewAngleDegrees, 30.0);
+  EXPECT_EQ(state.edit.pose.viewAngleDegrees, 30.0);
   // The window keeps showing this environment until the other one is loaded.
-  EXPECT_EQ(state.sides[0].light.hdriFile, "other.hdr");
+  EXPECT_EQ(state.edit.shared.light.hdriFile, "other.hdr");
   const RenderOptions wanted = withLight(history, state.scene->options);
   EXPECT_EQ(wanted.scene, "a.gltf");
   EXPECT_EQ(wanted.light.hdriFile, "sky.hdr");
@@ -174,7 +192,7 @@ TEST(History, AStepWhoseSceneCannotBeHadIsTakenBack) {
   History history;
   restart(history, state);
   for (const double angle : {30.0, 20.0}) {
-    state.pose.viewAngleDegrees = angle;
+    state.edit.pose.viewAngleDegrees = angle;
     record(history, state);
   }
   loadAs(state, "gone.hdr", "");
@@ -189,31 +207,31 @@ TEST(History, AStepWhoseSceneCannotBeHadIsTakenBack) {
   EXPECT_EQ(history.past.size(), 2u);
   EXPECT_EQ(history.future.size(), 1u);
   EXPECT_TRUE(undo(history, state));
-  EXPECT_EQ(state.pose.viewAngleDegrees, 30.0);
+  EXPECT_EQ(state.edit.pose.viewAngleDegrees, 30.0);
   giveUp(history, state);  // nothing waits
-  EXPECT_EQ(state.pose.viewAngleDegrees, 30.0);
+  EXPECT_EQ(state.edit.pose.viewAngleDegrees, 30.0);
   history.waits = true;
   giveUp(history, state);
-  EXPECT_EQ(state.pose.viewAngleDegrees, 20.0);
+  EXPECT_EQ(state.edit.pose.viewAngleDegrees, 20.0);
 }
 
 TEST(History, WhatTheUserDidNotDoIsNoStep) {
   ViewState state = shownState();
   History history;
   restart(history, state);
-  state.split = true;
+  state.edit.split = true;
   overlook(history, state);
   EXPECT_FALSE(undo(history, state));
-  EXPECT_TRUE(state.split);
+  EXPECT_TRUE(state.edit.split);
 }
 
 TEST(History, NodesAreThoseOfTheFilesSceneUnderAnyLight) {
   ViewState state = shownState();
   loadAs(state, "other.hdr", "red");
-  EXPECT_TRUE(sameNodes(state.sides[0], shownState().sides[0]));
-  RenderOptions other = state.sides[0];
+  EXPECT_TRUE(sameNodes(state.edit.shared, shownState().edit.shared));
+  RenderOptions other = state.edit.shared;
   other.selection.scene = "second";
-  EXPECT_FALSE(sameNodes(other, state.sides[0]));
+  EXPECT_FALSE(sameNodes(other, state.edit.shared));
 }
 
 TEST(History, OldStepsAreForgotten) {
@@ -221,7 +239,7 @@ TEST(History, OldStepsAreForgotten) {
   History history;
   restart(history, state);
   for (size_t i = 1; i <= 2 * kMostSteps; ++i) {
-    state.sides[0].output.exposure = double(i);
+    state.edit.shared.output.exposure = double(i);
     record(history, state);
   }
   size_t steps = 0;

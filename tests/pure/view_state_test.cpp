@@ -32,7 +32,7 @@ ViewedScene someScene() {
 
 ViewState someState() {
   ViewState state;
-  state.sides[0].scene = "some.gltf";
+  state.edit.shared.scene = "some.gltf";
   showScene(state, someScene());
   return state;
 }
@@ -57,16 +57,36 @@ TEST(ViewState, NothingChangesThatCannotBeSeen) {
           EXPECT_FALSE(apply(state, invocationOf(control, kMoved)));
         }
       }
-    EXPECT_TRUE(state.pose == before.pose && state.sides == before.sides &&
-                state.magnifier == before.magnifier);
-    EXPECT_FALSE(state.split);
+    EXPECT_TRUE(state.edit == before.edit && state.magnifier == before.magnifier);
     EXPECT_TRUE(isUsable(state, Command::Quit));
   }
 }
 
+TEST(ViewState, ASidesOptionsAreThoseThatItWasGiven) {
+  RenderOptions o;
+  o.scene = "some.gltf";
+  o.stages = stagesUpTo(Stage::Phong);
+  o.sampling.seed = 7;
+  o.sampling.noise = 0.1;
+  o.device.dispatch = Dispatch::Compute;
+  o.output.debugView = DebugView::Visits;
+  o.output.denoise = Denoise::Variance;
+  o.output.exposure = 1.0;
+  o.camera.pixelFilter = PixelFilter::Gaussian;
+  o.light.selection = LightSelection::Power;
+  o.light.reuse = LightReuse::Spatial;
+  o.light.caustics = Caustics::Off;
+  o.light.transparentGlass = true;
+  Edit edit = editOf(o);
+  edit.sides.emplace_back();
+  EXPECT_EQ(optionsOf(edit, 0), o);
+  EXPECT_EQ(optionsOf(edit, 1).stages, stagesUpTo(Stage::Gi));
+  EXPECT_EQ(optionsOf(edit, 1).output.exposure, 1.0);
+}
+
 TEST(ViewState, AnOrthographicViewHasNoLens) {
   ViewState state = someState();
-  for (RenderOptions& side : state.sides) side.camera.lens.fStop = 2.8;
+  state.edit.shared.camera.lens.fStop = 2.8;
   EXPECT_TRUE(tracedSides(state)[0].camera.lens.fStop);
   press(state, Command::OtherProjection);
   EXPECT_FALSE(tracedSides(state)[0].camera.lens.fStop);
@@ -81,7 +101,7 @@ TEST(ViewState, AReferenceIsSideB) {
   press(state, Command::FlipSides);
   press(state, Command::FlipSides);
   EXPECT_EQ(state.comparison, CompareMode::Right);
-  EXPECT_EQ(state.active, 0u);  // there are no settings of a file
+  EXPECT_EQ(state.edit.active, 0u);  // there are no settings of a file
 }
 
 TEST(ViewState, EveryControlChangesTheStateOrIsLeftToTheWindow) {
@@ -92,11 +112,9 @@ TEST(ViewState, EveryControlChangesTheStateOrIsLeftToTheWindow) {
     press(state, Command::FlipSides);
     const ViewState before = state;
     const bool done = apply(state, invocationOf(control, kMoved));
-    const bool changed = state.sides != before.sides || !(state.pose == before.pose) ||
-                         state.panel != before.panel || state.figures != before.figures ||
-                         state.sheet != before.sheet || state.treeBoxes != before.treeBoxes ||
+    const bool changed = state.edit != before.edit || state.panel != before.panel ||
+                         state.figures != before.figures || state.sheet != before.sheet ||
                          state.playback.playing != before.playback.playing ||
-                         state.treeLevel != before.treeLevel || state.split != before.split ||
                          state.comparison != before.comparison || state.flySpeed != before.flySpeed ||
                          !(state.magnifier == before.magnifier);
     // Some do nothing: no such camera, or the state is already the one wanted.
@@ -110,7 +128,7 @@ TEST(ViewState, EveryControlChangesTheStateOrIsLeftToTheWindow) {
 
 TEST(ViewState, AnAnimationGoesOnByTheTimeThatPassesAndBeginsAgainOrStops) {
   ViewState state = someState();
-  const auto time = [&] { return state.sides[1].selection.animationTime; };
+  const auto time = [&] { return state.edit.shared.selection.animationTime; };
   play(state, 1.0);
   EXPECT_FALSE(time());
   press(state, Command::PlayAnimation);
@@ -133,20 +151,20 @@ TEST(ViewState, AnAnimationGoesOnByTheTimeThatPassesAndBeginsAgainOrStops) {
   press(state, Command::NextAnimation, 1);
   EXPECT_EQ(shownAnimation(state), 1);
   EXPECT_EQ(animationLength(state), 1.0);
-  state.sides[0].selection.animation = "WALK";
+  state.edit.shared.selection.animation = "WALK";
   EXPECT_EQ(shownAnimation(state), 0);
-  state.sides[0].selection.animation = "RUN";
+  state.edit.shared.selection.animation = "RUN";
   EXPECT_EQ(shownAnimation(state), 1);
-  state.sides[0].selection.animation = "1";
-  EXPECT_EQ(state.scene->options.selection, state.sides[0].selection);
+  state.edit.shared.selection.animation = "1";
+  EXPECT_EQ(state.scene->options.selection, state.edit.shared.selection);
 }
 
 TEST(ViewState, UntilSomebodyMovesTheCameraIsThatOfTheOptions) {
   ViewState state = someState();
   EXPECT_EQ(tracedSides(state)[0].camera.overrides, CameraOverrides{});
-  EXPECT_TRUE(drawsTheSame(tracedSides(state)[0], state.sides[0]));
+  EXPECT_TRUE(drawsTheSame(tracedSides(state)[0], state.options()));
   apply(state, {.command = Command::Orbit, .drag = {0.1, 0.0}});
-  EXPECT_EQ(tracedSides(state)[0].camera.overrides, overridesOf(state.pose));
+  EXPECT_EQ(tracedSides(state)[0].camera.overrides, overridesOf(state.edit.pose));
   press(state, Command::ResetCamera);
   EXPECT_EQ(tracedSides(state)[0].camera.overrides, CameraOverrides{});
 }
@@ -169,7 +187,7 @@ TEST(ViewState, OnlyWhatIsTracedIsDrawnAnew) {
     press(state, command, command == Command::Exposure ? 1 : 0);
   }
   press(state, Command::ToggleSheet);
-  EXPECT_NE(state.sides[0].output.exposure, before.output.exposure);
+  EXPECT_NE(state.edit.shared.output.exposure, before.output.exposure);
   EXPECT_TRUE(drawsTheSame(tracedSides(state)[0], before));
   press(state, Command::ToggleStage, int(Stage::Shadows));
   EXPECT_FALSE(drawsTheSame(tracedSides(state)[0], before));
@@ -180,15 +198,15 @@ TEST(ViewState, TheSplitViewBeginsWithTwoOfTheSameAndTogglesTheActiveOne) {
   press(state, Command::ToggleSplit);
   ASSERT_EQ(tracedSides(state).size(), 2u);
   EXPECT_TRUE(drawsTheSame(tracedSides(state)[0], tracedSides(state)[1]));
-  state.active = 1;
+  state.edit.active = 1;
   press(state, Command::ToggleStage, int(Stage::Shadows));
-  EXPECT_TRUE(has(state.sides[0].stages, Stage::Shadows));
-  EXPECT_FALSE(has(state.sides[1].stages, Stage::Shadows));
+  EXPECT_TRUE(has(state.edit.sides[0].stages, Stage::Shadows));
+  EXPECT_FALSE(has(state.edit.sides[1].stages, Stage::Shadows));
   apply(state, {.command = Command::Orbit, .drag = {0.1, 0.0}});
   EXPECT_EQ(tracedSides(state)[0].camera.overrides, tracedSides(state)[1].camera.overrides);
   press(state, Command::ToggleSplit);
   EXPECT_EQ(tracedSides(state).size(), 1u);
-  EXPECT_EQ(state.active, 0u);
+  EXPECT_EQ(state.edit.active, 0u);
 }
 
 TEST(ViewState, WhatTheSceneLacksIsGreyWithTheReason) {
@@ -199,10 +217,10 @@ TEST(ViewState, WhatTheSceneLacksIsGreyWithTheReason) {
   state.scene->present = {};
   state.scene->present.set(size_t(Trait::EnvironmentSampling));
   EXPECT_EQ(whyGrey(state, Stage::Shadows), "");
-  state.options().stages = stagesUpTo(Stage::Shadows);
+  state.side().stages = stagesUpTo(Stage::Shadows);
   EXPECT_EQ(whyGrey(state, Stage::Shadows), "before gi, the environment casts no shadows");
   EXPECT_EQ(whyNoFog(state), "only path traced");
-  state.options().stages = stagesUpTo(Stage::Gi);
+  state.side().stages = stagesUpTo(Stage::Gi);
   EXPECT_EQ(whyNoFog(state), "");
   press(state, Command::ToggleGround);
   EXPECT_EQ(whyNoFog(state), "not with a shadow catcher");
@@ -211,15 +229,15 @@ TEST(ViewState, WhatTheSceneLacksIsGreyWithTheReason) {
 TEST(ViewState, AReloadedSceneKeepsTheViewAndAnotherOneDoesNot) {
   ViewState state = someState();
   apply(state, {.command = Command::Orbit, .drag = {0.1, 0.0}});
-  const CameraPose moved = state.pose;
+  const CameraPose moved = state.edit.pose;
   showScene(state, someScene());
-  EXPECT_EQ(state.pose, moved);
-  EXPECT_TRUE(state.posed);
+  EXPECT_EQ(state.edit.pose, moved);
+  EXPECT_TRUE(state.edit.posed);
   ViewedScene other = someScene();
   other.options.scene = "other.gltf";
   showScene(state, other);
-  EXPECT_FALSE(state.posed);
-  EXPECT_EQ(state.sides[0].scene, "other.gltf");
+  EXPECT_FALSE(state.edit.posed);
+  EXPECT_EQ(state.edit.shared.scene, "other.gltf");
 }
 
 TEST(ViewState, ThePanelClosesWithoutRoomAndOpensWithIt) {
@@ -303,10 +321,10 @@ TEST(ViewState, OneSideAloneIsShownAndChosen) {
   EXPECT_EQ(sideAt(state, {0.6, 0.5}), 1u);
   press(state, Command::FlipSides);
   EXPECT_EQ(sideAt(state, {0.6, 0.5}), 0u);
-  EXPECT_EQ(state.active, 0u);
+  EXPECT_EQ(state.edit.active, 0u);
   press(state, Command::FlipSides);
   EXPECT_EQ(sideAt(state, {0.4, 0.5}), 1u);
-  EXPECT_EQ(state.active, 1u);
+  EXPECT_EQ(state.edit.active, 1u);
   press(state, Command::ToggleDifference);
   EXPECT_EQ(state.comparison, CompareMode::Difference);
   press(state, Command::ShowBar);
@@ -316,14 +334,14 @@ TEST(ViewState, OneSideAloneIsShownAndChosen) {
 TEST(ViewState, TheWheelZoomsTowardsTheCursor) {
   ViewState state = someState();
   state.size = {800, 400};
-  state.pose.position = {0.0, 0.0, 5.0};
-  state.pose.focalPoint = {0.0, 0.0, 0.0};
+  state.edit.pose.position = {0.0, 0.0, 5.0};
+  state.edit.pose.focalPoint = {0.0, 0.0, 0.0};
   // The point at this place of the focal point's plane stays there.
-  const double half = 5.0 * std::tan(0.5 * glm::radians(state.pose.viewAngleDegrees));
+  const double half = 5.0 * std::tan(0.5 * glm::radians(state.edit.pose.viewAngleDegrees));
   const glm::dvec3 point(2.0 * half * 0.5, half * 0.5, 0.0);
   apply(state, {.command = Command::Zoom, .notches = 2.0, .place = {0.75, 0.25}});
-  const glm::dvec3 seen = point - state.pose.position;
-  const double tangent = std::tan(0.5 * glm::radians(state.pose.viewAngleDegrees));
+  const glm::dvec3 seen = point - state.edit.pose.position;
+  const double tangent = std::tan(0.5 * glm::radians(state.edit.pose.viewAngleDegrees));
   EXPECT_NEAR(seen.y / (-seen.z * tangent), 0.5, 1e-12);
   EXPECT_NEAR(seen.x / (-seen.z * tangent * 2.0), 0.5, 1e-12);
   EXPECT_LT(-seen.z, 4.0);
@@ -334,9 +352,9 @@ TEST(ViewState, WhatWasClickedOnIsFramedAndTheWholeSceneIfAskedFor) {
   state.selected.include({0.5, 0.5, 0.5});
   state.selected.include({0.7, 0.7, 0.7});
   press(state, Command::FrameAll);
-  EXPECT_NEAR(state.pose.focalPoint.x, 0.6, 1e-12);
+  EXPECT_NEAR(state.edit.pose.focalPoint.x, 0.6, 1e-12);
   press(state, Command::FrameAll, 1);
-  EXPECT_NEAR(state.pose.focalPoint.x, 0.0, 1e-12);
+  EXPECT_NEAR(state.edit.pose.focalPoint.x, 0.0, 1e-12);
 }
 
 TEST(ViewState, ResetAllIsTheStartOfTheSceneThatIsShown) {
@@ -348,36 +366,36 @@ TEST(ViewState, ResetAllIsTheStartOfTheSceneThatIsShown) {
   press(state, Command::ToggleStage, int(Stage::Shadows));
   apply(state, {.command = Command::Orbit, .drag = {0.1, 0.0}});
   resetAll(state, start);
-  EXPECT_EQ(state.sides[0].scene, "some.gltf");
-  EXPECT_EQ(state.sides[0].stages, start.stages);
-  EXPECT_EQ(state.sides[0].output.exposure, 1.0);
-  EXPECT_FALSE(state.split);
-  EXPECT_FALSE(state.posed);
+  EXPECT_EQ(state.edit.shared.scene, "some.gltf");
+  EXPECT_EQ(state.edit.sides[0].stages, start.stages);
+  EXPECT_EQ(state.edit.shared.output.exposure, 1.0);
+  EXPECT_FALSE(state.edit.split);
+  EXPECT_FALSE(state.edit.posed);
 }
 
 TEST(ViewState, ExposureHasLimits) {
   ViewState state = someState();
   for (int i = 0; i < 1000; ++i) press(state, Command::Exposure, 1);
-  EXPECT_EQ(state.sides[0].output.exposure, 32.0);
+  EXPECT_EQ(state.edit.shared.output.exposure, 32.0);
   for (int i = 0; i < 1000; ++i) press(state, Command::Exposure, -1);
-  EXPECT_EQ(state.sides[0].output.exposure, -32.0);
+  EXPECT_EQ(state.edit.shared.output.exposure, -32.0);
 }
 
 TEST(ViewState, PastedOptionsAreThoseOfTheActiveSideAndTheCameraOfBoth) {
   ViewState state = someState();
   press(state, Command::ToggleSplit);
-  state.active = 1;
+  state.edit.active = 1;
   RenderOptions pasted = renderOptionsOf(state, 1);
   pasted.sampling.bounces = 2;
   pasted.output.exposure = 1.5;
   pasted.camera.index = 1;
   pasted.output.treeLevel = 7;
   takeOptions(state, pasted);
-  EXPECT_EQ(state.sides[1].sampling.bounces, 2);
-  EXPECT_EQ(state.sides[0].sampling.bounces, RenderOptions().sampling.bounces);
-  EXPECT_EQ(state.sides[0].output.exposure, 1.5);
+  EXPECT_EQ(state.edit.sides[1].sampling.bounces, 2);
+  EXPECT_EQ(state.edit.sides[0].sampling.bounces, RenderOptions().sampling.bounces);
+  EXPECT_EQ(state.edit.shared.output.exposure, 1.5);
   EXPECT_EQ(tracedSides(state)[0].camera.index, 1);
-  EXPECT_EQ(state.pose.position, glm::dvec3(5.0, 0.0, 5.0));
+  EXPECT_EQ(state.edit.pose.position, glm::dvec3(5.0, 0.0, 5.0));
   EXPECT_EQ(tracedSides(state)[0].output.treeLevel, 7);
 }
 
@@ -388,7 +406,7 @@ TEST(ViewState, ACameraThatIsNotThereChangesNothing) {
   pasted.sampling.bounces = 2;
   EXPECT_THROW(takeOptions(state, pasted), UsageError);
   EXPECT_FALSE(tracedSides(state)[0].camera.index);
-  EXPECT_EQ(state.sides[0].sampling.bounces, RenderOptions().sampling.bounces);
+  EXPECT_EQ(state.edit.sides[0].sampling.bounces, RenderOptions().sampling.bounces);
 }
 
 TEST(ViewerDocument, HoldsTheTableOfAllControls) {
@@ -403,12 +421,12 @@ TEST(ViewState, TheExposureThatASceneAsksForGoesWithIt) {
   ViewedScene bright = someScene();
   bright.exposure = -7.0;
   showScene(state, bright);
-  EXPECT_EQ(state.sides[0].output.exposure, -7.0);
+  EXPECT_EQ(state.edit.shared.output.exposure, -7.0);
   showScene(state, someScene());
-  EXPECT_EQ(state.sides[0].output.exposure, std::nullopt);
-  state.sides[0].output.exposure = 0.0;  // the user's
+  EXPECT_EQ(state.edit.shared.output.exposure, std::nullopt);
+  state.edit.shared.output.exposure = 0.0;  // the user's
   showScene(state, bright);
-  EXPECT_EQ(state.sides[0].output.exposure, 0.0);
+  EXPECT_EQ(state.edit.shared.output.exposure, 0.0);
 }
 
 }  // namespace

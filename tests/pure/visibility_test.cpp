@@ -13,7 +13,7 @@ ViewState withNodes() {
   ViewedScene scene;
   scene.options.scene = "a.gltf";
   scene.nodes = {{"root", 4, 0}, {"twin", 1, 1}, {"twin", 2, 1}, {"/nodes/3", 3, 0}};
-  state.sides[0].scene = "a.gltf";
+  state.edit.shared.scene = "a.gltf";
   showScene(state, scene);
   return state;
 }
@@ -26,27 +26,27 @@ TEST(Visibility, NodesAreHiddenByTheirNameWhereThatIsTheirsAlone) {
   hideNode(state, 0, true);
   hideNode(state, 2, true);
   hideNode(state, 3, true);
-  for (const RenderOptions& side : state.sides)
-    EXPECT_EQ(side.selection.hiddenNodes, (Names{"root", "/nodes/2", "/nodes/3"}));
+  for (size_t side = 0; side < 2; ++side)
+    EXPECT_EQ(optionsOf(state.edit, side).selection.hiddenNodes, (Names{"root", "/nodes/2", "/nodes/3"}));
   EXPECT_EQ(state.scene->options.selection.hiddenNodes.size(), 3u);
   EXPECT_FALSE(isHidden(state, 1));
   EXPECT_TRUE(isHidden(state, 2));
   hideNode(state, 2, false);
-  EXPECT_EQ(state.sides[0].selection.hiddenNodes, (Names{"root", "/nodes/3"}));
-  EXPECT_TRUE(state.posed);  // the camera stays, whatever is left to frame
+  EXPECT_EQ(state.edit.shared.selection.hiddenNodes, (Names{"root", "/nodes/3"}));
+  EXPECT_TRUE(state.edit.posed);  // the camera stays, whatever is left to frame
 }
 
 TEST(Visibility, AnotherOfTheSameNameStaysHidden) {
   ViewState state = withNodes();
-  state.sides[0].selection.hiddenNodes = {"twin"};
+  state.edit.shared.selection.hiddenNodes = {"twin"};
   EXPECT_TRUE(isHidden(state, 1) && isHidden(state, 2));
   hideNode(state, 1, false);
-  EXPECT_EQ(state.sides[0].selection.hiddenNodes, Names{"/nodes/2"});
+  EXPECT_EQ(state.edit.shared.selection.hiddenNodes, Names{"/nodes/2"});
 }
 
 TEST(Visibility, AnIndexIsOneOnlyWhereNoNodeHasThatName) {
   ViewState state = withNodes();
-  state.sides[0].selection.hiddenNodes = {"2"};
+  state.edit.shared.selection.hiddenNodes = {"2"};
   EXPECT_TRUE(isHidden(state, 2));
   state.scene->nodes[0].name = "2";
   EXPECT_TRUE(isHidden(state, 0));
@@ -60,7 +60,7 @@ TEST(Visibility, IsUndone) {
   hideNode(state, 0, true);
   record(history, state);
   EXPECT_TRUE(undo(history, state));
-  EXPECT_TRUE(state.sides[0].selection.hiddenNodes.empty());
+  EXPECT_TRUE(state.edit.shared.selection.hiddenNodes.empty());
   EXPECT_TRUE(state.scene->options.selection.hiddenNodes.empty());
   EXPECT_TRUE(redo(history, state));
   EXPECT_TRUE(isHidden(state, 0));

@@ -46,10 +46,10 @@ void drawCosts(const ViewState& state, const ViewFacts& facts, size_t side, cons
   row("steps", "%s", passText(s.passes).c_str());
   ImGui::PopTextWrapPos();
   if (s.filtered > 0.0) row("denoised", "%.0f %%, %.0f ms", 100.0 * s.filtered, s.filterMs);
-  if (!state.split) row("paths", "%.2f million/s", s.megaPathsPerSecond);
+  if (!state.edit.split) row("paths", "%.2f million/s", s.megaPathsPerSecond);
   const glm::ivec2 size = facts.pictureSize[side];
   row("picture", "%d x %d%s", size.x, size.y, s.copied ? ", copied" : "");
-  if (state.split || !state.scene) return;
+  if (state.edit.split || !state.scene) return;
   const SceneDescription& d = state.scene->description;
   if (d.spheres > 0)
     row("scene", "%zu triangles, %zu spheres", d.triangles, d.spheres);
@@ -69,14 +69,14 @@ float drawSide(const ViewState& state, ViewFacts& facts, size_t side, ImVec2 pla
   ImGui::SetNextWindowBgAlpha(0.62f);
   if (ImGui::Begin(name.c_str(), nullptr, kLabelFlags | ImGuiWindowFlags_NoInputs) &&
       ImGui::BeginTable("rows", 2, ImGuiTableFlags_SizingFixedFit)) {
-    if (state.split) row("side", "%s", side == 0 ? "A" : "B");
+    if (state.edit.split) row("side", "%s", side == 0 ? "A" : "B");
     row("samples", "%d, %.1f s%s", s.samples, s.seconds, s.resting ? ", done" : "");
     if (s.error < 0.0)
       row("error", "not yet known");
     else if (layout.figures == FigureDetail::Brief)
       row("error", "%.2f %%", 100.0 * s.error);
     else
-      row("error", "%.2f %% (goal %.2f %%)", 100.0 * s.error, 100.0 * state.sides[side].sampling.noise);
+      row("error", "%.2f %% (goal %.2f %%)", 100.0 * s.error, 100.0 * state.edit.shared.sampling.noise);
     if (layout.figures == FigureDetail::All) drawCosts(state, facts, side, layout);
     ImGui::EndTable();
     addWindowPlace(facts.places, name);
@@ -91,7 +91,7 @@ float drawSide(const ViewState& state, ViewFacts& facts, size_t side, ImVec2 pla
 void drawFigures(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
   if (layout.figures == FigureDetail::None) return;
   // Below the names of the sides.
-  float top = layout.margin + (state.split ? ImGui::GetFontSize() + 2.0f * layout.margin : 0.0f);
+  float top = layout.margin + (state.edit.split ? ImGui::GetFontSize() + 2.0f * layout.margin : 0.0f);
   for (size_t side = 0; side < state.tracedCount(); ++side)
     top = drawSide(state, facts, side, {layout.margin, top}, layout) + layout.margin;
 }

@@ -171,8 +171,8 @@ void Input::release(const Event& event, ViewState& state, const RunCommand& run)
     return;
   }
   const bool chooses =
-      state.tracedCount() == 2 && state.comparison == CompareMode::Bar && state.active != side;
-  if (chooses) state.active = side;
+      state.tracedCount() == 2 && state.comparison == CompareMode::Bar && state.edit.active != side;
+  if (chooses) state.edit.active = side;
   const double now = glfwGetTime();
   const bool twice = lastClickTime_ >= 0.0 && now - lastClickTime_ <= kDoubleClickSeconds &&
                      glm::length(cursor_ - lastClick_) <= 2.0 * kDragPixels;

@@ -133,14 +133,14 @@ void drawSideNames(const ViewState& state, ViewFacts& facts, const WindowLayout&
   const float right = float(layout.picture.x);
   const float bar = float(state.shownBar()) * right;
   const auto draw = [&](size_t side, float from, float to) {
-    const RenderOptions& options = state.sides[side];
-    const DebugView view = options.output.debugView;
+    const SideOptions& options = state.edit.sides[side];
+    const DebugView view = options.debugView;
     const bool file = side == 1 && !state.reference.empty();
     const std::string name = std::string(side == 0 ? "A  " : "B  ") +
                              (file ? shownText(state.reference.filename().string(), kMostNameCharacters)
                               : view == DebugView::None ? presetName(options.stages)
                                                         : std::string(rowOf(view).label));
-    Label label{{name}, {to, 0.0f}, to - from, state.active == side};
+    Label label{{name}, {to, 0.0f}, to - from, state.edit.active == side};
     if (!file) label.texts.insert(label.texts.begin(), name + costText(facts.statistics[side]));
     drawLabel(label, facts, side == 0 ? "name A" : "name B", layout);
   };
@@ -153,7 +153,7 @@ void drawSideNames(const ViewState& state, ViewFacts& facts, const WindowLayout&
 
 /// A picture that shows something other than light says what.
 void drawViewName(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
-  const DebugView view = state.options().output.debugView;
+  const DebugView view = state.side().debugView;
   if (!state.scene || view == DebugView::None) return;
   const std::string name(rowOf(view).label);
   const float right = float(layout.picture.x);

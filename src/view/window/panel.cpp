@@ -24,7 +24,7 @@ void drawPresets(const ViewState& state, ViewFacts& facts) {
   const float count = float(kPresets.size());
   const float width = (ImGui::GetContentRegionAvail().x - (count - 1) * style.ItemSpacing.x) / count;
   for (const Preset& preset : kPresets) {
-    const bool chosen = isPreset(state.options().stages, preset);
+    const bool chosen = isPreset(state.side().stages, preset);
     if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, kAccent);
     if (&preset != kPresets.data()) ImGui::SameLine();
     if (ImGui::Button(preset.name, {width, 0.0f}))
@@ -37,13 +37,13 @@ void drawPresets(const ViewState& state, ViewFacts& facts) {
 
 /// Draws the stages that build on each other, or the switches.
 void drawStages(ViewState& state, Places& places, bool cumulative) {
-  RenderOptions& o = state.options();
+  SideOptions& side = state.side();
   for (const StageRow& row : stageRows()) {
     if (row.cumulative != cumulative) continue;
     const std::string reason = row.stage == Stage::Flat ? "always on" : whyGrey(state, row.stage);
-    bool on = has(o.stages, row.stage) && (reason.empty() || row.stage == Stage::Flat);
+    bool on = has(side.stages, row.stage) && (reason.empty() || row.stage == Stage::Flat);
     ImGui::BeginDisabled(!reason.empty());
-    if (ImGui::Checkbox(row.label, &on)) o.stages.set(size_t(row.stage), on);
+    if (ImGui::Checkbox(row.label, &on)) side.stages.set(size_t(row.stage), on);
     ImGui::EndDisabled();
     tip(places, row.sentence);
     dimAtEnd(reason.empty() ? keyOf(Command::ToggleStage, int(row.stage)) : reason);
@@ -51,23 +51,24 @@ void drawStages(ViewState& state, Places& places, bool cumulative) {
 }
 
 void drawSampling(ViewState& state, Places& places) {
-  RenderOptions& o = state.options();
+  SideOptions& side = state.side();
   label(places, "Bounces");
-  int bounces = std::min(o.sampling.bounces, kMostBouncesShown);
+  int bounces = std::min(side.sampling.bounces, kMostBouncesShown);
   if (ImGui::SliderInt("##bounces", &bounces, 0, kMostBouncesShown,
-                       o.sampling.bounces >= kMostBouncesShown ? "unlimited" : "%d", kBounded))
-    o.sampling.bounces = bounces >= kMostBouncesShown ? kUnlimitedBounces : bounces;
+                       side.sampling.bounces >= kMostBouncesShown ? "unlimited" : "%d", kBounded))
+    side.sampling.bounces = bounces >= kMostBouncesShown ? kUnlimitedBounces : bounces;
   label(places, "Roulette from");
-  ImGui::SliderInt("##roulette", &o.sampling.rouletteDepth, 1, 32, "%d", kBounded);
-  double noise = 100.0 * o.sampling.noise;
+  ImGui::SliderInt("##roulette", &side.sampling.rouletteDepth, 1, 32, "%d", kBounded);
+  double& goal = state.edit.shared.sampling.noise;
+  double noise = 100.0 * goal;
   if (slider(places, "Noise to reach", noise, 0.1f, 20.0f, "%.2f %%", kBoundedLogarithmic))
-    for (RenderOptions& side : state.sides) side.sampling.noise = 0.01 * noise;
+    goal = 0.01 * noise;
   label(places, "Pixel filter");
-  choose("##filter", kPixelFilterNames, o.camera.pixelFilter);
-  slider(places, "Clamp indirect", o.sampling.clampIndirect, 0.0f, 100.0f,
-         o.sampling.clampIndirect > 0.0 ? "%.2f (biased)" : "off", kBoundedLogarithmic);
+  choose("##filter", kPixelFilterNames, side.pixelFilter);
+  slider(places, "Clamp indirect", side.sampling.clampIndirect, 0.0f, 100.0f,
+         side.sampling.clampIndirect > 0.0 ? "%.2f (biased)" : "off", kBoundedLogarithmic);
   label(places, "Traversal");
-  choose("##traversal", kTraversalNames, o.device.traversal);
+  choose("##traversal", kTraversalNames, side.device.traversal);
 }
 
 void drawAnimation(ViewState& state, ViewFacts& facts) {
@@ -84,8 +85,8 @@ void drawAnimation(ViewState& state, ViewFacts& facts) {
     }
     ImGui::EndCombo();
   }
-  double time = state.sides[0].selection.animationTime.value_or(0.0);
-  const bool posed = state.sides[0].selection.animationTime.has_value();
+  double time = state.edit.shared.selection.animationTime.value_or(0.0);
+  const bool posed = state.edit.shared.selection.animationTime.has_value();
   if (slider(places, "Time", time, 0.0f, float(animationLength(state)), posed ? "%.2f s" : "at rest")) {
     state.playback.playing = false;
     showAnimation(state, shown, time);
@@ -109,28 +110,28 @@ void drawSides(ViewState& state, ViewFacts& facts) {
     ImGui::Text("B: %s", shownText(state.reference.filename().string(), kMostNameCharacters).c_str());
     return;
   }
-  int active = int(state.active);
+  int active = int(state.edit.active);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Settings of");
   ImGui::SameLine();
   ImGui::RadioButton("A (left)", &active, 0);
   ImGui::SameLine();
   ImGui::RadioButton("B (right)", &active, 1);
-  state.active = size_t(active);
+  state.edit.active = size_t(active);
 }
 
 void drawCompare(ViewState& state, ViewFacts& facts) {
   Places& places = facts.places;
-  commandBox(facts, "Split view", state.split, Command::ToggleSplit);
+  commandBox(facts, "Split view", state.edit.split, Command::ToggleSplit);
   stayOnLineFor("[ ] Denoise");
   const std::string reason = whyWithoutNoise(state.options());
-  const bool denoises = state.options().output.denoise != Denoise::None && reason.empty();
+  const bool denoises = state.side().denoise != Denoise::None && reason.empty();
   ImGui::BeginDisabled(!reason.empty());
   commandBox(facts, "Denoise", denoises, Command::ToggleDenoise);
   ImGui::EndDisabled();
   tip(places, reason.empty() ? "all of it up to 64 samples per pixel, nothing from 256 on" : reason);
   dimAtEnd(keyOf(Command::ToggleSplit) + ", " + keyOf(Command::ToggleDenoise));
-  if (!state.split) return;
+  if (!state.edit.split) return;
   int comparison = int(state.comparison);
   constexpr std::array kNames{"bar", "A", "B", "difference"};
   for (int i = 0; i < int(kNames.size()); ++i) {
@@ -147,21 +148,20 @@ void drawCompare(ViewState& state, ViewFacts& facts) {
 
 void drawAdvanced(ViewState& state, ViewFacts& facts) {
   Places& places = facts.places;
-  RenderOptions& o = state.options();
+  SideOptions& side = state.side();
   label(places, "Show");
-  const std::string current(rowOf(o.output.debugView).label);
+  const std::string current(rowOf(side.debugView).label);
   if (ImGui::BeginCombo("##show", current.c_str(), ImGuiComboFlags_HeightLargest)) {
     for (size_t i = 0; i < kDebugViewRows.size(); ++i) {
       const std::string name(kDebugViewRows[i].label);
-      if (ImGui::Selectable(name.c_str(), DebugView(i) == o.output.debugView))
-        o.output.debugView = DebugView(i);
+      if (ImGui::Selectable(name.c_str(), DebugView(i) == side.debugView)) side.debugView = DebugView(i);
     }
     ImGui::EndCombo();
   }
-  ImGui::Checkbox("Boxes of the tree", &state.treeBoxes);
+  ImGui::Checkbox("Boxes of the tree", &state.edit.treeBoxes);
   dimAtEnd(keyOf(Command::ToggleTreeBoxes));
   label(places, "Level");
-  ImGui::SliderInt("##level", &state.treeLevel, 0, 31, "%d", kBounded);
+  ImGui::SliderInt("##level", &state.edit.treeLevel, 0, 31, "%d", kBounded);
   ImGui::Checkbox("Figures over the picture", &state.figures);
   addItemPlace(places, "Figures");
   dimAtEnd(keyOf(Command::ToggleHud));

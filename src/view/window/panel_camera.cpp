@@ -54,10 +54,10 @@ double firstStop(const CameraPose& pose) {
 
 /// Depth of field: sharp at the focal point, unless the command line says where.
 void drawLens(ViewState& state, Places& places) {
-  LensOptions lens = state.sides[0].camera.lens;
+  LensOptions& lens = state.edit.shared.camera.lens;
   bool blurred = lens.fStop.has_value();
   if (ImGui::Checkbox("Depth of field", &blurred))
-    lens.fStop = blurred ? std::optional(firstStop(state.pose)) : std::nullopt;
+    lens.fStop = blurred ? std::optional(firstStop(state.edit.pose)) : std::nullopt;
   addItemPlace(places, "Depth of field");
   if (lens.fStop) {
     slider(places, "F-stop", *lens.fStop, float(kLeastStop), float(kMostStop), "f / %.3g",
@@ -66,7 +66,6 @@ void drawLens(ViewState& state, Places& places) {
     if (ImGui::SliderInt("##blades", &lens.blades, 2, 12, lens.blades < 3 ? "round" : "%d", kBounded))
       lens.blades = lens.blades < 3 ? 0 : lens.blades;
   }
-  for (RenderOptions& side : state.sides) side.camera.lens = lens;
 }
 
 }  // namespace
@@ -74,17 +73,18 @@ void drawLens(ViewState& state, Places& places) {
 void drawCamera(ViewState& state, ViewFacts& facts) {
   Places& places = facts.places;
   label(places, "Projection");
-  CameraType type = state.pose.type;
+  CameraType type = state.edit.pose.type;
   choose("##projection", kCameraTypeNames, type);
-  if (type != state.pose.type) {
-    state.pose = withProjection(state.pose, type);
-    state.posed = true;
+  if (type != state.edit.pose.type) {
+    state.edit.pose = withProjection(state.edit.pose, type);
+    state.edit.posed = true;
   }
   const bool fisheye = type == CameraType::Fisheye;
   if (fisheye || type == CameraType::Perspective) {
-    if (slider(places, "View angle", fisheye ? state.pose.fisheyeDegrees : state.pose.viewAngleDegrees, 1.0f,
+    if (slider(places, "View angle",
+               fisheye ? state.edit.pose.fisheyeDegrees : state.edit.pose.viewAngleDegrees, 1.0f,
                fisheye ? 360.0f : 170.0f, "%.1f degrees"))
-      state.posed = true;
+      state.edit.posed = true;
   }
   if (type == CameraType::Perspective) drawLens(state, places);
   if (state.scene && !state.scene->cameras.empty()) {
@@ -94,9 +94,9 @@ void drawCamera(ViewState& state, ViewFacts& facts) {
       if (i < 0 || size_t(i) >= cameras.size()) return std::string("none");
       return partText(size_t(i), cameras[size_t(i)].name);
     };
-    if (ImGui::BeginCombo("##camera", nameOf(state.sceneCamera).c_str())) {
+    if (ImGui::BeginCombo("##camera", nameOf(state.edit.sceneCamera).c_str())) {
       for (int i = 0; i < int(cameras.size()); ++i) {
-        if (ImGui::Selectable(nameOf(i).c_str(), i == state.sceneCamera))
+        if (ImGui::Selectable(nameOf(i).c_str(), i == state.edit.sceneCamera))
           facts.commands.push_back({Command::SceneCamera, i});
       }
       ImGui::EndCombo();

@@ -36,7 +36,7 @@ void drawFactor(ViewState& state, Places& places, const Factor& factor, const Ma
 void drawLightSource(ViewState& state, Places& places, size_t index) {
   const LightSource& file = state.scene->lights[index];
   LightSource now = file;
-  setLight(now, index, state.sides[0].selection.set);
+  setLight(now, index, state.edit.shared.selection.set);
   const float most = file.intensity > 0.0 ? kMostBrighter * float(file.intensity) : kMostBrighter;
   if (slider(places, "Light intensity", now.intensity, 0.0f, most, "%.4g", kBoundedLogarithmic)) {
     now.intensity = shortest(float(now.intensity));

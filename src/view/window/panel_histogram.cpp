@@ -18,7 +18,7 @@ constexpr std::array<ImU32, 3> kPlotColors{IM_COL32(220, 70, 70, 150), IM_COL32(
 const Histogram& current(const ViewState& state, ViewFacts& facts) {
   const size_t side = state.shownSide();
   ShownHistogram& shown = facts.histogram;
-  const double exposure = state.options().output.exposure.value_or(0.0);
+  const double exposure = state.edit.shared.output.exposure.value_or(0.0);
   const PictureValues& values = facts.values[side];
   facts.wantsHistogram = true;
   const bool whole = values.whole.x > 0 && values.area.size == values.whole;

@@ -60,7 +60,7 @@ void chooseEnvironment(const ViewedScene& scene, ViewFacts& facts) {
 
 /// The sun of the sky, and its haze.
 void drawSky(ViewState& state, Places& places) {
-  SkyOptions sky = state.sides[0].light.sky;
+  SkyOptions& sky = state.edit.shared.light.sky;
   SunPlace sun = sunOf(sky);
   if (slider(places, "Sun height", sun.elevation, kLowestSun, 90.0f, "%.1f degrees")) placeSun(sky, sun);
   tip(places, "Degrees above the horizon (--sun-elevation). Shift and the right button drag the sun");
@@ -72,12 +72,11 @@ void drawSky(ViewState& state, Places& places) {
   tip(places, "Degrees clockwise from north, which is -Z: 90 is east, +X (--sun-azimuth)");
   slider(places, "Haze", sky.turbidity, 1.0f, 10.0f, "%.1f");
   tip(places, "1 is air without haze, 3 a clear day (--sky-turbidity)");
-  for (RenderOptions& side : state.sides) side.light.sky = sky;
 }
 
 /// Fog round the scene.
 void drawFog(ViewState& state, Places& places) {
-  FogOptions fog = state.sides[0].fog;
+  FogOptions& fog = state.edit.shared.fog;
   const std::string reason = whyNoFog(state);
   ImGui::BeginDisabled(!reason.empty());
   label(places, "Fog");
@@ -113,22 +112,18 @@ void drawFog(ViewState& state, Places& places) {
     fog = FogOptions();
   }
   ImGui::EndDisabled();
-  for (RenderOptions& side : state.sides) side.fog = fog;
 }
 
 void drawBackground(ViewState& state, Places& places) {
-  const RenderOptions& o = state.sides[0];
+  LightOptions& light = state.edit.shared.light;
   label(places, "Background");
-  bool background = o.light.background;
-  if (ImGui::Checkbox("##background", &background))
-    for (RenderOptions& side : state.sides) side.light.background = background;
-  if (background && state.scene->surroundings != Surroundings::Map) {
+  ImGui::Checkbox("##background", &light.background);
+  if (light.background && state.scene->surroundings != Surroundings::Map) {
     ImGui::SameLine();
-    glm::vec3 color = o.light.backgroundColor.value_or(glm::vec3(0.0f));
+    glm::vec3 color = light.backgroundColor.value_or(glm::vec3(0.0f));
     if (ImGui::ColorEdit3("##color", glm::value_ptr(color),
                           ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_NoInputs))
-      for (RenderOptions& side : state.sides)
-        side.light.backgroundColor = glm::clamp(color, glm::vec3(0.0f), glm::vec3(kMostColor));
+      light.backgroundColor = glm::clamp(color, glm::vec3(0.0f), glm::vec3(kMostColor));
     addItemPlace(places, "Background colour");
   }
 }
@@ -137,14 +132,11 @@ void drawBackground(ViewState& state, Places& places) {
 
 void drawLight(ViewState& state, ViewFacts& facts) {
   Places& places = facts.places;
-  RenderOptions& o = state.sides[0];
+  RenderOptions& o = state.edit.shared;
   double exposure = o.output.exposure.value_or(0.0);
-  if (slider(places, "Exposure", exposure, -8.0f, 8.0f, "%.1f EV"))
-    for (RenderOptions& side : state.sides) side.output.exposure = exposure;
+  if (slider(places, "Exposure", exposure, -8.0f, 8.0f, "%.1f EV")) o.output.exposure = exposure;
   label(places, "Tone map");
-  ToneMap curve = o.output.toneMap;
-  choose("##curve", toneMapNames(), curve);
-  for (RenderOptions& side : state.sides) side.output.toneMap = curve;
+  choose("##curve", toneMapNames(), o.output.toneMap);
   const bool map = state.scene->surroundings == Surroundings::Map;
   label(places, "Environment");
   chooseEnvironment(*state.scene, facts);
@@ -154,8 +146,7 @@ void drawLight(ViewState& state, ViewFacts& facts) {
   // Typed values beyond the ends wrap around.
   if (ImGui::SliderFloat("##rotation", &degrees, -180.0f, 180.0f,
                          map ? "%.0f degrees" : "no environment map"))
-    for (RenderOptions& side : state.sides)
-      side.light.hdriRotationDegrees = std::isfinite(degrees) ? std::remainder(degrees, 360.0f) : 0.0f;
+    o.light.hdriRotationDegrees = std::isfinite(degrees) ? std::remainder(degrees, 360.0f) : 0.0f;
   ImGui::EndDisabled();
   label(places, "Intensity");
   const bool lit = has(state.scene->present, Trait::Environment);
@@ -163,7 +154,7 @@ void drawLight(ViewState& state, ViewFacts& facts) {
   float intensity = float(o.light.hdriIntensity);
   if (ImGui::SliderFloat("##intensity", &intensity, 0.0f, kMostIntensity, lit ? "%.2f" : "no environment",
                          kBoundedLogarithmic))
-    for (RenderOptions& side : state.sides) side.light.hdriIntensity = intensity;
+    o.light.hdriIntensity = intensity;
   ImGui::EndDisabled();
   if (o.light.sky.on) drawSky(state, places);
   if (!state.scene->options.light.hdriFile.empty() || state.scene->options.light.sky.on) {
@@ -182,7 +173,7 @@ void drawLight(ViewState& state, ViewFacts& facts) {
   }
   drawFog(state, places);
   drawBackground(state, places);
-  const bool paths = has(state.options().stages, Stage::Gi);
+  const bool paths = has(state.side().stages, Stage::Gi);
   ImGui::BeginDisabled(!paths);
   commandBox(facts, "Shadow catcher", o.light.shadowCatcher && paths, Command::ToggleGround);
   ImGui::EndDisabled();

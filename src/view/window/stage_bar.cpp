@@ -35,7 +35,7 @@ float widthOf(Naming naming) {
 
 void drawStage(const ViewState& state, ViewFacts& facts, const StageRow& row, Naming naming) {
   const std::string reason = whyGrey(state, row.stage);
-  const bool on = has(state.options().stages, row.stage) && reason.empty();
+  const bool on = has(state.side().stages, row.stage) && reason.empty();
   if (on) ImGui::PushStyleColor(ImGuiCol_Button, kAccent);
   if (!reason.empty()) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   const Control& control = *controlOf(Command::StagesUpTo, int(row.stage));

@@ -66,7 +66,7 @@ std::string textOf(const Json& json) {
 Json animationJson(const ViewState& state) {
   const int animation = shownAnimation(state);
   if (animation < 0) return {};
-  const std::optional<double>& time = state.sides[0].selection.animationTime;
+  const std::optional<double>& time = state.edit.shared.selection.animationTime;
   return {{"index", animation},
           {"playing", state.playback.playing},
           {"length", animationLength(state)},
@@ -103,7 +103,7 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["pictures"] = report.pictures;
   json["frames"] = report.frames;
   json["overview"] = state.overview;
-  json["split"] = state.split;
+  json["split"] = state.edit.split;
   json["bar"] = state.bar;
   json["comparison"] = kComparisonNames[size_t(state.comparison)];
   json["magnified"] = std::exp2(state.magnifier.steps);
@@ -117,23 +117,23 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   const std::vector<RenderOptions> sides = tracedSides(state);
   for (size_t i = 0; i < sides.size(); ++i) json["sides"].push_back(sideJson(sides[i], facts, i));
   json["camera"] = report.camera;
-  json["exposure"] = state.sides[0].output.exposure.value_or(0.0);
-  json["tone_map"] = toneMapNames()[size_t(state.sides[0].output.toneMap)];
+  json["exposure"] = state.edit.shared.output.exposure.value_or(0.0);
+  json["tone_map"] = toneMapNames()[size_t(state.edit.shared.output.toneMap)];
   json["thumbnails"] = facts.thumbnails.size();
   json["reference"] = state.reference.string();
   json["up"] = state.scene ? rowOf("--up").words(state.scene->options).front() : "";
-  json["hidden"] = state.sides[0].selection.hiddenNodes;
+  json["hidden"] = state.edit.shared.selection.hiddenNodes;
   json["set"] = Json::object();
-  for (const SetNumber& set : state.sides[0].selection.set) {
+  for (const SetNumber& set : state.edit.shared.selection.set) {
     if (set.word.empty())
       json["set"][set.pointer] = set.values;
     else
       json["set"][set.pointer] = set.word;
   }
-  json["hdri_rotation"] = state.sides[0].light.hdriRotationDegrees;
-  json["sun"] = {sunOf(state.sides[0].light.sky).elevation, sunOf(state.sides[0].light.sky).azimuth};
-  json["hdri_intensity"] = state.sides[0].light.hdriIntensity;
-  json["background"] = state.sides[0].light.background;
+  json["hdri_rotation"] = state.edit.shared.light.hdriRotationDegrees;
+  json["sun"] = {sunOf(state.edit.shared.light.sky).elevation, sunOf(state.edit.shared.light.sky).azimuth};
+  json["hdri_intensity"] = state.edit.shared.light.hdriIntensity;
+  json["background"] = state.edit.shared.light.background;
   json["animation"] = animationJson(state);
   json["load_step"] = facts.load.step;
   json["load_fraction"] = facts.load.fraction;

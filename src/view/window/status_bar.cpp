@@ -31,15 +31,14 @@ std::string activity(const ViewState& state, const ViewFacts& facts) {
 std::vector<std::string> firstTexts(const ViewState& state, const ViewFacts& facts) {
   const size_t side = state.shownSide();
   const SideStatistics& s = facts.statistics[side];
-  const RenderOptions& o = state.options();
   std::vector<std::string> texts;
   const std::string name = state.compares() ? (side == 0 ? "A: " : "B: ") : "";
   texts.push_back(name + samplesText(s.samples) + " per pixel");
   // It is the error of light, which a debug view does not show.
-  if (s.error >= 0.0 && o.output.debugView == DebugView::None) {
-    texts.push_back(o.sampling.noise > 0.0
-                        ? formatted("error %.2f %% of %.2f %%", 100.0 * s.error, 100.0 * o.sampling.noise)
-                        : formatted("error %.2f %%", 100.0 * s.error));
+  if (s.error >= 0.0 && state.side().debugView == DebugView::None) {
+    const double noise = state.edit.shared.sampling.noise;
+    texts.push_back(noise > 0.0 ? formatted("error %.2f %% of %.2f %%", 100.0 * s.error, 100.0 * noise)
+                                : formatted("error %.2f %%", 100.0 * s.error));
   }
   if (facts.pick && facts.pick->end) texts.push_back(distanceText(facts.pick->point, *facts.pick->end));
   return texts;

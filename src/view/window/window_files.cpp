@@ -20,7 +20,7 @@ void Window::takeDrops() {
 void Window::openFiles(const std::vector<std::filesystem::path>& files, bool isAsked) {
   std::vector<std::filesystem::path> toLoad;
   for (const std::filesystem::path& file : files) {
-    if (state_.split && mayBeReference(file))
+    if (state_.edit.split && mayBeReference(file))
       exchange_.request(&Requests::reference, file);
     else
       toLoad.push_back(file);
@@ -38,11 +38,11 @@ void Window::openFiles(const std::vector<std::filesystem::path>& files, bool isA
 }
 
 void Window::save(const std::filesystem::path& name) {
-  const RenderOptions& o = state_.options();
+  const RenderOptions& o = state_.edit.shared;
   // A file for a display holds the picture as shown; a file of radiance holds the active side's samples.
   const bool seen = isDisplayFormat(name);
   const bool both = state_.compares() && seen;
-  const char* side = !state_.compares() || both ? "" : state_.active == 0 ? " of side A" : " of side B";
+  const char* side = !state_.compares() || both ? "" : state_.edit.active == 0 ? " of side A" : " of side B";
   if (!facts_.resting) say("writing " + name.string() + side + " as soon as all of the picture is drawn");
   SaveRequest request;
   request.path = name;
@@ -58,7 +58,7 @@ void Window::save(const std::filesystem::path& name) {
 /// To open, beside the scene that is shown; to save a picture, where one was saved last; to save the model,
 /// beside it.
 void Window::askForFile(const Invocation& invocation) {
-  const RenderOptions& o = state_.options();
+  const RenderOptions& o = state_.edit.shared;
   std::error_code error;
   const std::filesystem::path here = std::filesystem::current_path(error);
   FileQuestion question;

@@ -86,9 +86,10 @@ Window::Window(const WindowStart& start, Exchange& exchange)
       interface_(window_.get()),
       display_(exchange),
       frames_(kSettleFrames) {
-  state_.sides[0] = wanted_ = start.options;
-  state_.treeBoxes = start.options.output.treeLevel.has_value();
-  state_.treeLevel = start.options.output.treeLevel.value_or(state_.treeLevel);
+  wanted_ = start.options;
+  state_.edit = editOf(start.options);
+  state_.edit.treeBoxes = start.options.output.treeLevel.has_value();
+  state_.edit.treeLevel = start.options.output.treeLevel.value_or(state_.edit.treeLevel);
   state_.panel = startsWithPanel(start.options);
   exchange_.setWake([] { glfwPostEmptyEvent(); });
   try {
@@ -216,7 +217,7 @@ void Window::take(ViewedScene scene) {
   const bool another = !state_.scene || !sameScene(state_.scene->options, scene.options);
   const bool otherNodes = !state_.scene || !sameNodes(state_.scene->options, scene.options);
   const std::vector<ChangedNumber> changed = numbersSavedIn(scene);
-  const LightOptions lightBefore = state_.sides[0].light;
+  const LightOptions lightBefore = state_.edit.shared.light;
   showScene(state_, std::move(scene));
   takeOver(history_, state_, changed, lightBefore);
   glfwSetWindowTitle(window_.get(), windowTitle(state_.scene->options.scene).c_str());
@@ -335,11 +336,9 @@ void Window::draw() {
   drawn_ = now;
   ++report_.frames;
   std::array<DisplaySide, kMostSides> sides;
-  for (size_t i = 0; i < kMostSides; ++i) {
-    const RenderOptions& o = i < 2 && !state_.overview ? state_.sides[i] : state_.options();
-    sides[i] = {o.output.exposure.value_or(0.0), o.output.toneMap};
-    if (o.light.background) sides[i].page = o.light.backgroundColor;
-  }
+  const RenderOptions& o = state_.edit.shared;
+  sides.fill({o.output.exposure.value_or(0.0), o.output.toneMap,
+              o.light.background ? o.light.backgroundColor : std::nullopt});
   display_.draw({size, layout.picture, state_.shownBar(), state_.magnifier, state_.overview,
                  state_.compares() && state_.comparison == CompareMode::Difference, state_.differenceStops},
                 sides);

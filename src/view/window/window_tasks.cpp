@@ -86,9 +86,9 @@ void Window::execute(const Invocation& invocation) {
       state_.reference.clear();
       return exchange_.request(&Requests::reference, {});
     case Command::Screenshot:
-      return save(std::filesystem::absolute(freePictureName(state_.options().scene, ".png")));
+      return save(std::filesystem::absolute(freePictureName(state_.edit.shared.scene, ".png")));
     case Command::WriteExr:
-      return save(std::filesystem::absolute(freePictureName(state_.options().scene, ".exr")));
+      return save(std::filesystem::absolute(freePictureName(state_.edit.shared.scene, ".exr")));
     case Command::Fullscreen:
       return toggleFullscreen();
     case Command::Close:
@@ -147,15 +147,15 @@ void Window::pick(const Invocation& invocation) {
 void Window::level(const PickAnswer& answer) {
   if (!answer.hit) return say("nothing is there");
   if (!facts_.pick || !facts_.pick->end) return;
-  RenderOptions options = renderOptionsOf(state_, state_.active);
+  RenderOptions options = renderOptionsOf(state_, state_.edit.active);
   const std::optional<glm::dvec3> up =
       levelUp({facts_.pick->point, *facts_.pick->end, answer.point}, options.selection.up);
   if (!up)
     return say("the three points lie on a line: none of the planes through them is the one that is meant");
   // The camera goes with what it looks at, and stands upright.
-  CameraPose pose = state_.pose;
+  CameraPose pose = state_.edit.pose;
   pose.focalPoint = turnToY(*up) * (pose.focalPoint * turnToY(options.selection.up));
-  pose.position += pose.focalPoint - state_.pose.focalPoint;
+  pose.position += pose.focalPoint - state_.edit.pose.focalPoint;
   constexpr double kSteep = 0.999;  // cosine between the view and the vertical: what is up then stays so
   const glm::dvec3 view = glm::normalize(pose.focalPoint - pose.position);
   if (std::abs(view.y) < kSteep) pose.viewUp = {0.0, 1.0, 0.0};
@@ -196,7 +196,7 @@ void Window::cancelLoad() {
 
 /// The options of the active side, with everything that its picture on the screen depends on.
 RenderOptions Window::shownOptions() const {
-  RenderOptions o = renderOptionsOf(state_, state_.active);
+  RenderOptions o = renderOptionsOf(state_, state_.edit.active);
   o.camera.resolution = state_.size;
   o.camera.sceneOrigin = state_.scene->description.origin;
   o.sampling.spp = std::max(facts_.statistics[state_.shownSide()].samples, 1);
@@ -208,7 +208,7 @@ RenderOptions Window::shownOptions() const {
 bool Window::mayLeave(const std::string& deed) {
   const std::string question =
       "the numbers that were set are not saved (Ctrl+Shift+S); " + deed + " again to leave them";
-  const std::vector<SetNumber>& set = state_.sides[0].selection.set;
+  const std::vector<SetNumber>& set = state_.edit.shared.selection.set;
   const bool isSaved = set.empty() || set == saved_ || set == start_.options.selection.set;
   if (isSaved || isSeen(facts_.messages, question, glfwGetTime())) return true;
   say(question);
@@ -272,7 +272,7 @@ void Window::pasteCommand() {
 /// Takes a command or options of a camera. False if that fails, after a message.
 bool Window::takeText(const std::string& text, const std::string& otherwise) {
   try {
-    const RenderOptions options = start_.withCommandText(renderOptionsOf(state_, state_.active), text);
+    const RenderOptions options = start_.withCommandText(renderOptionsOf(state_, state_.edit.active), text);
     if (options.scene.empty()) throw UsageError("it names no scene");
     if (sameScene(options, state_.scene->options)) {
       takeOptions(state_, options);
@@ -347,10 +347,9 @@ void Window::askForThumbnails() {
 void Window::takeReference(const TracedPicture& picture) {
   record(history_, state_);
   state_.reference = picture.file;
-  state_.split = true;
+  split(state_.edit);
   state_.overview = false;
-  state_.active = 0;
-  if (state_.sides[1].scene.empty()) state_.sides[1] = state_.sides[0];
+  state_.edit.active = 0;
   newReference_ = true;
   overlook(history_, state_);
 }
@@ -363,8 +362,8 @@ void Window::take(PickAnswer answer) {
   if (answer.request.use == PickUse::Level) return level(answer);
   if (answer.request.use == PickUse::Center) {
     if (!answer.hit) return;
-    state_.pose = centerOn(state_.pose, answer.point);
-    state_.posed = true;
+    state_.edit.pose = centerOn(state_.edit.pose, answer.point);
+    state_.edit.posed = true;
     return;
   }
   if (answer.request.use == PickUse::Measure) {
