@@ -164,8 +164,7 @@ void drawViewName(const ViewState& state, ViewFacts& facts, const WindowLayout& 
 
 /// Left of what is said next.
 bool closeButton(Places& places, const std::string& name) {
-  const bool pressed = ImGui::SmallButton("x");
-  addItemPlace(places, "close " + name);
+  const bool pressed = placed(places, "close " + name, ImGui::SmallButton("x"));
   ImGui::SameLine();
   return pressed;
 }
@@ -331,8 +330,8 @@ void drawSheet(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
                        ImGuiWindowFlags_NoSavedSettings)) {
     addWindowPlace(facts.places, "sheet");
     ImGui::SetNextItemWidth(-1.0f);
-    ImGui::InputTextWithHint("##search", "Search", state.search.data(), state.search.size());
-    addItemPlace(facts.places, "Search");
+    placed(facts.places, "Search",
+           ImGui::InputTextWithHint("##search", "Search", state.search.data(), state.search.size()));
     const std::vector<SheetLine> lines = foundLines(state.search.data());
     facts.sheetLines = lines.size();
     if (lines.empty()) ImGui::TextDisabled("nothing of that name");

@@ -27,10 +27,9 @@ void drawPresets(const ViewState& state, ViewFacts& facts) {
     const bool chosen = isPreset(state.side().stages, preset);
     if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, kAccent);
     if (&preset != kPresets.data()) ImGui::SameLine();
-    if (ImGui::Button(preset.name, {width, 0.0f}))
+    if (placed(facts.places, preset.name, ImGui::Button(preset.name, {width, 0.0f})))
       facts.commands.push_back({Command::StagesUpTo, int(preset.last)});
     if (chosen) ImGui::PopStyleColor();
-    addItemPlace(facts.places, preset.name);
     tip(facts.places, preset.sentence);
   }
 }
@@ -52,60 +51,48 @@ void drawStages(ViewState& state, Places& places, bool cumulative) {
 
 void drawSampling(ViewState& state, Places& places) {
   SideOptions& side = state.side();
-  label(places, "Bounces");
   int bounces = std::min(side.sampling.bounces, kMostBouncesShown);
-  if (ImGui::SliderInt("##bounces", &bounces, 0, kMostBouncesShown,
-                       side.sampling.bounces >= kMostBouncesShown ? "unlimited" : "%d", kBounded))
+  const bool unlimited = side.sampling.bounces >= kMostBouncesShown;
+  if (slider(places, {"Bounces", 0, kMostBouncesShown, unlimited ? "unlimited" : "%d"}, bounces))
     side.sampling.bounces = bounces >= kMostBouncesShown ? kUnlimitedBounces : bounces;
-  label(places, "Roulette from");
-  ImGui::SliderInt("##roulette", &side.sampling.rouletteDepth, 1, 32, "%d", kBounded);
+  slider(places, {"Roulette from", 1, 32, "%d"}, side.sampling.rouletteDepth);
   double& goal = state.edit.shared.sampling.noise;
-  double noise = 100.0 * goal;
-  if (slider(places, "Noise to reach", noise, 0.1f, 20.0f, "%.2f %%", kBoundedLogarithmic))
-    goal = 0.01 * noise;
-  label(places, "Pixel filter");
-  choose("##filter", kPixelFilterNames, side.pixelFilter);
-  slider(places, "Clamp indirect", side.sampling.clampIndirect, 0.0f, 100.0f,
-         side.sampling.clampIndirect > 0.0 ? "%.2f (biased)" : "off", kBoundedLogarithmic);
-  label(places, "Traversal");
-  choose("##traversal", kTraversalNames, side.device.traversal);
+  double percent = 100.0 * goal;
+  if (slider(places, {"Noise to reach", 0.1f, 20.0f, "%.2f %%", kBoundedLogarithmic}, percent))
+    goal = 0.01 * percent;
+  choose(places, "Pixel filter", kPixelFilterNames, side.pixelFilter);
+  double& clamp = side.sampling.clampIndirect;
+  slider(places, {"Clamp indirect", 0.0f, 100.0f, clamp > 0.0 ? "%.2f (biased)" : "off", kBoundedLogarithmic},
+         clamp);
+  choose(places, "Traversal", kTraversalNames, side.device.traversal);
 }
 
 void drawAnimation(ViewState& state, ViewFacts& facts) {
   Places& places = facts.places;
   const int shown = shownAnimation(state);
   const std::vector<std::string>& names = state.scene->animationNames;
-  const auto nameOf = [&](int i) {
-    return size_t(i) < names.size() ? partText(size_t(i), names[size_t(i)]) : "all at once";
-  };
-  label(places, "Clip");
-  if (ImGui::BeginCombo("##clip", nameOf(shown).c_str())) {
-    for (int i = 0; i < animationCount(state); ++i) {
-      if (ImGui::Selectable(nameOf(i).c_str(), i == shown)) showAnimation(state, i, 0.0);
-    }
-    ImGui::EndCombo();
-  }
-  double time = state.edit.shared.selection.animationTime.value_or(0.0);
-  const bool posed = state.edit.shared.selection.animationTime.has_value();
-  if (slider(places, "Time", time, 0.0f, float(animationLength(state)), posed ? "%.2f s" : "at rest")) {
+  const auto nameOf = [&](size_t i) { return i < names.size() ? partText(i, names[i]) : "all at once"; };
+  if (const auto chosen = choose(places, "Clip", size_t(animationCount(state)), size_t(shown), nameOf))
+    showAnimation(state, int(*chosen), 0.0);
+  const std::optional<double> posed = state.edit.shared.selection.animationTime;
+  double time = posed.value_or(0.0);
+  if (slider(places, {"Time", 0.0f, float(animationLength(state)), posed ? "%.2f s" : "at rest"}, time)) {
     state.playback.playing = false;
     showAnimation(state, shown, time);
   }
-  slider(places, "Speed", state.playback.speed, 0.1f, 10.0f, "%.2f", kBoundedLogarithmic);
-  if (ImGui::Button(state.playback.playing ? "Pause" : "Play"))
+  slider(places, {"Speed", 0.1f, 10.0f, "%.2f", kBoundedLogarithmic}, state.playback.speed);
+  if (placed(places, "Play", ImGui::Button(state.playback.playing ? "Pause" : "Play")))
     facts.commands.push_back({Command::PlayAnimation});
-  addItemPlace(places, "Play");
   ImGui::SameLine();
-  ImGui::Checkbox("Loop", &state.playback.loops);
-  addItemPlace(places, "Loop");
+  placed(places, "Loop", ImGui::Checkbox("Loop", &state.playback.loops));
   dimAtEnd(keyOf(Command::PlayAnimation));
 }
 
 /// Draws the choice of the side whose settings are shown. If side B is a file, draws its name instead.
 void drawSides(ViewState& state, ViewFacts& facts) {
   if (!state.reference.empty()) {
-    if (ImGui::SmallButton("x")) facts.commands.push_back({Command::DropReference});
-    addItemPlace(facts.places, "close reference");
+    if (placed(facts.places, "close reference", ImGui::SmallButton("x")))
+      facts.commands.push_back({Command::DropReference});
     ImGui::SameLine();
     ImGui::Text("B: %s", shownText(state.reference.filename().string(), kMostNameCharacters).c_str());
     return;
@@ -136,34 +123,27 @@ void drawCompare(ViewState& state, ViewFacts& facts) {
   constexpr std::array kNames{"bar", "A", "B", "difference"};
   for (int i = 0; i < int(kNames.size()); ++i) {
     if (i > 0) ImGui::SameLine();
-    ImGui::RadioButton(kNames[size_t(i)], &comparison, i);
-    addItemPlace(places, std::string("compare ") + kNames[size_t(i)]);
+    placed(places, std::string("compare ") + kNames[size_t(i)],
+           ImGui::RadioButton(kNames[size_t(i)], &comparison, i));
   }
   state.comparison = CompareMode(comparison);
   if (state.comparison == CompareMode::Difference)
-    slider(places, "Amplify", state.differenceStops, -8.0f, 16.0f,
-           formatted("%.3g", std::exp2(state.differenceStops)).c_str());
+    slider(places, {"Amplify", -8.0f, 16.0f, shortText(std::exp2(state.differenceStops)).c_str()},
+           state.differenceStops);
   drawSides(state, facts);
 }
 
 void drawAdvanced(ViewState& state, ViewFacts& facts) {
   Places& places = facts.places;
   SideOptions& side = state.side();
-  label(places, "Show");
-  const std::string current(rowOf(side.debugView).label);
-  if (ImGui::BeginCombo("##show", current.c_str(), ImGuiComboFlags_HeightLargest)) {
-    for (size_t i = 0; i < kDebugViewRows.size(); ++i) {
-      const std::string name(kDebugViewRows[i].label);
-      if (ImGui::Selectable(name.c_str(), DebugView(i) == side.debugView)) side.debugView = DebugView(i);
-    }
-    ImGui::EndCombo();
-  }
+  const auto nameOf = [](size_t i) { return std::string(kDebugViewRows[i].label); };
+  if (const auto chosen = choose(places, "Show", kDebugViewRows.size(), size_t(side.debugView), nameOf,
+                                 ImGuiComboFlags_HeightLargest))
+    side.debugView = DebugView(*chosen);
   ImGui::Checkbox("Boxes of the tree", &state.edit.treeBoxes);
   dimAtEnd(keyOf(Command::ToggleTreeBoxes));
-  label(places, "Level");
-  ImGui::SliderInt("##level", &state.edit.treeLevel, 0, 31, "%d", kBounded);
-  ImGui::Checkbox("Figures over the picture", &state.figures);
-  addItemPlace(places, "Figures");
+  slider(places, {"Level", 0, 31, "%d"}, state.edit.treeLevel);
+  placed(places, "Figures", ImGui::Checkbox("Figures over the picture", &state.figures));
   dimAtEnd(keyOf(Command::ToggleHud));
   ImGui::TextDisabled("Features in the shader");
   ImGui::PushTextWrapPos(0.0f);
@@ -221,9 +201,8 @@ void drawPanel(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
     drawPresets(state, facts);
     drawCompare(state, facts);
     const auto open = [&](const char* name, bool first = true) {
-      const bool shown = ImGui::CollapsingHeader(name, first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
-      addItemPlace(places, std::string("section ") + name);
-      return shown;
+      return placed(places, std::string("section ") + name,
+                    ImGui::CollapsingHeader(name, first ? ImGuiTreeNodeFlags_DefaultOpen : 0));
     };
     if (shownAnimation(state) >= 0 && open("Animation")) drawAnimation(state, facts);
     if (hasParts(state) && open("File")) drawParts(state, facts);

@@ -18,28 +18,27 @@ void drawBookmarks(ViewState& state, ViewFacts& facts) {
   const float button = ImGui::CalcTextSize("Keep view").x + 4 * ImGui::GetStyle().FramePadding.x;
   ImGui::SetNextItemWidth(-button);
   const bool typed =
-      ImGui::InputTextWithHint("##bookmark", "name of this view", state.bookmarkName.data(),
-                               state.bookmarkName.size(), ImGuiInputTextFlags_EnterReturnsTrue);
-  addItemPlace(places, "Bookmark name");
+      placed(places, "Bookmark name",
+             ImGui::InputTextWithHint("##bookmark", "name of this view", state.bookmarkName.data(),
+                                      state.bookmarkName.size(), ImGuiInputTextFlags_EnterReturnsTrue));
   ImGui::SameLine();
   const auto& all = facts.remembered.bookmarks;
   const auto found = all.find(std::filesystem::absolute(state.scene->options.scene).string());
   const size_t count = found == all.end() ? 0 : found->second.size();
-  if (ImGui::Button("Keep view", ImVec2(-1, 0)) || typed) {
+  if (placed(places, "Keep view", ImGui::Button("Keep view", ImVec2(-1, 0))) || typed) {
     const std::string name(state.bookmarkName.data());
     facts.commands.push_back(
         {.command = Command::AddBookmark, .text = name.empty() ? "View " + std::to_string(count + 1) : name});
     state.bookmarkName = {};
   }
-  addItemPlace(places, "Keep view");
   for (size_t i = 0; i < count; ++i) {
     ImGui::PushID(int(i));
-    if (ImGui::SmallButton("x")) facts.commands.push_back({Command::RemoveBookmark, int(i)});
-    addItemPlace(places, "forget view " + std::to_string(i));
+    if (placed(places, "forget view " + std::to_string(i), ImGui::SmallButton("x")))
+      facts.commands.push_back({Command::RemoveBookmark, int(i)});
     ImGui::SameLine();
     const std::string name = shownText(found->second[i].name, kMostNameCharacters) + "##view";
-    if (ImGui::Selectable(name.c_str())) facts.commands.push_back({Command::ShowBookmark, int(i)});
-    addItemPlace(places, "view " + std::to_string(i));
+    if (placed(places, "view " + std::to_string(i), ImGui::Selectable(name.c_str())))
+      facts.commands.push_back({Command::ShowBookmark, int(i)});
     ImGui::PopID();
   }
 }
@@ -56,51 +55,37 @@ double firstStop(const CameraPose& pose) {
 void drawLens(ViewState& state, Places& places) {
   LensOptions& lens = state.edit.shared.camera.lens;
   bool blurred = lens.fStop.has_value();
-  if (ImGui::Checkbox("Depth of field", &blurred))
+  if (placed(places, "Depth of field", ImGui::Checkbox("Depth of field", &blurred)))
     lens.fStop = blurred ? std::optional(firstStop(state.edit.pose)) : std::nullopt;
-  addItemPlace(places, "Depth of field");
-  if (lens.fStop) {
-    slider(places, "F-stop", *lens.fStop, float(kLeastStop), float(kMostStop), "f / %.3g",
-           kBoundedLogarithmic);
-    label(places, "Blades");
-    if (ImGui::SliderInt("##blades", &lens.blades, 2, 12, lens.blades < 3 ? "round" : "%d", kBounded))
-      lens.blades = lens.blades < 3 ? 0 : lens.blades;
-  }
+  if (!lens.fStop) return;
+  slider(places, {"F-stop", float(kLeastStop), float(kMostStop), "f / %.3g", kBoundedLogarithmic},
+         *lens.fStop);
+  if (slider(places, {"Blades", 2, 12, lens.blades < 3 ? "round" : "%d"}, lens.blades) && lens.blades < 3)
+    lens.blades = 0;
 }
 
 }  // namespace
 
 void drawCamera(ViewState& state, ViewFacts& facts) {
   Places& places = facts.places;
-  label(places, "Projection");
   CameraType type = state.edit.pose.type;
-  choose("##projection", kCameraTypeNames, type);
+  choose(places, "Projection", kCameraTypeNames, type);
   if (type != state.edit.pose.type) {
     state.edit.pose = withProjection(state.edit.pose, type);
     state.edit.posed = true;
   }
   const bool fisheye = type == CameraType::Fisheye;
   if (fisheye || type == CameraType::Perspective) {
-    if (slider(places, "View angle",
-               fisheye ? state.edit.pose.fisheyeDegrees : state.edit.pose.viewAngleDegrees, 1.0f,
-               fisheye ? 360.0f : 170.0f, "%.1f degrees"))
+    if (slider(places, {"View angle", 1.0f, fisheye ? 360.0f : 170.0f, "%.1f degrees"},
+               fisheye ? state.edit.pose.fisheyeDegrees : state.edit.pose.viewAngleDegrees))
       state.edit.posed = true;
   }
   if (type == CameraType::Perspective) drawLens(state, places);
-  if (state.scene && !state.scene->cameras.empty()) {
-    label(places, "Scene camera");
-    const auto& cameras = state.scene->cameras;
-    const auto nameOf = [&](int i) {
-      if (i < 0 || size_t(i) >= cameras.size()) return std::string("none");
-      return partText(size_t(i), cameras[size_t(i)].name);
-    };
-    if (ImGui::BeginCombo("##camera", nameOf(state.edit.sceneCamera).c_str())) {
-      for (int i = 0; i < int(cameras.size()); ++i) {
-        if (ImGui::Selectable(nameOf(i).c_str(), i == state.edit.sceneCamera))
-          facts.commands.push_back({Command::SceneCamera, i});
-      }
-      ImGui::EndCombo();
-    }
+  if (const std::vector<Camera>& cameras = state.scene->cameras; !cameras.empty()) {
+    const auto nameOf = [&](size_t i) { return partText(i, cameras[i].name); };
+    if (const auto chosen =
+            choose(places, "Scene camera", cameras.size(), size_t(state.edit.sceneCamera), nameOf))
+      facts.commands.push_back({Command::SceneCamera, int(*chosen)});
   }
   commandButton(facts, "Frame all", Command::FrameAll, 1);
   stayOnLineFor("Reset view");

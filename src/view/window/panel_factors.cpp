@@ -38,7 +38,7 @@ void drawLightSource(ViewState& state, Places& places, size_t index) {
   LightSource now = file;
   setLight(now, index, state.edit.shared.selection.set);
   const float most = file.intensity > 0.0 ? kMostBrighter * float(file.intensity) : kMostBrighter;
-  if (slider(places, "Light intensity", now.intensity, 0.0f, most, "%.4g", kBoundedLogarithmic)) {
+  if (slider(places, {"Light intensity", 0.0f, most, "%.4g", kBoundedLogarithmic}, now.intensity)) {
     now.intensity = shortest(float(now.intensity));
     setNumber(state, intensityOf(now, index), intensityOf(file, index));
   }
@@ -53,9 +53,8 @@ void drawLightSource(ViewState& state, Places& places, size_t index) {
 /// A row that opens.
 bool beginPart(Places& places, const std::string& place, size_t index, const std::string& name) {
   ImGui::PushID(int(index));
-  const bool open = ImGui::TreeNodeEx("##part", 0, "%s", partText(index, name).c_str());
-  addItemPlace(places, place + " " + std::to_string(index));
-  return open;
+  return placed(places, place + " " + std::to_string(index),
+                ImGui::TreeNodeEx("##part", 0, "%s", partText(index, name).c_str()));
 }
 
 void endPart(bool open) {

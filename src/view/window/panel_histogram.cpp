@@ -52,7 +52,7 @@ void drawHistogram(const ViewState& state, ViewFacts& facts) {
   const ImVec2 size(ImGui::GetContentRegionAvail().x, kPlotHeight * scale);
   plot(histogram, ImGui::GetCursorScreenPos(), size);
   ImGui::Dummy(size);
-  addItemPlace(facts.places, "histogram");
+  placed(facts.places, "histogram");
   tip(facts.places,
       formatted("radiance from 2^%g to 2^%g with the exposure; the line is at 1", kLowestStop, kHighestStop));
   ImGui::TextDisabled("mean %.3g   max %.3g   above 1: %.2g %%", histogram.mean, histogram.most,

@@ -47,14 +47,14 @@ void chooseEnvironment(const ViewedScene& scene, ViewFacts& facts) {
     drawThumbnail(facts, choices[i], height);
     ImGui::SameLine();
     const std::string name = shownText(choices[i].name, kMostNameCharacters);
-    if (ImGui::Selectable(name.c_str(), i == current, 0, ImVec2(0.0f, height)))
+    if (placed(places, "environment " + choices[i].name,
+               ImGui::Selectable(name.c_str(), i == current, 0, ImVec2(0.0f, height))))
       facts.commands.push_back(
           {.command = Command::Load, .load = withEnvironment(scene.options, choices[i])});
-    addItemPlace(places, "environment " + choices[i].name);
     ImGui::PopID();
   }
-  if (ImGui::Selectable("Open...")) facts.commands.push_back({Command::Open, 1});
-  addItemPlace(places, "environment Open...");
+  if (placed(places, "environment Open...", ImGui::Selectable("Open...")))
+    facts.commands.push_back({Command::Open, 1});
   ImGui::EndCombo();
 }
 
@@ -62,16 +62,22 @@ void chooseEnvironment(const ViewedScene& scene, ViewFacts& facts) {
 void drawSky(ViewState& state, Places& places) {
   SkyOptions& sky = state.edit.shared.light.sky;
   SunPlace sun = sunOf(sky);
-  if (slider(places, "Sun height", sun.elevation, kLowestSun, 90.0f, "%.1f degrees")) placeSun(sky, sun);
-  tip(places, "Degrees above the horizon (--sun-elevation). Shift and the right button drag the sun");
+  if (slider(places,
+             {"Sun height", kLowestSun, 90.0f, "%.1f degrees", kBounded,
+              "Degrees above the horizon (--sun-elevation). Shift and the right button drag the sun"},
+             sun.elevation))
+    placeSun(sky, sun);
   double azimuth = std::remainder(sun.azimuth, 360.0);
-  if (slider(places, "Sun from", azimuth, -180.0f, 180.0f, "%.0f degrees")) {
+  if (slider(places,
+             {"Sun from", -180.0f, 180.0f, "%.0f degrees", kBounded,
+              "Degrees clockwise from north, which is -Z: 90 is east, +X (--sun-azimuth)"},
+             azimuth)) {
     sun.azimuth = azimuth;
     placeSun(sky, sun);
   }
-  tip(places, "Degrees clockwise from north, which is -Z: 90 is east, +X (--sun-azimuth)");
-  slider(places, "Haze", sky.turbidity, 1.0f, 10.0f, "%.1f");
-  tip(places, "1 is air without haze, 3 a clear day (--sky-turbidity)");
+  slider(places,
+         {"Haze", 1.0f, 10.0f, "%.1f", kBounded, "1 is air without haze, 3 a clear day (--sky-turbidity)"},
+         sky.turbidity);
 }
 
 /// Fog round the scene.
@@ -79,35 +85,33 @@ void drawFog(ViewState& state, Places& places) {
   FogOptions& fog = state.edit.shared.fog;
   const std::string reason = whyNoFog(state);
   ImGui::BeginDisabled(!reason.empty());
-  label(places, "Fog");
   // The box of its colour stands on the same line.
-  if (fog.density > 0.0) ImGui::SetNextItemWidth(-ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x);
-  float density = float(fog.density);
-  const char* format = !reason.empty() ? reason.c_str() : density > 0.0f ? "%.3f / m" : "none";
-  if (ImGui::SliderFloat("##fog", &density, 0.0f, kMostFog, format, kBoundedLogarithmic))
-    fog.density = density;
-  tip(places,
-      "How dense the fog round the scene is: at 0.2 / m, light goes 5 m on average before it meets some "
-      "(--fog-density). --fog-distance says how far the fog reaches");
+  const float box = fog.density > 0.0 ? ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x : 0.0f;
+  slider(places,
+         {"Fog", 0.0f, kMostFog, fog.density > 0.0 ? "%.3f / m" : "none", kBoundedLogarithmic,
+          "How dense the fog round the scene is: at 0.2 / m, light goes 5 m on average before it meets some "
+          "(--fog-density). --fog-distance says how far the fog reaches",
+          reason, box},
+         fog.density);
   if (fog.density > 0.0) {
     ImGui::SameLine();
     glm::vec3 color = fog.color.value_or(glm::vec3(1.0f));
     constexpr ImGuiColorEditFlags kColor = ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoInputs;
-    if (ImGui::ColorEdit3("##fogcolor", glm::value_ptr(color), kColor))
+    if (placed(places, "Fog colour", ImGui::ColorEdit3("##fogcolor", glm::value_ptr(color), kColor)))
       fog.color = glm::clamp(color, glm::vec3(0.0f), glm::vec3(1.0f));
-    addItemPlace(places, "Fog colour");
     tip(places, "The part of the light that the fog scatters rather than swallows (--fog-color)");
-    slider(places, "Fog forward", fog.anisotropy, -kMostForward, kMostForward, "%.2f");
-    tip(places,
-        "Where the fog scatters light: above 0 rather forwards, as mist before a lamp; below 0 rather "
-        "back (--fog-anisotropy)");
+    slider(places,
+           {"Fog forward", -kMostForward, kMostForward, "%.2f", kBounded,
+            "Where the fog scatters light: above 0 rather forwards, as mist before a lamp; below 0 rather "
+            "back (--fog-anisotropy)"},
+           fog.anisotropy);
     double height = fog.height.value_or(0.0);
-    if (slider(places, "Fog height", height, 0.0f, kMostFogHeight, height > 0.0 ? "%.2f m" : "no limit",
-               kBoundedLogarithmic))
+    if (slider(places,
+               {"Fog height", 0.0f, kMostFogHeight, height > 0.0 ? "%.2f m" : "no limit", kBoundedLogarithmic,
+                "Ground fog: every so many metres up, it is thinner by a factor of e. At 0 it is as dense "
+                "above as below (--fog-height)"},
+               height))
       fog.height = height > 0.0 ? std::optional(height) : std::nullopt;
-    tip(places,
-        "Ground fog: every so many metres up, it is thinner by a factor of e. At 0 it is as dense above "
-        "as below (--fog-height)");
   } else {
     fog = FogOptions();
   }
@@ -121,10 +125,10 @@ void drawBackground(ViewState& state, Places& places) {
   if (light.background && state.scene->surroundings != Surroundings::Map) {
     ImGui::SameLine();
     glm::vec3 color = light.backgroundColor.value_or(glm::vec3(0.0f));
-    if (ImGui::ColorEdit3("##color", glm::value_ptr(color),
-                          ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_NoInputs))
+    constexpr ImGuiColorEditFlags kColor =
+        ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_NoInputs;
+    if (placed(places, "Background colour", ImGui::ColorEdit3("##color", glm::value_ptr(color), kColor)))
       light.backgroundColor = glm::clamp(color, glm::vec3(0.0f), glm::vec3(kMostColor));
-    addItemPlace(places, "Background colour");
   }
 }
 
@@ -134,40 +138,32 @@ void drawLight(ViewState& state, ViewFacts& facts) {
   Places& places = facts.places;
   RenderOptions& o = state.edit.shared;
   double exposure = o.output.exposure.value_or(0.0);
-  if (slider(places, "Exposure", exposure, -8.0f, 8.0f, "%.1f EV")) o.output.exposure = exposure;
-  label(places, "Tone map");
-  choose("##curve", toneMapNames(), o.output.toneMap);
-  const bool map = state.scene->surroundings == Surroundings::Map;
+  if (slider(places, {"Exposure", -8.0f, 8.0f, "%.1f EV"}, exposure)) o.output.exposure = exposure;
+  choose(places, "Tone map", toneMapNames(), o.output.toneMap);
   label(places, "Environment");
   chooseEnvironment(*state.scene, facts);
-  label(places, "Rotation");
-  ImGui::BeginDisabled(!map);
-  auto degrees = float(std::remainder(o.light.hdriRotationDegrees, 360.0));
+  const bool map = state.scene->surroundings == Surroundings::Map;
+  double degrees = std::remainder(o.light.hdriRotationDegrees, 360.0);
   // Typed values beyond the ends wrap around.
-  if (ImGui::SliderFloat("##rotation", &degrees, -180.0f, 180.0f,
-                         map ? "%.0f degrees" : "no environment map"))
-    o.light.hdriRotationDegrees = std::isfinite(degrees) ? std::remainder(degrees, 360.0f) : 0.0f;
-  ImGui::EndDisabled();
-  label(places, "Intensity");
+  if (slider(places,
+             {"Rotation", -180.0f, 180.0f, "%.0f degrees", 0, nullptr, map ? "" : "no environment map"},
+             degrees))
+    o.light.hdriRotationDegrees = std::isfinite(degrees) ? std::remainder(degrees, 360.0) : 0.0;
   const bool lit = has(state.scene->present, Trait::Environment);
-  ImGui::BeginDisabled(!lit);
-  float intensity = float(o.light.hdriIntensity);
-  if (ImGui::SliderFloat("##intensity", &intensity, 0.0f, kMostIntensity, lit ? "%.2f" : "no environment",
-                         kBoundedLogarithmic))
-    o.light.hdriIntensity = intensity;
-  ImGui::EndDisabled();
+  slider(
+      places,
+      {"Intensity", 0.0f, kMostIntensity, "%.2f", kBoundedLogarithmic, nullptr, lit ? "" : "no environment"},
+      o.light.hdriIntensity);
   if (o.light.sky.on) drawSky(state, places);
-  if (!state.scene->options.light.hdriFile.empty() || state.scene->options.light.sky.on) {
-    label(places, "Blur");
-    const double blur = state.scene->options.light.backgroundBlur;
+  const LightOptions& loaded = state.scene->options.light;
+  if (!loaded.hdriFile.empty() || loaded.sky.on) {
     // The map is blurred once, when the slider is let go.
-    float wanted = state.blur.value_or(float(blur));
-    if (ImGui::SliderFloat("##blur", &wanted, 0.0f, kMostBlur, wanted > 0.0f ? "%.1f degrees" : "none",
-                           kBounded))
+    double wanted = state.blur.value_or(loaded.backgroundBlur);
+    if (slider(places, {"Blur", 0.0f, kMostBlur, wanted > 0.0 ? "%.1f degrees" : "none"}, wanted))
       state.blur = wanted;
     if (ImGui::IsItemDeactivatedAfterEdit() && state.blur) {
       facts.commands.push_back({.command = Command::Load, .load = state.scene->options});
-      facts.commands.back().load->light.backgroundBlur = *state.blur < kLeastBlur ? 0.0 : double(*state.blur);
+      facts.commands.back().load->light.backgroundBlur = *state.blur < kLeastBlur ? 0.0 : *state.blur;
       state.blur.reset();
     }
   }

@@ -33,14 +33,48 @@ void label(Places& places, const char* text) {
   places[text] = {at.x, at.y, ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight()};
 }
 
-bool slider(Places& places, const char* name, double& value, float least, float most, const char* format,
-            ImGuiSliderFlags flags) {
-  label(places, name);
-  float shown = float(value);
+namespace {
+
+template <typename Slide>
+bool drawRow(Places& places, const Row& row, const Slide& slide) {
+  label(places, row.name);
+  if (row.spare > 0.0f) ImGui::SetNextItemWidth(-row.spare);
+  ImGui::BeginDisabled(!row.whyOff.empty());
   const bool moved =
-      ImGui::SliderFloat((std::string("##") + name).c_str(), &shown, least, most, format, flags);
-  if (moved) value = shown;
+      slide((std::string("##") + row.name).c_str(), row.whyOff.empty() ? row.format : row.whyOff.c_str());
+  ImGui::EndDisabled();
+  if (row.tip) tip(places, row.tip);
   return moved;
+}
+
+}  // namespace
+
+bool slider(Places& places, const Row& row, double& value) {
+  return drawRow(places, row, [&](const char* id, const char* format) {
+    float shown = float(value);
+    const bool moved = ImGui::SliderFloat(id, &shown, row.least, row.most, format, row.flags);
+    if (moved) value = shown;
+    return moved;
+  });
+}
+
+bool slider(Places& places, const Row& row, int& value) {
+  return drawRow(places, row, [&](const char* id, const char* format) {
+    return ImGui::SliderInt(id, &value, int(row.least), int(row.most), format, row.flags);
+  });
+}
+
+std::optional<size_t> choose(Places& places, const char* name, size_t count, std::optional<size_t> current,
+                             const std::function<std::string(size_t)>& nameOf, ImGuiComboFlags flags) {
+  label(places, name);
+  std::optional<size_t> chosen;
+  const std::string shown = current && *current < count ? nameOf(*current) : "none";
+  if (!ImGui::BeginCombo((std::string("##") + name).c_str(), shown.c_str(), flags)) return chosen;
+  for (size_t i = 0; i < count; ++i) {
+    if (ImGui::Selectable(nameOf(i).c_str(), i == current)) chosen = i;
+  }
+  ImGui::EndCombo();
+  return chosen;
 }
 
 void tip(Places& places, const std::string& text) {
@@ -82,13 +116,11 @@ std::string keyOf(Command command, int argument) {
 }
 
 void commandButton(ViewFacts& facts, const char* text, Command command, int argument) {
-  if (ImGui::Button(text)) facts.commands.push_back({command, argument});
-  addItemPlace(facts.places, text);
+  if (placed(facts.places, text, ImGui::Button(text))) facts.commands.push_back({command, argument});
 }
 
 void commandBox(ViewFacts& facts, const char* text, bool on, Command command) {
-  if (ImGui::Checkbox(text, &on)) facts.commands.push_back({command});
-  addItemPlace(facts.places, text);
+  if (placed(facts.places, text, ImGui::Checkbox(text, &on))) facts.commands.push_back({command});
 }
 
 }  // namespace fragtrace

@@ -5,6 +5,8 @@
 
 #include <imgui.h>
 
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,9 +25,25 @@ void dimAtEnd(const std::string& text);
 /// A label, and room for a control up to the end of the row, which has the label's place.
 void label(Places& places, const char* text);
 
-/// A slider for a number, with its label. Returns true when it has set the number.
-bool slider(Places& places, const char* name, double& value, float least, float most, const char* format,
-            ImGuiSliderFlags flags = kBounded);
+/// A row of the panel with a slider.
+struct Row {
+  const char* name;  ///< its label, and the name of its place
+  float least = 0.0f;
+  float most = 1.0f;
+  const char* format = "%.2f";  ///< of the value, as printf takes it
+  ImGuiSliderFlags flags = kBounded;
+  const char* tip = nullptr;
+  std::string whyOff{};  ///< shown instead of the value; empty: the row is on
+  float spare = 0.0f;    ///< pixels that are left free at its end
+};
+
+/// Draws the row of a number. Returns true when it has set the number.
+bool slider(Places& places, const Row& row, double& value);
+bool slider(Places& places, const Row& row, int& value);
+
+/// A row with a list of names. Returns the index of the name that is chosen; none: nothing is.
+std::optional<size_t> choose(Places& places, const char* name, size_t count, std::optional<size_t> current,
+                             const std::function<std::string(size_t)>& nameOf, ImGuiComboFlags flags = 0);
 
 /// A sentence on the latest item, while the cursor is over it, even if that is greyed: beside the panel, or
 /// else above the item, so that no other control is covered.
@@ -46,16 +64,12 @@ void commandButton(ViewFacts& facts, const char* text, Command command, int argu
 /// A box for a command that turns something on or off.
 void commandBox(ViewFacts& facts, const char* text, bool on, Command command);
 
-/// A list of names in the order of the values.
+/// Chooses from names in the order of the values.
 template <typename Choice>
-void choose(const char* id, std::span<const std::string_view> names, Choice& choice) {
-  const std::string current(names[size_t(choice)]);
-  if (!ImGui::BeginCombo(id, current.c_str())) return;
-  for (size_t i = 0; i < names.size(); ++i) {
-    const std::string name(names[i]);
-    if (ImGui::Selectable(name.c_str(), i == size_t(choice))) choice = Choice(i);
-  }
-  ImGui::EndCombo();
+void choose(Places& places, const char* name, std::span<const std::string_view> names, Choice& choice) {
+  const auto nameOf = [&](size_t i) { return std::string(names[i]); };
+  if (const auto chosen = choose(places, name, names.size(), size_t(choice), nameOf))
+    choice = Choice(*chosen);
 }
 
 // Each draws its part, changes the state, and adds the commands of its widgets.

@@ -31,10 +31,10 @@ bool drawNode(ViewState& state, ViewFacts& facts, size_t i, bool parentShown) {
   bool shown = !isHidden(state, i) && !node.hiddenInFile;
   ImGui::BeginDisabled(node.hiddenInFile || !parentShown);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, 0.0f));
-  if (ImGui::Checkbox("##shown", &shown)) hideNode(state, i, !shown);
+  if (placed(facts.places, "show " + node.name, ImGui::Checkbox("##shown", &shown)))
+    hideNode(state, i, !shown);
   ImGui::PopStyleVar();
   ImGui::EndDisabled();
-  addItemPlace(facts.places, "show " + node.name);
   ImGui::SameLine();
   const bool selected = state.selectedNode == node.index;
   const bool open =
@@ -46,7 +46,7 @@ bool drawNode(ViewState& state, ViewFacts& facts, size_t i, bool parentShown) {
                         "%s%s", shownText(node.name, kMostNameCharacters).c_str(), notesOf(node).c_str());
   if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen())
     facts.commands.push_back({Command::SelectNode, int(node.index)});
-  addItemPlace(facts.places, "node " + node.name);
+  placed(facts.places, "node " + node.name, open);
   ImGui::PopID();
   return open;
 }
@@ -98,8 +98,7 @@ void drawTree(ViewState& state, ViewFacts& facts) {
     const std::string id = std::string("##") + name;
     const bool open =
         ImGui::TreeNodeEx(id.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen, "%s (%d)", title, int(count));
-    addItemPlace(facts.places, name);
-    if (!open) return;
+    if (!placed(facts.places, name, open)) return;
     if (beginList(name, size_t(kMostRows))) draw(state, facts.places);
     ImGui::EndChild();
   };

@@ -23,10 +23,9 @@ void drawRecentFiles(ViewFacts& facts) {
     const std::string text =
         shownText(files[i].filename().string(), kMostNameCharacters) + "##" + std::to_string(i);
     ImGui::BeginDisabled(seen.gone[i]);
-    if (ImGui::Selectable(text.c_str()))
+    if (placed(facts.places, "recent " + std::to_string(i), ImGui::Selectable(text.c_str())))
       facts.commands.push_back({.command = Command::OpenFile, .file = files[i]});
     ImGui::EndDisabled();
-    addItemPlace(facts.places, "recent " + std::to_string(i));
     tip(facts.places, shownText(files[i].string(), kMostLineCharacters) + (seen.gone[i] ? " is gone" : ""));
   }
 }

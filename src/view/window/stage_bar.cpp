@@ -39,9 +39,9 @@ void drawStage(const ViewState& state, ViewFacts& facts, const StageRow& row, Na
   if (on) ImGui::PushStyleColor(ImGuiCol_Button, kAccent);
   if (!reason.empty()) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   const Control& control = *controlOf(Command::StagesUpTo, int(row.stage));
-  if (ImGui::Button(nameOf(row, naming).c_str())) facts.commands.push_back(invocationOf(control));
+  if (placed(facts.places, std::string("stage ") + row.name, ImGui::Button(nameOf(row, naming).c_str())))
+    facts.commands.push_back(invocationOf(control));
   ImGui::PopStyleColor(int(on) + int(!reason.empty()));
-  addItemPlace(facts.places, std::string("stage ") + row.name);
   const char* upTo = row.stage == Stage::Flat ? "" : "All stages up to ";
   tip(facts.places, controlName(control) + ": " + upTo + row.label + ": " + row.sentence +
                         (reason.empty() ? "" : " (" + reason + ")"));

@@ -17,8 +17,9 @@ void addWindowPlace(Places& places, const std::string& name) {
   add(places, name, ImGui::GetWindowPos(), ImGui::GetWindowSize());
 }
 
-void addItemPlace(Places& places, const std::string& name) {
+bool placed(Places& places, const std::string& name, bool result) {
   add(places, name, ImGui::GetItemRectMin(), ImGui::GetItemRectSize());
+  return result;
 }
 
 }  // namespace fragtrace

@@ -11,8 +11,10 @@ namespace fragtrace {
 /// Left, top, width and height by name, in pixels of the window.
 using Places = std::map<std::string, std::array<float, 4>>;
 
-/// Adds the window of Dear ImGui that is being made, or the item that was made last.
+/// Adds the window of Dear ImGui that is being made.
 void addWindowPlace(Places& places, const std::string& name);
-void addItemPlace(Places& places, const std::string& name);
+
+/// Adds the item of Dear ImGui that was made last, and returns what that returned.
+bool placed(Places& places, const std::string& name, bool result = true);
 
 }  // namespace fragtrace
