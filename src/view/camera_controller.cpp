@@ -41,7 +41,7 @@ glm::dvec3 orthogonal(const glm::dvec3& up, const glm::dvec3& forward) {
 
 /// The moved pose, unless it is out of reach. Its up follows the view, which rounding turns, too: close by,
 /// far from the world's origin.
-CameraPose settled(CameraPose moved, const CameraPose& before) {
+CameraPose withinReach(CameraPose moved, const CameraPose& before) {
   const bool reached = glm::length(moved.position) <= kFarthest && glm::length(moved.focalPoint) <= kFarthest;
   if (!reached || moved.position == moved.focalPoint) return before;
   moved.viewUp = orthogonal(moved.viewUp, forwardOf(moved));
@@ -105,7 +105,7 @@ CameraPose orbit(CameraPose pose, double azimuth, double elevation) {
   const glm::dvec3 view = rotation * (pose.focalPoint - pose.position);
   pose.position = pose.focalPoint - view;
   pose.viewUp = rotation * pose.viewUp;
-  return settled(pose, before);
+  return withinReach(pose, before);
 }
 
 CameraPose look(CameraPose pose, double yaw, double pitch) {
@@ -114,7 +114,7 @@ CameraPose look(CameraPose pose, double yaw, double pitch) {
   const glm::dvec3 view = rotation * (pose.focalPoint - pose.position);
   pose.focalPoint = pose.position + view;
   pose.viewUp = rotation * pose.viewUp;
-  return settled(pose, before);
+  return withinReach(pose, before);
 }
 
 CameraPose roll(CameraPose pose, double angle) {
@@ -130,7 +130,7 @@ CameraPose pan(CameraPose pose, const glm::dvec2& shift) {
   const glm::dvec3 step = -height * (shift.x * rightOf(pose) + shift.y * pose.viewUp);
   pose.position += step;
   pose.focalPoint += step;
-  return settled(pose, before);
+  return withinReach(pose, before);
 }
 
 CameraPose zoom(CameraPose pose, double amount) {
@@ -143,7 +143,7 @@ CameraPose zoom(CameraPose pose, double amount) {
   const double nearest = kNearest * std::max(1.0, glm::length(pose.focalPoint));
   const double wanted = std::max(distance * std::exp(-amount), std::min(distance, nearest));
   pose.position = pose.focalPoint + (pose.position - pose.focalPoint) * (wanted / distance);
-  return settled(pose, before);
+  return withinReach(pose, before);
 }
 
 CameraPose zoomAt(CameraPose pose, double amount, const glm::dvec2& place) {
@@ -156,7 +156,7 @@ CameraPose zoomAt(CameraPose pose, double amount, const glm::dvec2& place) {
   const glm::dvec3 shift = (halfHeight - halfHeightOf(pose)) * step;
   pose.position += shift;
   pose.focalPoint += shift;
-  return settled(pose, before);
+  return withinReach(pose, before);
 }
 
 CameraPose fly(CameraPose pose, const glm::dvec3& amount) {
@@ -165,7 +165,7 @@ CameraPose fly(CameraPose pose, const glm::dvec3& amount) {
       distanceOf(pose) * (amount.x * rightOf(pose) + amount.y * pose.viewUp + amount.z * forwardOf(pose));
   pose.position += step;
   pose.focalPoint += step;
-  return settled(pose, before);
+  return withinReach(pose, before);
 }
 
 CameraPose centerOn(CameraPose pose, const glm::dvec3& point) {
@@ -175,7 +175,7 @@ CameraPose centerOn(CameraPose pose, const glm::dvec3& point) {
   const CameraPose before = pose;
   pose.focalPoint = point;
   pose.position = point - depth * forward;
-  return settled(pose, before);
+  return withinReach(pose, before);
 }
 
 CameraPose frameAll(CameraPose pose, const BoundsDouble& bounds, double aspectRatio) {
@@ -190,14 +190,14 @@ CameraPose frameAll(CameraPose pose, const BoundsDouble& bounds, double aspectRa
   pose.focalPoint = bounds.center();
   pose.position = pose.focalPoint - forward * (radius / std::sin(halfAngle));
   pose.halfHeight = radius / narrow;
-  return settled(pose, before);
+  return withinReach(pose, before);
 }
 
 CameraPose lookAlong(CameraPose pose, const glm::dvec3& direction, const glm::dvec3& viewUp) {
   const CameraPose before = pose;
   pose.position = pose.focalPoint - distanceOf(pose) * glm::normalize(direction);
   pose.viewUp = viewUp;
-  return settled(pose, before);
+  return withinReach(pose, before);
 }
 
 CameraPose widen(CameraPose pose, double amount) {
@@ -217,7 +217,7 @@ CameraPose withProjection(CameraPose pose, CameraType type) {
     pose.position = pose.focalPoint - distance * forwardOf(pose);
   }
   pose.halfHeight = halfHeight;
-  return settled(pose, before);
+  return withinReach(pose, before);
 }
 
 CameraPose withOtherProjection(const CameraPose& pose) {

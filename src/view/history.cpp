@@ -85,7 +85,7 @@ bool redo(History& history, ViewState& state) {
   return step(history, state, history.future, history.past);
 }
 
-void giveUp(History& history, ViewState& state) {
+void revert(History& history, ViewState& state) {
   if (!std::exchange(history.waits, false)) return;
   const int undone = std::exchange(history.step, 0);
   if (undone == 0) return;
@@ -96,12 +96,12 @@ void giveUp(History& history, ViewState& state) {
   restore(state, *history.now);
 }
 
-void overlook(History& history, const ViewState& state) {
+void ignoreChange(History& history, const ViewState& state) {
   if (history.now) history.now = restorable(state);
 }
 
-void takeOver(History& history, ViewState& state, const std::vector<ChangedNumber>& changed,
-              const LightOptions& lightBefore) {
+void rebase(History& history, ViewState& state, const std::vector<ChangedNumber>& changed,
+            const LightOptions& lightBefore) {
   if (changed.empty()) return;
   const LightOptions lightNow = state.edit.shared.light;
   const auto apply = [&](RenderOptions& options) {

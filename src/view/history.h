@@ -33,10 +33,10 @@ bool undo(History& history, ViewState& state);
 bool redo(History& history, ViewState& state);
 
 /// Takes back the latest undo() or redo(), since the scene that it needs cannot be loaded.
-void giveUp(History& history, ViewState& state);
+void revert(History& history, ViewState& state);
 
 /// Accepts changes since the last call that the user did not make; they become no step.
-void overlook(History& history, const ViewState& state);
+void ignoreChange(History& history, const ViewState& state);
 
 /// A number of the scene's file that is another one by now.
 struct ChangedNumber {
@@ -46,8 +46,8 @@ struct ChangedNumber {
 
 /// The file has by now what was set in it: all steps go on to show what they showed, and those of the light
 /// before have the state's light.
-void takeOver(History& history, ViewState& state, const std::vector<ChangedNumber>& changed,
-              const LightOptions& lightBefore);
+void rebase(History& history, ViewState& state, const std::vector<ChangedNumber>& changed,
+            const LightOptions& lightBefore);
 
 /// The options with the light, the material variant and the up axis of the latest step, which undo and redo
 /// leave to be loaded.

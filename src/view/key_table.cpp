@@ -13,12 +13,16 @@ namespace {
 constexpr int kShift = kShiftModifier;
 constexpr int kControl = kControlModifier;
 
-void addCamera(std::vector<Control>& rows) {
-  using enum Gesture;
-  const auto add = [&](Gesture gesture, int code, int modifiers, Command command, const char* sentence,
-                       int argument = 0) {
+auto adderTo(std::vector<Control>& rows) {
+  return [&rows](Gesture gesture, int code, int modifiers, Command command, const std::string& sentence,
+                 int argument = 0) {
     rows.push_back({gesture, code, modifiers, command, argument, sentence});
   };
+}
+
+void addCamera(std::vector<Control>& rows) {
+  using enum Gesture;
+  const auto add = adderTo(rows);
   add(Drag, mouse::kLeft, 0, Command::Orbit, "turn about the focal point");
   add(Drag, mouse::kLeft, kShift, Command::Pan, "move in the plane of the picture");
   add(Drag, mouse::kMiddle, 0, Command::Pan, "move in the plane of the picture");
@@ -62,10 +66,7 @@ void addCamera(std::vector<Control>& rows) {
 
 void addPicture(std::vector<Control>& rows) {
   using enum Gesture;
-  const auto add = [&](Gesture gesture, int code, int modifiers, Command command, const std::string& sentence,
-                       int argument = 0) {
-    rows.push_back({gesture, code, modifiers, command, argument, sentence});
-  };
+  const auto add = adderTo(rows);
   // Function keys in the order of the stages: Shift for all up to that one. The first is always on.
   int code = key::kF1;
   for (const StageRow& row : stageRows()) {
@@ -105,10 +106,7 @@ void addPicture(std::vector<Control>& rows) {
 
 void addWindow(std::vector<Control>& rows) {
   using enum Gesture;
-  const auto add = [&](Gesture gesture, int code, int modifiers, Command command, const char* sentence,
-                       int argument = 0) {
-    rows.push_back({gesture, code, modifiers, command, argument, sentence});
-  };
+  const auto add = adderTo(rows);
   add(Click, mouse::kLeft, 0, Command::Inspect, "select what is under the cursor, and say what it is");
   add(Click, mouse::kLeft, kShift, Command::Measure, "measure from there to the point under the cursor");
   add(Click, mouse::kLeft, kControl | kShift, Command::Level,

@@ -49,7 +49,7 @@ struct ViewState {
   bool panelHasRoom = true;  ///< beside the picture
   bool panelWaits = false;   ///< the panel was open, and opens again when it has room
   bool figures = false;
-  float panelWidth = 0.0f;    ///< pixels at 96 dots an inch; 0: the standard width
+  float panelWidth = 0.0f;     ///< pixels at 96 dots an inch; 0: the standard width
   std::optional<double> blur;  ///< blur of the backdrop while its slider is held, degrees
   std::array<char, 64> bookmarkName{};
   std::array<char, 64> search{};  ///< text that the sheet is searched for; ends with a 0

@@ -69,7 +69,7 @@ TEST(History, NumbersThatTheFileHasByNowAreTakenBack) {
   // The file had 1, and has 2.
   const LightOptions before = state.edit.shared.light;
   state.edit.shared.light.studio = true;
-  takeOver(history, state, {{{"/a", {1.0}}, {"/a", {2.0}}}}, before);
+  rebase(history, state, {{{"/a", {1.0}}, {"/a", {2.0}}}}, before);
   EXPECT_EQ(state.edit.shared.selection.set, with(3.0));
   record(history, state);
   ASSERT_EQ(history.past.size(), 2u);
@@ -202,16 +202,16 @@ TEST(History, AStepWhoseSceneCannotBeHadIsTakenBack) {
   showScene(state, *state.scene);
   EXPECT_TRUE(redo(history, state));
   history.waits = true;
-  giveUp(history, state);
+  revert(history, state);
   record(history, state);
   EXPECT_EQ(history.past.size(), 2u);
   EXPECT_EQ(history.future.size(), 1u);
   EXPECT_TRUE(undo(history, state));
   EXPECT_EQ(state.edit.pose.viewAngleDegrees, 30.0);
-  giveUp(history, state);  // nothing waits
+  revert(history, state);  // nothing waits
   EXPECT_EQ(state.edit.pose.viewAngleDegrees, 30.0);
   history.waits = true;
-  giveUp(history, state);
+  revert(history, state);
   EXPECT_EQ(state.edit.pose.viewAngleDegrees, 20.0);
 }
 
@@ -220,7 +220,7 @@ TEST(History, WhatTheUserDidNotDoIsNoStep) {
   History history;
   restart(history, state);
   state.edit.split = true;
-  overlook(history, state);
+  ignoreChange(history, state);
   EXPECT_FALSE(undo(history, state));
   EXPECT_TRUE(state.edit.split);
 }

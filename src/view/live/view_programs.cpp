@@ -89,7 +89,7 @@ std::shared_ptr<ViewProgram> ViewPrograms::of(const RenderOptions& options) {
     return programs_.front();
   }
   if (!sameTree(treeOptions_, part)) {
-    settle();
+    waitForCompiler();
     loaded_.bvh = buildTree(loaded_.scene, part);
   }
   treeOptions_ = part;
@@ -112,11 +112,12 @@ std::shared_ptr<ViewProgram> ViewPrograms::soon(const RenderOptions& options) {
 }
 
 bool ViewPrograms::takeNews() {
-  if (compiling() && coming_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) settle();
+  if (compiling() && coming_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+    waitForCompiler();
   return std::exchange(news_, false);
 }
 
-void ViewPrograms::settle() {
+void ViewPrograms::waitForCompiler() {
   if (!compiling()) return;
   news_ = true;
   const std::shared_ptr<ViewProgram> program = coming_.get();
@@ -125,7 +126,7 @@ void ViewPrograms::settle() {
 }
 
 void ViewPrograms::forget() {
-  settle();
+  waitForCompiler();
   programs_.clear();
 }
 

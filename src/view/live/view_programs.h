@@ -49,12 +49,12 @@ class ViewPrograms {
   bool takeNews();
   bool compiling() const { return coming_.valid(); }
   /// Waits for what is compiled aside, which reads the scene: it comes before every change of the scene.
-  void settle();
+  void waitForCompiler();
   /// Makes all again when they are asked for again.
   void forget();
   /// The scene and its tree are those of another time of its animation, loaded with these options: programs
   /// that somebody holds draw it from now on, all others are made again when they are asked for again. Throws
-  /// as replaceScene(), and std::logic_error if the scene was changed before settle().
+  /// as replaceScene(), and std::logic_error if the scene was changed before waitForCompiler().
   void showPose(const RenderOptions& options);
   /// Does the same if only numbers of surfaces and lights have changed, which the selection has: nothing else
   /// is packed. A program whose text holds the whole scene is made again when it is asked for again.

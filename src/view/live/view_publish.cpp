@@ -58,7 +58,7 @@ void ViewTracer::estimate(Side& side) {
 bool ViewTracer::denoises(const Side& side) { return whyNotDenoised(side.options).empty(); }
 
 bool ViewTracer::denoisesByOidn(const Side& side) const {
-  return denoises(side) && oidn_ && side.options.output.denoise == Denoise::Oidn && settled() &&
+  return denoises(side) && oidn_ && side.options.output.denoise == Denoise::Oidn && isStill() &&
          side.samples >= kFewestForOidn;
 }
 
@@ -159,7 +159,7 @@ std::optional<TracedPicture> ViewTracer::pictureOf(Side& side) {
     s.filtered = filteredShare(side.samples);
     s.filterMs = side.filterMs;
   }
-  s.resting = settled() && !side.awaited && resting(side);
+  s.resting = isStill() && !side.awaited && resting(side);
   s.variant = side.program->variant;
   s.deviceBytes = side.program->bytes + size_t(size.x) * size_t(size.y) * bytesPerPixel(side.memory);
   s.copied = !shares_;

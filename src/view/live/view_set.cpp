@@ -20,7 +20,7 @@ bool ViewTracer::setSurfaces(const TraceRequest& request) {
     return false;
   const auto traits = [&](const Scene& scene) { return traitsOf(scene, loaded_->environment); };
   const TraitSet before = traits(loaded_->scene);
-  programs_->settle();
+  programs_->waitForCompiler();
   if (!setByEye(loaded_->scene, fileMaterials_, fileLights_, wanted.set) || traits(loaded_->scene) != before)
     return false;
   takePose(loadedOptions_.selection, wanted);

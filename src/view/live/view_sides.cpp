@@ -28,7 +28,7 @@ RenderOptions ViewTracer::withFilter(RenderOptions options) {
   return options;
 }
 
-void ViewTracer::adoptSide(Side& side, const RenderOptions& asked) {
+void ViewTracer::setSide(Side& side, const RenderOptions& asked) {
   RenderOptions options = withFilter(asked);
   std::shared_ptr<ViewProgram> program = side.program;
   side.awaited.reset();
@@ -106,23 +106,20 @@ void ViewTracer::preview(Side& side, const RenderOptions& wanted) {
 }
 
 /// Any thread may call this and the next function.
-void ViewTracer::tellWork(const std::string& what) {
-  switch (shows_.load()) {
-    case Shows::Nothing:
-      return exchange_.set(&TraceStatus::note, what);
-    case Shows::Preview:
-      return exchange_.set(&TraceStatus::note, what + " (this is a preview in Blinn-Phong)");
-    case Shows::Picture:
-      return exchange_.set(&TraceStatus::note, what + " (the last picture stays meanwhile)");
-  }
+void ViewTracer::reportWork(const std::string& what) {
+  const Shows shown = shows_;
+  exchange_.set(&TraceStatus::note,
+                what + (shown == Shows::Nothing   ? ""
+                        : shown == Shows::Preview ? " (this is a preview in Blinn-Phong)"
+                                                  : " (the last picture stays meanwhile)"));
 }
 
-void ViewTracer::tellDecoded(size_t decoded, size_t count) {
-  tellWork("compiling, " + std::to_string(decoded) + " of " + std::to_string(count) + " textures decoded");
+void ViewTracer::reportDecoded(size_t decoded, size_t count) {
+  reportWork("compiling, " + std::to_string(decoded) + " of " + std::to_string(count) + " textures decoded");
 }
 
 std::shared_ptr<ViewProgram> ViewTracer::programFor(const RenderOptions& options, bool aside) {
-  if (!programs_->has(options)) tellWork("compiling");
+  if (!programs_->has(options)) reportWork("compiling");
   std::shared_ptr<ViewProgram> program = aside ? programs_->soon(options) : programs_->of(options);
   if (!program) return program;
   for (const std::string& message : std::exchange(program->driverLog, {}))
@@ -141,7 +138,7 @@ bool ViewTracer::awaitsProgram() const {
 void ViewTracer::takeCompiled() {
   if (!programs_ || !programs_->takeNews()) return;
   for (Side& side : sides_) {
-    if (side.awaited) adoptSide(side, RenderOptions(*side.awaited));
+    if (side.awaited) setSide(side, RenderOptions(*side.awaited));
   }
   noteAnswered();
 }

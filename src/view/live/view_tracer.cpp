@@ -59,10 +59,10 @@ void ViewTracer::run(const SharedContexts& shared) {
       if (requests.quit) break;
       try {
         carryOut(std::move(requests));
-        adoptScene();
+        takeLoaded();
         takeCompiled();
         watchFiles();
-        if (loaded_ && sides_.empty() && !request_.sides.empty()) adopt(request_);
+        if (loaded_ && sides_.empty() && !request_.sides.empty()) setRequest(request_);
         working = work();
       } catch (const ContextLost& error) {
         recover(error);
@@ -70,7 +70,7 @@ void ViewTracer::run(const SharedContexts& shared) {
       }
       exchange_.set(&TraceStatus::request, request_.number);
       exchange_.set(&TraceStatus::resting, !working && !request_.moving && !awaitsProgram());
-      tellDriver();
+      reportDriver();
     }
   } catch (...) {
     exchange_.deliver(std::current_exception());
@@ -141,7 +141,7 @@ void ViewTracer::leaveContext() {
   context_.reset();
 }
 
-void ViewTracer::tellDriver() {
+void ViewTracer::reportDriver() {
   for (const std::string& message : driverLog_->take()) exchange_.deliver("driver: " + message);
 }
 
@@ -153,7 +153,7 @@ void ViewTracer::carryOut(Requests requests) {
     loader_.cancel();
     exchange_.set(&TraceStatus::load, {});
   }
-  if (requests.trace && loaded_) adopt(*requests.trace);
+  if (requests.trace && loaded_) setRequest(*requests.trace);
   if (requests.thumbnails) thumbnails_.make(*requests.thumbnails, start_.render.limits.memoryBytes);
   if (requests.reference) takeReference(*requests.reference);
   for (SaveRequest& save : requests.saves) saves_.push_back(std::move(save));
@@ -161,7 +161,7 @@ void ViewTracer::carryOut(Requests requests) {
   if (requests.pick && loaded_) answer(*requests.pick);
 }
 
-void ViewTracer::adoptScene() {
+void ViewTracer::takeLoaded() {
   std::optional<LoadResult> result = loader_.take();
   if (!result) return;
   exchange_.set(&TraceStatus::load, {});
@@ -185,7 +185,7 @@ void ViewTracer::adoptScene() {
   wasText_ = false;
   fileMaterials_ = loaded_->scene.materials;
   fileLights_ = loaded_->scene.lightSources;
-  loaded_->decoding = [this](size_t decoded, size_t count) { tellDecoded(decoded, count); };
+  loaded_->decoding = [this](size_t decoded, size_t count) { reportDecoded(decoded, count); };
   makePrograms();
   loadError_.clear();
   exchange_.set(&TraceStatus::error, {});
@@ -270,7 +270,7 @@ void ViewTracer::pose(const TraceRequest& request) {
   options.camera.overrides = wanted.camera.overrides;
   options.camera.index = wanted.camera.index;
   options.camera.resolution = request.size;
-  if (!sameNodes) tellWork("updating the scene");
+  if (!sameNodes) reportWork("updating the scene");
   std::vector<std::string> repeated;
   const SaidHere silence(repeated);  // loading the scene has said it
   try {
@@ -281,7 +281,7 @@ void ViewTracer::pose(const TraceRequest& request) {
     if (tree_ && sameNodes) before.tree = &*tree_;
     before.document = &document_;
     before.volume = &loaded_->scene.volume;
-    programs_->settle();
+    programs_->waitForCompiler();
     *loaded_ = loadScene(options, stats, {}, FilmOf::Picture, before);
     if (!stats.treeRefitted && loaded_->scene.instances.empty())
       tree_ = refittable(loaded_->bvh, loaded_->scene);
@@ -315,7 +315,7 @@ bool ViewTracer::relight(const TraceRequest& request) {
   const bool shone = shines();
   std::vector<std::string> repeated;
   const SaidHere silence(repeated);  // no messages: relight() has said them
-  programs_->settle();
+  programs_->waitForCompiler();
   loaded_->environment = skyOf(loadedOptions_, repeated);
   // When the sun rises or sets, programs change: light paths begin at it (Trait::Caustics).
   if (shines() == shone)
@@ -325,7 +325,7 @@ bool ViewTracer::relight(const TraceRequest& request) {
   return true;
 }
 
-void ViewTracer::adopt(const TraceRequest& request) {
+void ViewTracer::setRequest(const TraceRequest& request) {
   // The window does not know of the scene that has just been loaded.
   if (request.sides.front().scene != loadedOptions_.scene) return;
   request_ = request;
@@ -343,7 +343,7 @@ void ViewTracer::adopt(const TraceRequest& request) {
   }
   if (request.moving) keepMoving(resolution_, request.size);
   sides_.resize(request.sides.size());
-  for (size_t i = 0; i < sides_.size(); ++i) adoptSide(sides_[i], request_.sides[i]);
+  for (size_t i = 0; i < sides_.size(); ++i) setSide(sides_[i], request_.sides[i]);
   noteAnswered();
 }
 

@@ -75,10 +75,10 @@ class ViewTracer {
   void leaveContext();
   void recover(ContextLost error);
   void carryOut(Requests requests);
-  void adoptScene();
+  void takeLoaded();
   void watchFiles();
   void rebuildPrograms();
-  void adopt(const TraceRequest& request);
+  void setRequest(const TraceRequest& request);
   /// The options, with front-to-back in place of an automatic traversal if the scene is posed again.
   RenderOptions asPosed(RenderOptions options) const;
   /// Returns true if the scene has the pose that the request wants.
@@ -93,7 +93,7 @@ class ViewTracer {
   bool relight(const TraceRequest& request);
   /// The options with a filter that is available. Tells the window why if it is not the one asked for.
   RenderOptions withFilter(RenderOptions options);
-  void adoptSide(Side& side, const RenderOptions& options);
+  void setSide(Side& side, const RenderOptions& options);
   void preview(Side& side, const RenderOptions& wanted);
   View viewOf(const RenderOptions& options);
   /// Null while the program is compiled beside other drawing.
@@ -109,7 +109,7 @@ class ViewTracer {
   void fitFilm(Side& side);
   bool resting(const Side& side) const;
   /// Returns true if nothing moves and the resolution is the full one.
-  bool settled() const;
+  bool isStill() const;
   /// Draws samples of the side that has the fewest, or a frame of each while something moves; false when all
   /// rest.
   bool work();
@@ -141,10 +141,10 @@ class ViewTracer {
   void select(Selected selected);
   /// Boxes of the tree, and the outline of what is selected.
   std::vector<PictureLine> linesOver(const Side& side);
-  void tellDriver();
+  void reportDriver();
   /// Tells the window what keeps the thread from drawing.
-  void tellWork(const std::string& what);
-  void tellDecoded(size_t decoded, size_t count);
+  void reportWork(const std::string& what);
+  void reportDecoded(size_t decoded, size_t count);
 
   ViewOptions start_;
   Exchange& exchange_;

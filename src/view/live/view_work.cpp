@@ -30,9 +30,9 @@ void ViewTracer::fitFilm(Side& side) {
   const glm::ivec2 size = sizeAtStep(request_.size, resolution_.step);
   side.view.firstInMiddle = resolution_.step > 0;
   const bool fits = side.film && side.film->size() == size;
-  if (fits && !side.stale && !(side.guessesLightPaths && settled())) return;
+  if (fits && !side.stale && !(side.guessesLightPaths && isStill())) return;
   // A moving picture does not wait to see if it needs light paths: it does as the one before.
-  side.guessesLightPaths = !settled() && side.program->tracer.renderer->weighsLightPaths(side.view);
+  side.guessesLightPaths = !isStill() && side.program->tracer.renderer->weighsLightPaths(side.view);
   const int before = side.film ? side.film->pixelsPerPath() : 0;
   side.view.pixelsPerPath = !side.guessesLightPaths ? 0 : before > 0 ? before : kPixelsPerPath;
   if (!fits) side.memory.turn();
@@ -59,7 +59,7 @@ bool ViewTracer::resting(const Side& side) const {
          (o.sampling.seconds > 0.0 && side.times.renderMs >= 1000.0 * o.sampling.seconds);
 }
 
-bool ViewTracer::settled() const { return !request_.moving && resolution_.step == 0; }
+bool ViewTracer::isStill() const { return !request_.moving && resolution_.step == 0; }
 
 bool ViewTracer::draw(Side& side) {
   Renderer& renderer = *side.program->tracer.renderer;
@@ -67,7 +67,7 @@ bool ViewTracer::draw(Side& side) {
   const double frameMs = renderer.msPerSample() * size.x * size.y;
   const double affordable = frameMs > 0.0 ? kRoundMs / frameMs : 1.0;
   const int most = std::max(1, std::min(side.samples, side.options.sampling.spp - side.samples));
-  int count = settled() ? int(std::clamp(affordable, 1.0, double(most))) : 1;
+  int count = isStill() ? int(std::clamp(affordable, 1.0, double(most))) : 1;
   const double before = side.times.renderMs;
   clock_.restart();
   // A frame of a moving picture is short, and worth its end: else nothing would be seen before the hand
@@ -84,7 +84,7 @@ bool ViewTracer::draw(Side& side) {
     count = std::min(samplesThatFit(resolution_, elapsedMs, added), side.options.sampling.spp - side.samples);
   } while (request_.moving && count > 0);
   clock_.end(Pass::Trace);
-  const double filterMs = denoises(side) && !settled() ? filterMsPerPixel_ * size.x * size.y : 0.0;
+  const double filterMs = denoises(side) && !isStill() ? filterMsPerPixel_ * size.x * size.y : 0.0;
   frameTaken(resolution_, request_.size, size,
              ((side.times.renderMs - before) / added + filterMs) * double(sides_.size()));
   std::vector<double>& frames = side.times.frameMs;
@@ -110,7 +110,7 @@ bool ViewTracer::work() {
   for (Side& side : sides_) {
     if (side.program) fitFilm(side);
   }
-  const bool still = settled();
+  const bool still = isStill();
   // A film that has just become this large holds nothing yet.
   const bool whole = std::ranges::all_of(sides_, [](const Side& s) { return !s.program || s.samples > 0; });
   if (still && whole && !awaitsProgram() && !programs_->compiling()) {

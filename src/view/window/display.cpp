@@ -75,7 +75,7 @@ bool Display::hasNews() const {
 }
 
 /// Shows the pictures that wait, if all are ready: those of two sides show the same moment.
-void Display::adopt() {
+void Display::showWaiting() {
   if (!allReady()) return;
   for (size_t number = 0; number < kMostSides; ++number) {
     Side& side = sides_[number];
@@ -154,7 +154,7 @@ void Display::draw(const DisplayView& view, const std::array<DisplaySide, kMostS
   glBindSampler(0, 0);
   glBindSampler(1, 0);
   glBindVertexArray(vertexArray_.name());
-  adopt();
+  showWaiting();
   for (size_t i = 0; i < kMostSides; ++i) {
     if (shows(i) && (i < 2 || view.cells)) map(sides_[i], sides[i]);
   }

@@ -75,7 +75,7 @@ class Display {
     DisplaySide settings;  ///< the settings with which it was drawn
   };
   bool allReady() const;
-  void adopt();
+  void showWaiting();
   static void show(Side& side, GLuint traced, glm::ivec2 size, bool asItIs);
   void giveBack(size_t side, SharedTexture& texture);
   void map(Side& side, const DisplaySide& settings);

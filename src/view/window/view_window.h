@@ -72,7 +72,7 @@ class Window {
   void load(RenderOptions options);
   void loadStep();
   void cancelLoad();
-  bool mayLeave(const std::string& deed);
+  bool mayDiscard(const std::string& action);
   bool closes();
   void copyCommand();
   void pasteCommand();

@@ -31,7 +31,7 @@ void Window::openFiles(const std::vector<std::filesystem::path>& files, bool isA
   if (!drop.load) return;
   const bool hasScene =
       std::ranges::any_of(toLoad, [](const auto& file) { return kindOfDropped(file) == DroppedFile::Scene; });
-  if (hasScene && !isAsked && !mayLeave("open")) return;
+  if (hasScene && !isAsked && !mayDiscard("open")) return;
   if (hasScene || state_.scene || facts_.load.busy) return load(*drop.load);
   wanted_ = *drop.load;
   say(wanted_.light.hdriFile.filename().string() + " will light the model that is dropped next");
@@ -73,7 +73,7 @@ void Window::askForFile(const Invocation& invocation) {
     question = saveQuestion(freePictureName(folder, o.scene, ".png"));
   } else {
     const bool environment = invocation.argument == 1;
-    if (!environment && !dialog_.open() && !mayLeave("open")) return;
+    if (!environment && !dialog_.open() && !mayDiscard("open")) return;
     const std::filesystem::path& beside =
         environment && !o.light.hdriFile.empty() ? o.light.hdriFile : wanted_.scene;
     question = openQuestion((here / beside).parent_path(), environment);

@@ -219,7 +219,7 @@ void Window::take(ViewedScene scene) {
   const std::vector<ChangedNumber> changed = numbersSavedIn(scene);
   const LightOptions lightBefore = state_.edit.shared.light;
   showScene(state_, std::move(scene));
-  takeOver(history_, state_, changed, lightBefore);
+  rebase(history_, state_, changed, lightBefore);
   glfwSetWindowTitle(window_.get(), windowTitle(state_.scene->options.scene).c_str());
   wanted_ = state_.scene->options;
   if (pasted_ && sameScene(*pasted_, wanted_)) takeOptions(state_, *std::exchange(pasted_, {}));
@@ -253,7 +253,7 @@ void Window::takeStatus(const TraceStatus& status) {
   if (!facts_.error.empty() && !facts_.load.busy && state_.scene) {
     wanted_ = state_.scene->options;
     pasted_.reset();
-    giveUp(history_, state_);
+    revert(history_, state_);
   }
   if (!facts_.error.empty() && !facts_.load.busy && !state_.scene) {
     forgetBrokenEnvironment();

@@ -189,7 +189,7 @@ void Window::cancelLoad() {
   exchange_.set(&TraceStatus::load, {});
   facts_.load = {};
   pasted_.reset();
-  giveUp(history_, state_);
+  revert(history_, state_);
   if (state_.scene) wanted_ = state_.scene->options;
   if (!state_.scene) glfwSetWindowTitle(window_.get(), windowTitle({}).c_str());
 }
@@ -204,10 +204,10 @@ RenderOptions Window::shownOptions() const {
 }
 
 /// Returns true if no number is lost that nobody has saved, or if the user was asked, and sees it still.
-/// `deed` would lose them.
-bool Window::mayLeave(const std::string& deed) {
+/// `action` would lose them.
+bool Window::mayDiscard(const std::string& action) {
   const std::string question =
-      "the numbers that were set are not saved (Ctrl+Shift+S); " + deed + " again to leave them";
+      "the numbers that were set are not saved (Ctrl+Shift+S); " + action + " again to leave them";
   const std::vector<SetNumber>& set = state_.edit.shared.selection.set;
   const bool isSaved = set.empty() || set == saved_ || set == start_.options.selection.set;
   if (isSaved || isSeen(facts_.messages, question, glfwGetTime())) return true;
@@ -218,7 +218,7 @@ bool Window::mayLeave(const std::string& deed) {
 /// Returns true if the window is to be closed.
 bool Window::closes() {
   if (glfwWindowShouldClose(window_.get()) == 0) return false;
-  if (mayLeave("quit")) return true;
+  if (mayDiscard("quit")) return true;
   glfwSetWindowShouldClose(window_.get(), GLFW_FALSE);
   return false;
 }
@@ -351,7 +351,7 @@ void Window::takeReference(const TracedPicture& picture) {
   state_.overview = false;
   state_.edit.active = 0;
   newReference_ = true;
-  overlook(history_, state_);
+  ignoreChange(history_, state_);
 }
 
 /// Escape may have taken the request back. News say for a while that nothing is there.
