@@ -6,16 +6,23 @@ layout(binding = kTexelTextures) uniform sampler2DArray texelNumbers;
 layout(binding = kTexelTextures + 1u) uniform sampler2DArray texelColors;
 layout(binding = kTexelTextures + 2u) uniform sampler2DArray wideTexels;
 
+/// IEC 61966-2-1
+vec3 fromSrgb(vec3 value) {
+  vec3 curve = pow((value + 0.055) * (1.0 / 1.055), vec3(2.4));
+  return mix(curve, value * (1.0 / 12.92), lessThanEqual(value, vec3(0.04045)));
+}
+
 /// The linear colour and alpha of a texel of a slot's picture.
 vec4 readTexel(uvec4 slot, ivec2 place, bool srgb) {
   ivec3 at = ivec3(int(slot.x & 0xffffu) + place.x, int(slot.x >> 16) + place.y, int(slot.z >> kTexturePlaceShift));
+  vec4 value = vec4(0.0);
   if (kWideTextures && (slot.z & kTextureWide) != 0u) {
-    vec4 value = texelFetch(wideTexels, at, 0);
-    if (!srgb) return value;
-    // IEC 61966-2-1
-    vec3 curve = pow((value.rgb + 0.055) * (1.0 / 1.055), vec3(2.4));
-    return vec4(mix(curve, value.rgb * (1.0 / 12.92), lessThanEqual(value.rgb, vec3(0.04045))), value.a);
+    value = texelFetch(wideTexels, at, 0);
+    if (srgb) value.rgb = fromSrgb(value.rgb);
+  } else if (srgb) {
+    value = texelFetch(texelColors, at, 0);
+  } else {
+    value = texelFetch(texelNumbers, at, 0);
   }
-  if (srgb) return texelFetch(texelColors, at, 0);
-  return texelFetch(texelNumbers, at, 0);
+  return value;
 }

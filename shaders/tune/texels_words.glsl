@@ -15,15 +15,14 @@ float srgbValue16(uint value) {
 vec4 readTexel(uvec4 slot, ivec2 place, bool srgb) {
   uint unit = slot.z >> kTexturePlaceShift;
   int texel = place.y * int(slot.y & 0xffffu) + place.x;
-  if (kWideTextures && (slot.z & kTextureWide) != 0u) {
-    uint low = readTexelWord(unit, int(slot.x) + 2 * texel);
-    uint high = readTexelWord(unit, int(slot.x) + 2 * texel + 1);
-    vec4 value = vec4(unpackUnorm2x16(low), unpackUnorm2x16(high));
-    if (!srgb) return value;
-    return vec4(srgbValue16(low & 0xffffu), srgbValue16(low >> 16), srgbValue16(high & 0xffffu), value.w);
-  }
-  uint word = readTexelWord(unit, int(slot.x) + texel);
+  bool wide = kWideTextures && (slot.z & kTextureWide) != 0u;
+  uint word = readTexelWord(unit, int(slot.x) + (wide ? 2 * texel : texel));
   vec4 value = unpackUnorm4x8(word);
-  if (!srgb) return value;
-  return vec4(srgbValue(word & 255u), srgbValue((word >> 8) & 255u), srgbValue((word >> 16) & 255u), value.w);
+  if (srgb) value.rgb = vec3(srgbValue(word & 255u), srgbValue((word >> 8) & 255u), srgbValue((word >> 16) & 255u));
+  if (kWideTextures && wide) {
+    uint high = readTexelWord(unit, int(slot.x) + 2 * texel + 1);
+    value = vec4(unpackUnorm2x16(word), unpackUnorm2x16(high));
+    if (srgb) value.rgb = vec3(srgbValue16(word & 0xffffu), srgbValue16(word >> 16), srgbValue16(high & 0xffffu));
+  }
+  return value;
 }

@@ -67,7 +67,7 @@ std::string readsText(const ShaderVariant& variant) {
 }
 
 /// The buffers of texels, readTexelWord(), and srgbValue() (shaders/tune/texels_words.glsl).
-std::string texelWordsText(int buffers) {
+std::string texelWordsText(int buffers, bool table) {
   std::string text;
   std::string value;
   for (int i = 0; i < buffers; ++i) {
@@ -78,11 +78,12 @@ std::string texelWordsText(int buffers) {
     value += i == 0 ? "  uint word = " + read : "  if (unit == " + number + "u) word = " + read;
   }
   text += "uint readTexelWord(uint unit, int index) {\n" + value + "  return word;\n}\n";
-  // In the function, so that a program without textures drops it.
-  text += "float srgbValue(uint value) {\n  const float values[257] = float[257](";
+  // Only where textures are read; not in a function, each copy of which would have a table of its own.
+  if (!table) return text + "float srgbValue(uint value) { return 0.0; }\n";
+  text += "const float kSrgbValues[257] = float[257](";
   for (int i = 0; i <= 256; ++i)
     text += (i > 0 ? ", " : "") + formatted("%.9g", decodeSrgb(std::min(i, 255) / 255.0));
-  return text + ");\n  return values[int(value)];\n}\n";
+  return text + ");\nfloat srgbValue(uint value) { return kSrgbValues[int(value)]; }\n";
 }
 
 /// The buffer of path states, which the tracer writes as pathStates[], and readPathStates(). imageUnit:
@@ -135,7 +136,8 @@ struct Assembly {
       return fileText(variant.gpu ? "tune/frame_uniform.glsl" : "tune/frame_variable.glsl");
     if (name == "texels.glsl")
       return fileText(variant.textureArrays ? "tune/texels_arrays.glsl" : "tune/texels_words.glsl");
-    if (name == "texel_words.glsl") return texelWordsText(variant.texelBuffers);
+    if (name == "texel_words.glsl")
+      return texelWordsText(variant.texelBuffers, has(variant.traits, Trait::Texcoords));
     if (name == "work/count.glsl" && !variant.countsWork) return "";
     if (name == "shutter/camera.glsl" && !has(variant.traits, Trait::MovingCamera)) return "";
     if (name == "media/fog_block.glsl" && !has(variant.traits, Trait::Fog)) return "";

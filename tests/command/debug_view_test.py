@@ -73,7 +73,7 @@ class DebugViews(Case):
 
     def test_only_what_the_view_needs_is_compiled(self):
         for view, there, absent in (("geometric-normal", "geometric-normal", ("texture", "vertex-normals", "texcoords")),
-                                    ("roughness", "metallic-roughness-texture", ("vertex-normals", "punctual")),
+                                    ("roughness", "metal-and-roughness-texture", ("vertex-normals", "punctual")),
                                     ("depth", "depth", ("texture", "vertex-normals"))):
             self.shown(view, "--stats", self.folder / "s.json")
             variant = json.loads((self.folder / "s.json").read_text())["variant"]

@@ -147,7 +147,7 @@ class Videos(Case):
     def test_what_does_not_go_with_a_stream_is_refused(self):
         mp4 = ["-o", self.video]
         for options, says in (
-            (mp4, ["--output: ", "--turntable or --frames"]),
+            (mp4, ["--output: ", "--turntable 96 or --frames"]),
             ([*mp4, "--turntable", 2, "--resolution", "41,30"], ["--resolution: width and height of a .mp4 are even"]),
             ([*mp4, "--turntable", 2, "--region", "0,0,10,11"], ["--region: width and height of a .mp4 are even"]),
             ([*mp4, "--turntable", 2, "--continue"], ["--continue: goes with numbered pictures"]),
