@@ -16,9 +16,9 @@ const uint kMaterialsBinding = 7u;     // kMaterialRows uvec4 per material
 const uint kBricksBinding = 8u;
 const uint kEmittersBinding = 9u;      // kEmitterRows uvec4 per emitter
 const uint kLightsBinding = 10u;       // kLightRows vec4 per punctual light
-// 1 vec4 per texel: radiance, pdf over the area of the map (mean 1); behind them those of the backdrop, if there is
-// one that camera rays see in place of the map, and before gi the environment's light: factors of the irradiance;
-// width, height and first row of each level of lobes; the levels (src/pack/environment_light.h)
+// 1 uvec4 per two texels (src/pack/environment_texel.h): radiance, pdf over the area of the map (mean 1). Those of the
+// backdrop follow, if camera rays see one instead of the map, and before gi the environment's light: factors of the
+// irradiance; width, height and first row of each level of lobes; the levels (src/pack/environment_light.h)
 const uint kEnvironmentBinding = 11u;
 // 1 uvec4 per step: of the rows, then of each row (src/pack/inversion_table.h)
 const uint kEnvironmentInversionBinding = 12u;

@@ -13,7 +13,7 @@ namespace fragtrace {
 /// software and array textures on GPUs.
 TextureRoom textureRoom(TextureReads wanted, const Context& context);
 
-/// The pictures of a scene's textures on the device (pack/texture_plan.h).
+/// The pictures of a scene's textures on the device (pack/textures/texture_plan.h).
 class SceneTextures {
  public:
   /// Makes room for the pictures of a plan. Returns where they are to be written, if this can be told: texels

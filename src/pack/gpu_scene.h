@@ -101,7 +101,7 @@ struct KeptArrays;
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
                    const ShaderVariant& variant, const TexturePlan& plan, KeptArrays* kept = nullptr,
                    const DecodeProgress& progress = {}, const TexelMemory& memory = {});
-/// Does the same where pictures have endless room.
+/// Packs pictures in endless room.
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
                    const ShaderVariant& variant);
 

@@ -110,7 +110,7 @@ class Renderer {
   /// Uploads the scene, which must hold all that later variants read. Its arrays are freed one by one.
   Renderer(const Context& context, GpuScene scene, BufferReads reads,
            const std::filesystem::path& shaderFolder = {});
-  /// Does the same with programs that may have been built already, and textures that may be prepared.
+  /// Takes programs that may have been built already, and textures that may have been prepared.
   Renderer(const Context& context, GpuScene scene, BufferReads reads, ProgramCache programs,
            SceneTextures textures = {});
 

@@ -35,7 +35,7 @@ struct ShaderVariant {
   bool lens = false;              ///< else a pinhole
   bool lensShift = false;
   CameraType camera = CameraType::Perspective;  ///< Perspective stands for orthographic cameras, too
-  bool lightPaths = false;     ///< light paths are traced in place of camera paths (shaders/caustics/)
+  bool lightPaths = false;     ///< it traces light paths instead of camera paths (shaders/caustics/)
   bool gpu = false;            ///< the text suits the compilers of GPUs, else that of llvmpipe
   bool wavefront = false;      ///< else the megakernel
   int waveUnit = -1;           ///< image unit through which it reads its states; -1: a storage buffer

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where pictures lie on the device: nothing overlaps, nothing passes the room, and the largest shrink first.
+// Pictures on the device neither overlap nor pass the room. Those with most texels on a length shrink first.
 #include "pack/textures/texture_plan.h"
 
 #include <gtest/gtest.h>

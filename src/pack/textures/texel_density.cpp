@@ -59,7 +59,7 @@ std::vector<Shown> shownByMaterial(const Scene& scene) {
 
 }  // namespace
 
-std::vector<double> texelDensities(const Scene& scene) {
+TexelDensities texelDensities(const Scene& scene) {
   std::vector<double> areas(scene.images.size(), 0.0), texels(scene.images.size(), 0.0);
   const std::vector<Shown> shown = shownByMaterial(scene);
   for (size_t i = 0; i < shown.size(); ++i) {
@@ -74,15 +74,14 @@ std::vector<double> texelDensities(const Scene& scene) {
           shown[i].texcoords[ref.texcoord] * scale * double(picture.width) * double(picture.height);
     }
   }
-  std::vector<double> result(areas.size(), std::numeric_limits<double>::infinity());
-  for (size_t i = 0; i < result.size(); ++i) {
+  TexelDensities result;
+  result.ofImage.assign(areas.size(), std::numeric_limits<double>::infinity());
+  for (size_t i = 0; i < areas.size(); ++i) {
     const double density = std::sqrt(texels[i] / areas[i]);
-    if (density >= 0.0) result[i] = density;  // not where both are 0, or no numbers
+    if (density >= 0.0) result.ofImage[i] = density;  // not where both are 0, or no numbers
+    if (std::isfinite(result.ofImage[i])) result.largest = std::max(result.largest, result.ofImage[i]);
   }
-  double largest = 1.0;
-  for (const double density : result)
-    if (std::isfinite(density)) largest = std::max(largest, density);
-  for (double& density : result) density = std::max(density, largest * kLeast);
+  for (double& density : result.ofImage) density = std::max(density, result.largest * kLeast);
   return result;
 }
 

@@ -155,16 +155,13 @@ TexturePlan planTextures(const Scene& scene, const TraitSet& traits, const Textu
   if (placeWithin(
           whole, [](size_t) { return 1.0; }, room, plan))
     return plan;
-  const std::vector<double> densities = texelDensities(scene);
-  double largest = 0.0;
-  for (const double density : densities)
-    if (std::isfinite(density)) largest = std::max(largest, density);
+  const TexelDensities densities = texelDensities(scene);
   // The logarithm of the common density, between one at which each picture is a texel and the largest one.
-  double fits = std::log2(std::max(largest, 1e-300) * 1e-12), above = std::log2(std::max(largest, 1e-300));
+  double fits = std::log2(densities.largest * 1e-12), above = std::log2(densities.largest);
   const auto tryDensity = [&](double logarithm) {
     const double most = std::exp2(logarithm);
     return placeWithin(
-        whole, [&](size_t i) { return most / densities[i]; }, room, plan);
+        whole, [&](size_t i) { return most / densities.ofImage[i]; }, room, plan);
   };
   for (int step = 0; step < 50; ++step) {
     const double middle = std::midpoint(fits, above);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the pictures of a scene's textures lie on the device, known by their headers before any is decoded.
+// The plan says where the pictures of a scene's textures lie on the device. Their headers suffice for it.
 #pragma once
 
 #include <array>
@@ -57,7 +57,7 @@ struct TexturePlan {
   size_t bytes() const;
 };
 
-/// Where the buffers of a plan are mapped, in which pictures are then written; empty: they are not.
+/// The mapped buffers of a plan, into which pictures are written; empty where none is mapped.
 using TexelMemory = std::vector<uint32_t*>;
 
 /// A decoded picture: a word for each texel, or two where it is wide.
@@ -68,12 +68,11 @@ struct PackedPicture {
   std::vector<uint32_t> own{};  ///< the words, unless they are in the device's memory already
 };
 
-/// What is known of a picture once it was decoded: mean colour and alpha, linear, if its values are numbers
-/// and if they are colours in sRGB.
+/// The facts of a decoded picture: its mean, as linear colour and alpha, by both curves.
 struct PictureFacts {
-  bool isBroken = false;  ///< it cannot be decoded
-  glm::vec4 meanNumber{1.0f};
-  glm::vec4 meanColor{1.0f};
+  bool isBroken = false;       ///< it cannot be decoded
+  glm::vec4 meanNumber{1.0f};  ///< where its values are numbers
+  glm::vec4 meanColor{1.0f};   ///< where they are colours in sRGB
 };
 
 /// Told how many of how many pictures of the scene have been decoded. From any thread.
