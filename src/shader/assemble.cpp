@@ -137,7 +137,7 @@ struct Assembly {
     if (name == "texels.glsl")
       return fileText(variant.textureArrays ? "tune/texels_arrays.glsl" : "tune/texels_words.glsl");
     if (name == "texel_words.glsl")
-      return texelWordsText(variant.texelBuffers, has(variant.traits, Trait::Texcoords));
+      return texelWordsText(variant.texelBuffers, readsTextures(variant.traits));
     if (name == "work/count.glsl" && !variant.countsWork) return "";
     if (name == "shutter/camera.glsl" && !has(variant.traits, Trait::MovingCamera)) return "";
     if (name == "media/fog_block.glsl" && !has(variant.traits, Trait::Fog)) return "";

@@ -73,6 +73,9 @@ using TraitSet = SetOf<Trait>;
 /// The trait of scenes with a texture in the slot, one of layout::kSlotBaseColor and so on.
 constexpr Trait slotTrait(uint32_t slot) { return Trait(uint32_t(Trait::FirstTexture) + slot); }
 
+/// Returns true if some slot has a texture; spheres compute their coordinates, without Trait::Texcoords.
+inline bool readsTextures(const TraitSet& traits) { return (traits >> size_t(Trait::FirstTexture)).any(); }
+
 /// The attributes that primitives bring for their materials' maps; spheres bring all of them.
 struct Coordinates {
   bool texcoord0 = true;
