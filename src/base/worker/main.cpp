@@ -16,6 +16,7 @@
 #include "base/message.h"
 #include "base/shared_memory.h"
 #include "base/worker/confine.h"
+#include "base/worker/leaves_first.h"
 #include "base/worker/module.h"
 
 namespace fragtrace {
@@ -27,6 +28,7 @@ bool isStartedByProgram() {
 }
 
 WorkFunction* openModule(const char* path) {
+  loadLeavesFirst(path);
   void* const module = ::dlopen(path, RTLD_LAZY | RTLD_LOCAL);
   return module == nullptr ? nullptr : reinterpret_cast<WorkFunction*>(::dlsym(module, kWorkFunction));
 }
