@@ -91,7 +91,7 @@ class Shutter(Case):
         """Light samples find a lamp where it is at the path's time, with all ways to choose it, and scattered rays find it as well."""
         wheel = SCENES / "wheel.gltf"
         options = ["--camera", "follower", "--bounces", 1, "--hide", "lamp"]
-        for most, stage, ways in ((0.04, [], ((512, "--light-selection", "tree"), (512, "--light-selection", "power", "--tune", "gpu"),
+        for most, stage, ways in ((0.04, [], ((512, "--light-selection", "tree"), (512, "--light-selection", "power"),
                                               (512, "--dispatch", "compute", "--light-reuse", "candidates"), (2048, "--disable", "light-sampling"))),
                                   (0.03, ["--stage", "shadows"], ((512,),))):
             exact = tiles(self.exact(wheel, 0.25, 1 / 32, *options, *stage, "--spp", 16)["R"])
@@ -100,6 +100,8 @@ class Shutter(Case):
             for spp, *way in ways:
                 ours = tiles(self.blurred(wheel, 0.25, 1 / 32, *options, *stage, "--spp", spp, *way).values("R"))
                 self.assertLess(abs(sum(ours[i] for i in dark) / wanted - 1), most, (way, stage))
+        tunes = [self.blurred(wheel, 0.25, 1 / 32, *options, "--light-selection", "power", "--spp", 16, "--tune", tune).values("R") for tune in ("software", "gpu")]
+        self.assertEqual(*tunes)
 
     def test_a_sphere(self):
         scene = animated_sphere(self.folder / "moving.gltf", translation=((-0.4, 0.2, 0), (0.6, 0.5, 0.3)), scale=((1, 1, 1), (0.6, 0.6, 0.6)))
