@@ -88,25 +88,24 @@ Outcome drawAndWrite(const PictureJob& job, const std::vector<PictureLine>& boxe
 
 Outcome drawScene(const RenderOptions& asked, const Destination& destination, Device& device,
                   Statistics& stats, bool showsProgress) {
-  // Step: load.
+  // Step: load, and put what the shader variant reads on the device.
   const RenderOptions drawn = withGuides(asked);
-  LoadedScene loaded = loadScene(drawn, stats, {}, FilmOf::Part);
+  Session session;
+  session.set(drawn, device, stats);
+  LoadedScene& loaded = session.loaded();
   const RenderOptions options = exposed(asked, loaded.light);
   if (options.output.verbose && loaded.overrides.fit) {
     RenderOptions placed = options;
     placed.camera.overrides = asPlaced(loaded.camera, loaded.framed);
     say(options, "--fit: the camera stands at " + viewText(placed));
   }
-
-  // Step: the shader variant, and the arrays that it reads.
-  if (!device.context) openContext(options, pathsOf(options, loaded.region.size), device, stats);
-  Tracer tracer = makeTracer(*device.context, loaded, drawn, stats, std::exchange(device.programs, {}));
   const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);
-  releaseGeometry(loaded);
+  session.releaseGeometry();
 
+  // Step: draw, and write.
   const Outcome outcome =
-      drawAndWrite({options, loaded, tracer, showsProgress}, boxes, destination, device, stats);
-  device.programs = tracer.renderer->takePrograms();
+      drawAndWrite({options, loaded, session.tracer(), showsProgress}, boxes, destination, device, stats);
+  device.programs = session.tracer().renderer->takePrograms();
   return outcome;
 }
 

@@ -28,25 +28,12 @@ namespace fragtrace {
 
 namespace {
 
-/// State that the pictures of a sequence share, or that one leaves to the next.
+/// State that the pictures of a sequence share.
 struct SequenceRun {
   Device device;
-  Tracer tracer;
-  std::optional<LoadedScene> loaded;       ///< the scene of the picture before
-  std::optional<RefittableTree> tree;      ///< the latest tree, where the next picture may refit it
-  std::shared_ptr<KeptDocument> document;  ///< the document that is posed for each picture
-  Statistics prepared;                     ///< time spent on a turntable's scene
-  std::unique_ptr<Video> video;            ///< the file that all pictures go to; null: there is none
+  Session session;
+  std::unique_ptr<Video> video;  ///< the file that all pictures go to; null: there is none
 };
-
-/// Returns true if the next picture may refit this one's tree. `merge` tells scenes apart by their arrays,
-/// and a small tree is built as fast: in both cases each picture has the bits of a single command, whatever
-/// was drawn before.
-bool keepsTree(const RenderOptions& options, const Scene& scene) {
-  constexpr size_t kLeastTriangles = 4096;
-  return !holdsLayers(options) && !keepsCheckpoint(options) && options.output.debugView == DebugView::None &&
-         scene.triangles.size() >= kLeastTriangles;
-}
 
 /// Pictures after the end of an animation are all the same.
 void warnBeyondEnd(const RenderOptions& options, const SequenceOptions& sequence, const Scene& scene) {
@@ -59,53 +46,24 @@ void warnBeyondEnd(const RenderOptions& options, const SequenceOptions& sequence
           *length, int(std::ceil(*length * sequence.fps))));
 }
 
-/// Returns true if a turntable's scene is another one in each picture: its lamps stay, and the rest turns.
-bool turnsBeforeLamps(const SequenceRun& run, const SequenceOptions& sequence) {
-  return sequence.turntable > 0 && sequence.turn == Turn::Object && run.loaded &&
-         !run.loaded->scene.lights.empty();
-}
-
-/// The scene as the picture shows it, on the device. A turntable loads it once; else the environment stays.
+/// The scene as the picture shows it, on the device. A turntable's is another one in each picture where it
+/// has lamps that stay, and the rest turns.
 Statistics prepareFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOptions& sequence) {
-  const RenderOptions& options = frame.options;
-  const RenderOptions drawn = withGuides(options);
-  const bool turntable = sequence.turntable > 0;
-  const bool first = run.tracer.renderer == nullptr;
-  const bool anew = !turntable || turnsBeforeLamps(run, sequence);
-  if (!first && !anew) return run.prepared;
+  const bool first = !run.session.hasTracer();
+  const bool turns = sequence.turntable > 0;
+  const auto turnsBeforeLamps = [&] {
+    return turns && sequence.turn == Turn::Object && run.session.isLoaded() &&
+           !run.session.loaded().scene.lights.empty();
+  };
+  const auto change = [&](LoadedScene& loaded) {
+    if (turns) loaded.scene.motion.camera = frame.sweep > 0.0;
+    if (turnsBeforeLamps())
+      turnLights(loaded.scene, turningPoint(loaded.camera, loaded.overrides, loaded.framed), frame.turn);
+  };
   Statistics stats;
-  SceneBefore before;
-  Environment environment;
-  if (run.loaded && run.loaded->environment.kind == Surroundings::Map) {
-    environment = std::move(run.loaded->environment);
-    before.environment = &environment;
-  }
-  if (run.tree) before.tree = &*run.tree;
-  const Volume volume = run.loaded ? run.loaded->scene.volume : Volume();
-  before.volume = &volume;
-  if (run.loaded) before.light = run.loaded->light;
-  if (anew) before.document = &run.document;
-  run.loaded.reset();
-  run.loaded = loadScene(drawn, stats, {}, FilmOf::Part, before);
-  if (turntable) run.loaded->scene.motion.camera = frame.sweep > 0.0;
-  if (turnsBeforeLamps(run, sequence)) {
-    const LoadedScene& loaded = *run.loaded;
-    turnLights(run.loaded->scene, turningPoint(loaded.camera, loaded.overrides, loaded.framed), frame.turn);
-  }
-  if (!stats.treeRefitted) {
-    run.tree.reset();
-    if (!turntable && run.loaded->scene.motion.segments == 0 && keepsTree(options, run.loaded->scene))
-      run.tree = refittable(run.loaded->bvh, run.loaded->scene);
-  }
-  if (first) {
-    if (!turntable) warnBeyondEnd(options, sequence, run.loaded->scene);
-    openContext(options, frameCount(sequence) * pathsOf(options, run.loaded->region.size), run.device, stats);
-    run.tracer = makeTracer(*run.device.context, *run.loaded, drawn, stats);
-    run.prepared = stats;
-    run.prepared.phases.clear();
-  } else {
-    replaceScene(run.tracer, *run.device.context, *run.loaded, drawn, stats);
-  }
+  const Renewal least = turnsBeforeLamps() ? Renewal::Pose : Renewal::None;
+  run.session.set(withGuides(frame.options), run.device, stats, {least, change});
+  if (first && !turns) warnBeyondEnd(frame.options, sequence, run.session.loaded().scene);
   return stats;
 }
 
@@ -117,7 +75,7 @@ Outcome drawFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOp
                   {"last_frame", rangeOf(sequence).last}});
   setReportContext(context);
   Statistics stats = prepareFrame(run, frame, sequence);
-  LoadedScene& loaded = *run.loaded;
+  LoadedScene& loaded = run.session.loaded();
   const RenderOptions options = exposed(frame.options, loaded.light);
   const Camera camera = loaded.camera;
   if (sequence.turntable > 0) {
@@ -133,7 +91,7 @@ Outcome drawFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOp
     if (sequence.turn == Turn::Object) loaded.view.hdriRotation += frame.turn;
   }
   const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);
-  if (!options.output.treeLevel) releaseGeometry(loaded);
+  if (!options.output.treeLevel) run.session.releaseGeometry();
   Destination destination{nameOf(options.output)};
   if (isStream(options.output)) {
     destination.name += ", picture " + std::to_string(frame.number);
@@ -142,7 +100,7 @@ Outcome drawFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOp
     destination.video = run.video.get();
   }
   const Outcome outcome =
-      drawAndWrite({options, loaded, run.tracer, false}, boxes, destination, run.device, stats);
+      drawAndWrite({options, loaded, run.session.tracer(), false}, boxes, destination, run.device, stats);
   loaded.camera = camera;
   return outcome;
 }
@@ -182,7 +140,7 @@ void drawFrames(const RenderOptions& options, SequenceRun& run, SequenceCounts& 
     } catch (const std::exception& reason) {
       // A turntable's scene would be the same for every picture.
       const bool isInput = dynamic_cast<const InputError*>(&reason) != nullptr;
-      if (isInput && sequence.turntable > 0 && !run.loaded) throw;
+      if (isInput && sequence.turntable > 0 && !run.session.isLoaded()) throw;
       reportError("picture " + std::to_string(frame.number) + ": " + reason.what());
       ++counts.failed;
     }
@@ -236,12 +194,14 @@ int sayHowSequenceEnded(const RenderOptions& options, const SequenceCounts& coun
 int runSequence(const RenderOptions& options) {
   const SequenceOptions& sequence = options.output.sequence;
   SequenceRun run;
+  std::shared_ptr<KeptDocument> document;
   RenderOptions settled = options;
   if (sequence.frames) {
-    settled = placedForAllPoses(options, run.document);
+    settled = placedForAllPoses(options, document);
     if (settled.camera.overrides != options.camera.overrides)
       say(options, "one camera shows the whole animation: " + cameraText(settled));
   }
+  run.session = Session(frameCount(sequence), false, std::move(document));
   run.device.oidn = openDenoiser(settled);
   passOnWhatIsSaid([](const std::string&) {});  // they would all say the same
   countInterrupts();

@@ -45,7 +45,7 @@ OptionRow timeRow() {
   OptionRow row = memberRow(
       "--animation-time",
       "pose the scene at this time of its animation, in seconds; by default the scene is not animated",
-      FRAGTRACE_MEMBER(selection.animationTime), {.effect = Effect::Picture, .renewal = Renewal::Scene});
+      FRAGTRACE_MEMBER(selection.animationTime), {.effect = Effect::Picture, .renewal = Renewal::Pose});
   row.examples = {"0", "1.2500000000000002"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
     app.add_option(r.name, raw.options.selection.animationTime, r.help)->check(realNumberFrom(0.0));
@@ -56,9 +56,9 @@ OptionRow timeRow() {
 
 /// A list of texts, of which each is given by an option of its own.
 template <typename Member>
-OptionRow listRow(const char* name, std::string help, Member member, const char* example, const char* type) {
-  OptionRow row =
-      memberRow(name, std::move(help), member, {.effect = Effect::Picture, .renewal = Renewal::Scene});
+OptionRow listRow(const char* name, std::string help, Member member, const char* example, const char* type,
+                  Renewal renewal = Renewal::Scene) {
+  OptionRow row = memberRow(name, std::move(help), member, {.effect = Effect::Picture, .renewal = renewal});
   row.examples = {example};
   row.add = [member, type](CLI::App& app, const OptionRow& r, RawRender& raw) {
     app.add_option(r.name, member(raw.options), r.help)->type_name(type)->allow_extra_args(false);
@@ -129,7 +129,7 @@ OptionRow setRow() {
       "as /materials/0/alphaCutoff=0.25; several with commas where the file has an array; can be given "
       "several "
       "times",
-      FRAGTRACE_MEMBER(selection.set), {.effect = Effect::Picture, .renewal = Renewal::Scene});
+      FRAGTRACE_MEMBER(selection.set), {.effect = Effect::Picture, .renewal = Renewal::Pose});
   row.examples = {"/materials/0/pbrMetallicRoughness/roughnessFactor=0.25", "Wood*:roughness=0.25",
                   "b:c:alphaMode=BLEND", "b:baseColorTexture=none"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
@@ -265,6 +265,7 @@ std::vector<OptionRow> fileRows() {
 
 std::vector<OptionRow> inputRows() {
   constexpr OptionTraits kScene{.effect = Effect::Picture, .renewal = Renewal::Scene};
+  constexpr OptionTraits kPose{.effect = Effect::Picture, .renewal = Renewal::Pose};
   return {
       word("--scene", "name or index of the scene; by default the one that the file chooses",
            FRAGTRACE_MEMBER(selection.scene), kScene),
@@ -273,7 +274,7 @@ std::vector<OptionRow> inputRows() {
            "name or index of the animation, at --animation-time or at its first moment; by default the "
            "first; 'all' "
            "plays all at once",
-           FRAGTRACE_MEMBER(selection.animation), kScene),
+           FRAGTRACE_MEMBER(selection.animation), kPose),
       word(
           "--material-variant",
           "name or index of the material variant; `fragtrace info` lists the variants; `render` draws all of "
@@ -282,7 +283,7 @@ std::vector<OptionRow> inputRows() {
       listRow("--hide",
               "name or index of a node to hide, together with everything below it; can be given several "
               "times; `fragtrace info --nodes` lists the nodes",
-              FRAGTRACE_MEMBER(selection.hiddenNodes), "/nodes/3", "NODE"),
+              FRAGTRACE_MEMBER(selection.hiddenNodes), "/nodes/3", "NODE", Renewal::Pose),
       listRow(
           "--double-sided",
           "name or index of a material whose back is drawn, and shines, as its front does, or 'all'; can be "

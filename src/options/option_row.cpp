@@ -69,11 +69,6 @@ RenderOptions withoutEffects(RenderOptions options, std::initializer_list<Effect
   return options;
 }
 
-RenderOptions sceneOptions(RenderOptions options) {
-  reset(options, [](const OptionRow& row) { return row.traits.renewal != Renewal::Scene; });
-  return options;
-}
-
 RenderOptions programOptions(RenderOptions options) {
   reset(options, [](const OptionRow& row) { return row.traits.renewal == Renewal::None; });
   // A program has fog or has none; how dense it is depends on the draw.
@@ -82,6 +77,26 @@ RenderOptions programOptions(RenderOptions options) {
   std::optional<glm::dvec2>& shift = options.camera.overrides.lensShift;
   if (shift) shift = *shift == glm::dvec2(0.0) ? std::nullopt : std::optional(glm::dvec2(1.0));
   return options;
+}
+
+Renewal renewalBetween(const RenderOptions& before, const RenderOptions& now) {
+  const auto differ = [&](Renewal least) {
+    const auto part = [&](RenderOptions options) {
+      reset(options, [&](const OptionRow& row) { return row.traits.renewal < least; });
+      return options;
+    };
+    return part(before) != part(now);
+  };
+  for (const Renewal renewal : {Renewal::Scene, Renewal::Pose}) {
+    if (differ(renewal)) return renewal;
+  }
+  return programOptions(before) == programOptions(now) ? Renewal::None : Renewal::Program;
+}
+
+bool sameBesidePose(const RenderOptions& a, const RenderOptions& b) {
+  RenderOptions posed = a;
+  takePose(posed.selection, b.selection);
+  return programOptions(posed) == programOptions(b);
 }
 
 }  // namespace fragtrace

@@ -25,6 +25,7 @@ struct RawRender;
 enum class Renewal : uint8_t {
   None,     ///< aim() and drawing
   Program,  ///< makeTracer(): the program, and what it reads of the scene
+  Pose,     ///< the same file in another pose, or with other numbers: surroundings and light stay
   Scene     ///< loadScene()
 };
 
@@ -90,11 +91,15 @@ void appendRow(std::string& text, const OptionRow& row, const RenderOptions& opt
 /// effects in stageRows().
 RenderOptions withoutEffects(RenderOptions options, std::initializer_list<Effect> effects);
 
-/// Keeps the options that loadScene() reads and aim() does not read again; all others get their defaults.
-RenderOptions sceneOptions(RenderOptions options);
-
-/// Does the same for makeTracer(), the options that loading depends on included.
+/// Keeps the options that makeTracer() and loadScene() read and aim() does not read again; all others get
+/// their defaults.
 RenderOptions programOptions(RenderOptions options);
+
+/// The earliest step that has to be done again where options change; the later ones follow it.
+Renewal renewalBetween(const RenderOptions& before, const RenderOptions& now);
+
+/// Returns true if both need the same program, for whatever pose of the same scene.
+bool sameBesidePose(const RenderOptions& a, const RenderOptions& b);
 
 /// All options of `render`, in the order of --help, in one list for each part of RenderOptions.
 std::span<const OptionRow> optionRows();

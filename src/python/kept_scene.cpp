@@ -26,83 +26,37 @@ DrawingState& drawing() {
   return *theOne;
 }
 
-/// The context belongs to the process: all scenes share it.
-Device& deviceFor(const RenderOptions& options, Statistics& stats) {
-  DrawingState& state = drawing();
-  // The driver's compiler learns once how much to optimise, before anybody knows what will be drawn.
-  constexpr double kManyPaths = std::numeric_limits<double>::infinity();
-  if (!state.device.context) openContext(options, kManyPaths, state.device, stats);
-  const std::string& name = state.device.context->backend;
+/// Throws UsageError unless the options draw by the context of the process, which all scenes share.
+void checkBackend(const RenderOptions& options) {
+  const Device& device = drawing().device;
+  if (!device.context) return;
+  const std::string& name = device.context->backend;
   const bool other = (options.device.backend == Backend::Egl && name != "egl") ||
                      (options.device.backend == Backend::OsMesa && name != "osmesa");
   if (other)
     throw UsageError("--rendering-backend: this process draws by " + name +
                      " already; another needs another process");
-  return state.device;
 }
 
 /// The driver has lost all that was on the device.
 void forgetDevice() {
   DrawingState& state = drawing();
   for (const auto& kept : state.scenes) {
-    if (const auto scene = kept.lock()) scene->tracer.reset();
+    if (const auto scene = kept.lock()) scene->session.forgetTracer();
   }
   state.device.driverLog.reset();
   state.device.context.reset();
 }
 
-/// The options that the loaded scene depends on. Points and lines depend on the camera and the size of the
-/// picture.
-RenderOptions loadedFor(const RenderOptions& options, const LoadedScene& loaded) {
-  RenderOptions part = sceneOptions(options);
-  if (loaded.scene.strokes.empty()) return part;
-  part.camera.overrides = options.camera.overrides;
-  part.camera.index = options.camera.index;
-  part.camera.resolution = options.camera.resolution;
-  return part;
-}
-
-/// Loads and uploads the scene for these options; the statistics say which of that was necessary.
-Statistics prepare(KeptScene& kept, const RenderOptions& options) {
-  Statistics stats;
-  const bool isLoaded = kept.loaded && kept.loadedFor == loadedFor(options, *kept.loaded);
-  const bool isThere = isLoaded && kept.tracer && kept.tracedFor == programOptions(options);
-  if (isLoaded) {
-    stats = kept.prepared;
-    stats.phases.clear();
-    stats.clockMs = steadyMilliseconds();
-    stats.clockCpuMs = threadMilliseconds();
-    stats.loadMs = stats.bvhBuildMs = 0.0;
-    aim(*kept.loaded, options, FilmOf::Part);
-    stats.size = kept.loaded->region.size;
-    stats.region = options.camera.region;
-  } else {
-    kept.tracer.reset();
-    kept.loaded.reset();
-    kept.loaded = loadScene(options, stats, {}, FilmOf::Part);
-    kept.loadedFor = loadedFor(options, *kept.loaded);
-  }
-  const Device& device = deviceFor(options, stats);
-  if (isThere) {
-    stats.packMs = stats.uploadMs = stats.compileMs = 0.0;
-    return stats;
-  }
-  kept.tracer.reset();
-  stats.skipped.clear();
-  kept.tracer = makeTracer(*device.context, *kept.loaded, options, stats, true);
-  kept.tracedFor = programOptions(options);
-  if (!kept.isKept) releaseGeometry(*kept.loaded);
-  kept.prepared = stats;
-  return stats;
-}
-
 std::optional<DrawnPicture> draw(KeptScene& kept, const RenderOptions& asked, DrawJob& job) {
   RenderOptions options = asked;
-  drawing().device.oidn = openDenoiser(options);
-  const RenderOptions drawn = withGuides(options);
-  Statistics stats = prepare(kept, drawn);
   Device& device = drawing().device;
-  const PictureJob picture{options, *kept.loaded, *kept.tracer, false,
+  device.oidn = openDenoiser(options);
+  checkBackend(options);
+  Statistics stats;
+  kept.session.set(withGuides(options), device, stats);
+  if (!kept.isKept) kept.session.releaseGeometry();
+  const PictureJob picture{options, kept.session.loaded(), kept.session.tracer(), false,
                            [&](double fraction) { job.fraction = fraction; }};
   PhaseTimer firstDraw("first draw");
   DrawingPlan plan = planDrawing(picture, stats);

@@ -3,6 +3,7 @@
 // (draw_thread.h).
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,14 +14,10 @@
 
 namespace fragtrace {
 
-/// A scene that is loaded and uploaded, and the options for which it is.
+/// A scene on the device.
 struct KeptScene {
-  std::optional<LoadedScene> loaded;
-  RenderOptions loadedFor;
-  std::optional<Tracer> tracer;
-  RenderOptions tracedFor;
-  Statistics prepared;  ///< statistics of loading and uploading
-  bool isKept = true;   ///< else one picture is drawn, and memory that only loading needs is freed before
+  Session session{std::numeric_limits<double>::infinity(), true};
+  bool isKept = true;  ///< else one picture is drawn, and memory that only loading needs is freed before
 };
 
 /// A picture with all its layers, linear, and the statistics as JSON.

@@ -91,6 +91,13 @@ void forEachUse(const Law& law) {
   }
 }
 
+/// The options beside it. A format is refused without standard output, and the reverse; so are a time and its
+/// place.
+RenderOptions withoutOption(const std::string_view name) {
+  const bool pair = name == "--format" || name == "--sun-time" || name == "--sun-place";
+  return parsed(pair ? Words{"a.gltf"} : companionsOf(std::string(name)));
+}
+
 TEST(OptionTable, EachRowOfHelpIsOfAnOption) {
   for (const std::string_view name : namesOfHelpRows()) EXPECT_EQ(rowOf(name).name, name);
 }
@@ -110,13 +117,27 @@ TEST(OptionTable, NoNameIsSaidToBeOfAnotherProgram) {
 TEST(OptionTable, HasNoRowThatChangesNothing) {
   std::map<std::string, bool> changes;
   forEachUse([&](const OptionRow& row, const RenderOptions& options, const std::string&) {
-    // A format is refused without standard output, and the reverse; so are a time and its place.
-    const std::string_view name = row.name;
-    const bool pair = name == "--format" || name == "--sun-time" || name == "--sun-place";
-    const Words others = pair ? Words{"a.gltf"} : companionsOf(row.name);
-    changes[row.name] = changes[row.name] || options != parsed(others);
+    changes[row.name] = changes[row.name] || options != withoutOption(row.name);
   });
   for (const auto& [name, does] : changes) EXPECT_TRUE(does) << name;
+}
+
+TEST(OptionTable, EachRowRenewsWhatItSays) {
+  forEachUse([](const OptionRow& row, const RenderOptions& options, const std::string&) {
+    const RenderOptions others = withoutOption(row.name);
+    EXPECT_EQ(renewalBetween(options, options), Renewal::None);
+    EXPECT_EQ(renewalBetween(others, options), renewalBetween(options, others));
+    if (!row.isDefault(options) && row.isDefault(others)) {
+      EXPECT_GE(renewalBetween(others, options), row.traits.renewal);
+    }
+    const bool alone = std::ranges::all_of(optionRows(), [&](const OptionRow& other) {
+      return other.traits.renewal != Renewal::Scene || other.isDefault(options) == other.isDefault(others);
+    });
+    if (row.traits.renewal == Renewal::Pose && alone) {
+      EXPECT_EQ(renewalBetween(others, options), Renewal::Pose);
+      EXPECT_TRUE(sameBesidePose(others, options));
+    }
+  });
 }
 
 TEST(OptionTable, EachRowIsWrittenAsItIsRead) {

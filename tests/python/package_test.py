@@ -79,6 +79,18 @@ class Pictures(Package):
                     kept, anew = kept["albedo"], anew["albedo"]
                 np.testing.assert_array_equal(kept, anew)
 
+    def test_a_scene_is_posed_again(self):
+        """The file, its surroundings and its programs stay; each picture is that of a scene of its own."""
+        options = {**SMALL, "hdri": SCENES / "sky.pfm", "traversal": "front-to-back"}
+        scene = fragtrace.Scene(SCENES / "wheel.gltf", **options)
+        scene.render()
+        for keywords in ({"animation_time": 0.1}, {"animation_time": 0.3}, {"animation_time": 0.3, "hide": "lamp"}, {"set": "/materials/0/doubleSided=false"}, {}):
+            with self.subTest(str(keywords)):
+                posed = scene.render(**keywords)
+                np.testing.assert_array_equal(posed, fragtrace.render(SCENES / "wheel.gltf", **options, **keywords))
+                self.assertNotIn("environment", {phase["name"] for phase in posed.statistics["phases"]})
+                self.assertEqual(posed.statistics["compile_ms"], 0)
+
     def test_shapes_and_facts(self):
         layers = fragtrace.render(SCENES / "coverage.gltf", aov=("albedo", "depth", "samples"), **SMALL)
         self.assertEqual({name: layer.shape for name, layer in layers.items()},

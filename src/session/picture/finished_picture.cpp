@@ -6,7 +6,6 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "base/worker.h"
-#include "gl/driver_choice.h"
 #include "image/channels.h"
 #include "image/over_white.h"
 #include "options/option_text.h"
@@ -90,15 +89,6 @@ void sayDriverLog(const RenderOptions& options, Device& device) {
 }
 
 }  // namespace
-
-void openContext(const RenderOptions& options, double paths, Device& device, Statistics& stats) {
-  const bool quick = preferQuickCompilation(paths);
-  PhaseTimer timer("context");
-  device.context = makeContext(options.device.backend, options.device.vectorWidth);
-  device.driverLog.emplace();
-  stats.phases.push_back(timer.end());
-  stats.quickCompilation = quick && device.context->software;
-}
 
 std::optional<Image> drawSamples(const PictureJob& job, DrawingPlan& plan, Device& device,
                                  CheckpointKeeper& keeper, int most, Statistics& stats) {

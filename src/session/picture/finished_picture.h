@@ -3,27 +3,13 @@
 // pictures share this.
 #pragma once
 
-#include <memory>
 #include <optional>
 
-#include "gl/context.h"
-#include "gl/debug_log.h"
-#include "image/denoise/oidn_library.h"
 #include "session/picture/checkpoints.h"
 #include "session/picture/draw_parts.h"
+#include "session/session.h"
 
 namespace fragtrace {
-
-/// The device and the filter, which several pictures share.
-struct Device {
-  std::unique_ptr<Context> context;
-  std::optional<DebugLog> driverLog;     ///< messages of the context's driver
-  std::optional<ProgramCache> programs;  ///< those that the scene before has left to the next
-  std::optional<OidnLibrary> oidn;
-};
-
-/// Opens a context for `paths` camera paths in all. Throws ContextError.
-void openContext(const RenderOptions& options, double paths, Device& device, Statistics& stats);
 
 /// Draws the picture's samples, and says what is odd about them. Its layers need `plan` later. Nothing if the
 /// thread was interrupted more than `most` times. Throws what planDrawing() and drawPicture() throw.

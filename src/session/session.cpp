@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "session/session.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "gl/driver_choice.h"
+#include "session/outputs.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// Returns true if the next pose may refit this one's tree. `merge` tells scenes apart by their arrays, and a
+/// small tree is built as fast: in both cases each picture has the bits of a single command, whatever was
+/// drawn before.
+bool keepsTree(const RenderOptions& options, const Scene& scene) {
+  constexpr size_t kLeastTriangles = 4096;
+  return !holdsLayers(options) && !keepsCheckpoint(options) && options.output.debugView == DebugView::None &&
+         scene.triangles.size() >= kLeastTriangles && scene.motion.segments == 0;
+}
+
+/// Points and lines get their width from the camera and the picture's size.
+bool seesStrokesAlike(const RenderOptions& a, const RenderOptions& b) {
+  return a.camera.overrides == b.camera.overrides && a.camera.index == b.camera.index &&
+         a.camera.resolution == b.camera.resolution;
+}
+
+}  // namespace
+
+void openContext(const RenderOptions& options, double paths, Device& device, Statistics& stats) {
+  const bool quick = preferQuickCompilation(paths);
+  PhaseTimer timer("context");
+  device.context = makeContext(options.device.backend, options.device.vectorWidth);
+  device.driverLog.emplace();
+  stats.phases.push_back(timer.end());
+  stats.quickCompilation = quick && device.context->software;
+}
+
+Renewal Session::renewalOf(const RenderOptions& options) const {
+  if (!isSet_) return Renewal::Scene;
+  Renewal renewal = renewalBetween(options_, options);
+  const bool strokes = loaded_ && !loaded_->scene.strokes.empty();
+  if (!loaded_ || (strokes && !seesStrokesAlike(options_, options)))
+    renewal = std::max(renewal, Renewal::Pose);
+  return renewal;
+}
+
+void Session::load(const RenderOptions& options, Statistics& stats, Renewal renewal) {
+  SceneBefore before;
+  if (pictures_ > 1.0) before.document = &document_;
+  Environment environment;
+  Volume volume;
+  if (renewal == Renewal::Pose && loaded_) {
+    if (loaded_->environment.kind == Surroundings::Map) {
+      environment = std::move(loaded_->environment);
+      before.environment = &environment;
+    }
+    volume = loaded_->scene.volume;
+    before.volume = &volume;
+    before.light = loaded_->light;
+    if (tree_) before.tree = &*tree_;
+  }
+  loaded_.reset();
+  released_ = false;
+  loaded_ = loadScene(options, stats, {}, FilmOf::Part, before);
+  if (stats.treeRefitted) return;
+  tree_.reset();
+  if (document_ && !alwaysHashes_ && keepsTree(options, loaded_->scene))
+    tree_ = refittable(loaded_->bvh, loaded_->scene);
+}
+
+Renewal Session::set(const RenderOptions& options, Device& device, Statistics& stats,
+                     const SceneChange& change) {
+  Renewal renewal = std::max(renewalOf(options), change.least);
+  if (!tracer_) renewal = std::max(renewal, Renewal::Program);
+  if (released_ && renewal == Renewal::Program) renewal = Renewal::Pose;
+  // Programs that hold the scene in their text are made for each scene.
+  const bool repacks = renewal == Renewal::Pose && tracer_ && sameBesidePose(options_, options) &&
+                       tracer_->variant.traversal != TraversalMethod::Literals;
+  if (renewal == Renewal::Scene && isSet_) {
+    document_.reset();
+    tree_.reset();
+  }
+  options_ = options;
+  isSet_ = true;
+  if (renewal >= Renewal::Pose) {
+    load(options, stats, renewal);
+    if (change.change) change.change(*loaded_);
+  } else {
+    stats = prepared_;
+    stats.phases.clear();
+    stats.clockMs = steadyMilliseconds();
+    stats.clockCpuMs = threadMilliseconds();
+    stats.loadMs = stats.bvhBuildMs = stats.packMs = stats.uploadMs = stats.compileMs = 0.0;
+    if (!released_) aim(*loaded_, options, FilmOf::Part);
+    stats.size = loaded_->region.size;
+    stats.region = options.camera.region;
+  }
+  if (renewal == Renewal::None) return renewal;
+  if (!device.context)
+    openContext(options, pictures_ * pathsOf(options, loaded_->region.size), device, stats);
+  if (repacks) {
+    replaceScene(*tracer_, *device.context, *loaded_, options, stats);
+  } else {
+    tracer_.reset();
+    stats.skipped.clear();
+    const bool hashes = alwaysHashes_ || keepsCheckpoint(options) || holdsLayers(options);
+    tracer_ =
+        makeTracer(*device.context, *loaded_, options, stats, hashes, std::exchange(device.programs, {}));
+  }
+  prepared_ = stats;
+  return renewal;
+}
+
+void Session::releaseGeometry() {
+  fragtrace::releaseGeometry(*loaded_);
+  released_ = true;
+}
+
+}  // namespace fragtrace
