@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/errors.h"
+#include "base/timeline.h"
 #include "bench/command/commands.h"
 #include "bench/command/configurations.h"
 #include "bench/command/results.h"
@@ -18,7 +19,6 @@
 #include "options/choose.h"
 #include "options/numbers.h"
 #include "render/adaptive.h"
-#include "session/phase_timer.h"
 #include "session/picture/denoising.h"
 #include "session/picture/draw_samples.h"
 #include "session/progress_bar.h"

@@ -13,9 +13,9 @@
 
 #include "base/errors.h"
 #include "base/thread_name.h"
+#include "base/timeline.h"
 #include "gltf/edit/factors.h"
 #include "options/command_text.h"
-#include "session/phase_timer.h"
 #include "session/picture/denoising.h"
 #include "view/camera_controller.h"
 #include "view/live/view_tracer.h"

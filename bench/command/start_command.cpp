@@ -18,6 +18,7 @@
 #include "base/report.h"
 #include "base/summary.h"
 #include "base/text.h"
+#include "base/timeline.h"
 #include "bench/command/commands.h"
 #include "bench/command/results.h"
 #include "bench/report/json.h"
@@ -28,7 +29,6 @@
 #include "options/option_text.h"
 #include "options/parse_render.h"
 #include "session/interrupt.h"
-#include "session/phase_timer.h"
 #include "session/progress_bar.h"
 
 namespace fragtrace {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/message.h"
+#include "base/timeline.h"
 
 namespace fragtrace {
 
@@ -79,6 +80,8 @@ WorkResult Worker::perform(std::initializer_list<std::span<const uint8_t>> parts
     ~Lease() { worker.giveBack(std::move(child)); }
   } const lease{*this, takeChild()};
   Child& child = *lease.child;
+  const TimelineSpan span(request.inputBytes == 0 ? "load libraries" : "work",
+                          std::string(kind_.library) + ", process " + std::to_string(child.process));
   limitChild(child, limits.memoryBytes, limits.cpuSeconds);
   // The processor time ends it; this is for one that sleeps.
   const int patienceMs =

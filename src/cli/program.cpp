@@ -16,8 +16,10 @@
 #include "base/errors.h"
 #include "base/plugin.h"
 #include "base/report.h"
+#include "base/timeline.h"
 #include "cli/command_line.h"
 #include "session/interrupt.h"
+#include "session/outputs.h"
 
 namespace fragtrace {
 
@@ -121,7 +123,13 @@ void checkPrinted() {
   throw RenderError("cannot write to standard output");
 }
 
+void writeTimeline() {
+  if (const std::optional<TimelineFile> timeline = takeTimeline())
+    replaceText(timeline->path, timeline->text);
+}
+
 int leave(int status) {
+  writeTimeline();
   checkPrinted();
   reportEnd(status);
 #ifndef __SANITIZE_ADDRESS__

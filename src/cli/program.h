@@ -26,6 +26,9 @@ bool standardOutputIsClosed();
 /// status 1, without a word, where that is a pipe whose reader has left.
 void checkPrinted();
 
+/// Writes the file of startTimeline(), if there is one. Throws RenderError.
+void writeTimeline();
+
 /// Ends the process, once all is written, with this status. The system takes back at once what the driver and
 /// its compiler would give back piece by piece, which takes 20 ms. Sanitizers look for leaks when the caller
 /// returns, so there it comes back with the status.

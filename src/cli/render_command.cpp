@@ -9,6 +9,7 @@
 
 #include "base/errors.h"
 #include "base/report.h"
+#include "base/timeline.h"
 #include "cli/commands.h"
 #include "cli/program.h"
 #include "cli/render_picture.h"
@@ -73,6 +74,7 @@ int runAny(const RenderOptions& options) {
   if (options.output.progress == ProgressForm::Json) reportAsJson(options.output.quiet);
   if (options.output.toStandardOutput && isatty(STDOUT_FILENO) != 0)
     throw UsageError("--output -: standard output is a terminal; send it to a file or a program");
+  if (!options.output.traceFile.empty()) startTimeline(options.output.traceFile);
   if (isSequence(options)) return runSequence(options);
   return leave(options.selection.materialVariant == kAllVariants ? renderVariants(options)
                                                                  : renderOne(options));

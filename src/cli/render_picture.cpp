@@ -9,6 +9,7 @@
 #include "base/errors.h"
 #include "base/report.h"
 #include "base/text.h"
+#include "base/timeline.h"
 #include "cli/program.h"
 #include "options/command_text.h"
 #include "session/file_light.h"
@@ -80,6 +81,7 @@ Outcome drawAndWrite(const PictureJob& job, const std::vector<PictureLine>& boxe
   } catch (const std::exception& error) {
     throw RenderError(rescuePicture(options, *drawn, error.what()));
   }
+  markMoment("picture");
   if (stats.complete) keeper.remove();
   if (!options.output.statsFile.empty()) replaceText(options.output.statsFile, statisticsText(stats));
   sayWhatWasDone(options, destination.name, stats);

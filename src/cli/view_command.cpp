@@ -12,7 +12,9 @@
 #include "base/errors.h"
 #include "base/plugin.h"
 #include "base/thread_name.h"
+#include "base/timeline.h"
 #include "cli/commands.h"
+#include "cli/program.h"
 #include "options/command_text.h"
 #include "options/view_options.h"
 #include "session/interrupt.h"
@@ -57,8 +59,10 @@ int runView(const ViewOptions& asked) {
     say(options.render,
         "warning: --vector-width 512 is left out: Mesa crashes when it draws windows with it");
   }
-  const NamedOutput status{"--status-file", options.statusFile};
-  checkOutputs({&status, 1}, inputsOf(options.render));
+  const NamedOutput files[] = {{"--status-file", options.statusFile},
+                               {"--trace-file", options.render.output.traceFile}};
+  checkOutputs(files, inputsOf(options.render));
+  if (!files[1].path.empty()) startTimeline(files[1].path);
   if (!options.reference.empty()) {
     const Image reference = readReference(options.reference, options.render.limits.memoryBytes);
     if (!options.render.camera.resolution)
@@ -81,6 +85,7 @@ int runView(const ViewOptions& asked) {
     exchange.request([](Requests& r) { r.quit = true; });
     if (!tracing.joinable()) return;
     const bool failed = std::uncaught_exceptions() > 0;
+    if (!failed) writeTimeline();
     std::future<void> end = ended.get_future();
     const auto endsWithin = [&](auto time) { return end.wait_for(time) == std::future_status::ready; };
     const bool soon = failed || endsWithin(kPatience) || (tracer.saving() && endsWithin(kPatienceForFiles));

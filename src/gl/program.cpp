@@ -2,6 +2,7 @@
 #include "gl/program.h"
 
 #include "base/errors.h"
+#include "base/timeline.h"
 
 namespace fragtrace {
 
@@ -80,6 +81,7 @@ std::string ProgramCache::textOf(const std::string& entry, const ShaderVariant& 
 const GlProgram& ProgramCache::tracerProgram(const ShaderVariant& variant) {
   const auto found = tracers_.find(variant);
   if (found != tracers_.end()) return found->second;
+  const TimelineSpan span(variant.lightPaths ? "compile light paths" : "compile " + variantName(variant));
   const char* compute = variant.wavefront ? "entry/wavefront.comp" : "entry/trace.comp";
   GlProgram program =
       variant.dispatch == Dispatch::Compute

@@ -225,6 +225,12 @@ std::vector<OptionRow> outputRows() {  // NOLINT(readability-function-size): a t
            "write statistics to this JSON file; '-' writes them to standard output, and nothing else goes "
            "there",
            FRAGTRACE_MEMBER(output.statsFile), kSaid, "FILE"),
+      word(
+          "--trace-file",
+          "write a timeline of all threads and of the process for pictures to this JSON file, from the start "
+          "of the process to its end; https://ui.perfetto.dev shows it",
+          FRAGTRACE_MEMBER(output.traceFile),
+          {.effect = Effect::Report, .copied = false, .kept = true, .group = OptionGroup::Output}, "FILE"),
       flag("--count-work",
            "count the work of the samples, into the file of --stats: rays by kind, steps through the tree, "
            "what they test, evaluate and read; the same each time; times are left out, since counting takes "

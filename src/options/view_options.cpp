@@ -36,6 +36,7 @@ void addViewOptions(CLI::App& app, RawView& raw) {
       "64 and 256 samples per pixel");
   describe("--resolution",
            "WIDTH,HEIGHT of the picture in pixels, at most 16384 each; by default the window has 1280,720");
+  addOption(app, "--trace-file", raw.render);
   addConfigOption(app, raw.config);
   app.add_option("--reference", raw.reference,
                  "picture to compare with: a linear .exr, .hdr or .pfm that is shown as side B of the split "

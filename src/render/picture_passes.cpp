@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/timeline.h"
 #include "gl/program.h"
 #include "render/picture_texture.h"
 
@@ -20,6 +21,7 @@ glm::ivec2 blocksOf(glm::ivec2 size) { return (size + kBlock - 1) / kBlock; }
 
 void makePasses(const ShaderSource& source,
                 std::initializer_list<std::pair<GlProgram*, const char*>> programs) {
+  const TimelineSpan span("compile programs of pictures");
   const std::string vertex = assembleShader(source, "entry/fullscreen.vert", {});
   std::vector<StartedProgram> started;
   for (const auto& [program, entry] : programs)

@@ -4,12 +4,12 @@
 #include <optional>
 #include <string>
 
+#include "base/timeline.h"
 #include "bvh/bvh.h"
 #include "render/film/film_pixels.h"
 #include "render/renderer.h"
 #include "scene/describe.h"
 #include "scene/sky/sun_place.h"
-#include "session/phase_timer.h"
 
 namespace fragtrace {
 

@@ -80,6 +80,26 @@ def times(point, matrix):
     return [value / result[3] for value in result[:3]]
 
 
+class Timelines(Case):
+    def test_a_timeline_of_threads_and_processes(self):
+        """As Perfetto reads it: each span is whole, and within the life of the process."""
+        path = self.folder / "trace.json"
+        self.renders(SCENES / "sphere-textured.gltf", "-o", self.folder / "x.png", *SMALL, "--trace-file", path)
+        events = json.loads(path.read_text())["traceEvents"]
+        rows = {e["tid"]: e["args"]["name"] for e in events if e["ph"] == "M"}
+        spans = {e["name"]: e for e in events if e["ph"] == "X"}
+        self.assertLessEqual({"main", "second"}, set(rows.values()))
+        self.assertTrue(any(name.startswith("the image library, process ") for name in rows.values()), rows)
+        self.assertLessEqual({"start of the process", "scene", "tree", "context", "pack", "program", "upload", "first draw", "draw", "write", "work"}, set(spans))
+        end = next(e["ts"] for e in events if e["name"] == "picture")
+        for span in spans.values():
+            self.assertIn(span["tid"], rows)
+            self.assertGreaterEqual(span["ts"], 0)
+            self.assertGreaterEqual(span["dur"], 0)
+        self.assertLessEqual(spans["draw"]["ts"] + spans["draw"]["dur"], end)
+        self.fails(1, "render", SCENES / "furnace.gltf", "-o", self.folder / "y.pfm", *SMALL, "--trace-file", self.folder, says=["cannot write"])
+
+
 class Headers(Case):
     CAMERA = ("--camera-position", "3,2,5", "--camera-focal-point", "0,1,0", "--resolution", "40,20", "--spp", 2, "--quiet")
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "base/errors.h"
+#include "base/timeline.h"
 #include "gl/program.h"
 #include "image/channels.h"
 #include "image/denoise/oidn.h"
@@ -13,7 +14,6 @@
 #include "render/denoise.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
-#include "session/phase_timer.h"
 #include "session/progress_bar.h"
 #include "session/say.h"
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "base/summary.h"
+#include "base/timeline.h"
 #include "gl/gl.h"
 #include "image/channels.h"
 #include "image/format.h"
 #include "render/film/noise.h"
-#include "session/phase_timer.h"
 #include "session/picture/denoising.h"
 #include "session/picture/picture_file.h"
 #include "session/picture/provenance.h"
@@ -166,6 +166,7 @@ std::optional<TracedPicture> ViewTracer::pictureOf(Side& side) {
   s.passes = clock_.take();
   s.movedBytes = movedBytes() - std::exchange(side.movedBytes, movedBytes());
   shows_ = side.previews ? Shows::Preview : Shows::Picture;
+  markMoment(side.previews ? "first preview" : "first picture");
   losses_ = 0;
   side.published = steadyMilliseconds();
   publishMs_ = side.published - start;

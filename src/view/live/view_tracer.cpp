@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/timeline.h"
 #include "base/vectors.h"
 #include "gl/driver_choice.h"
 #include "session/environment.h"
 #include "session/file_light.h"
 #include "session/outputs.h"
-#include "session/phase_timer.h"
 #include "view/set_by_eye.h"
 
 namespace fragtrace {

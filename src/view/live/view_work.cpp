@@ -3,7 +3,7 @@
 // samples.
 #include <algorithm>
 
-#include "session/phase_timer.h"
+#include "base/timeline.h"
 #include "view/live/view_tracer.h"
 
 namespace fragtrace {
