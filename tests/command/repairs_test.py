@@ -81,11 +81,15 @@ ROWS = {
     "spot: outer > pi / 2": ((), spot(0, 2), spot(0, 1.5707963), LIGHTS + "/1/spot/outerConeAngle", "above pi / 2"),
     "light of an unknown type": ((), light(type="area"), {}, LIGHTS + "/1/type", '"area" is no kind of light; the light is left out'),
     "light type in capitals": ((), light(type="Point"), light(type="point"), LIGHTS + "/1/type", "is read as point"),
+    "spot light without a type": ((), light(intensity=30, spot={"outerConeAngle": 0.4}), light(type="spot", intensity=30, spot={"outerConeAngle": 0.4}),
+                                  LIGHTS + "/1", '"type" is missing; its cone makes it a spot light'),
     "light without a type": ((), light(intensity=3), {}, LIGHTS + "/1", '"type" is missing; the light is left out'),
     "light of negative range": ((), light(type="point", range=-1), light(type="point"), LIGHTS + "/1/range", "taken as absent"),
     "light of negative intensity": ((), light(type="point", intensity=-1), {}, LIGHTS + "/1", "the light is left out"),
     "camera of an unknown type": ((), camera(type="panorama"), {}, "/cameras/0/type", '"panorama" is no kind of camera; the camera is left out'),
-    "camera without a type": ((), camera(perspective={"yfov": 1, "znear": 1}), {}, "/cameras/0", '"type" is missing; the camera is left out'),
+    "camera without a type": ((), camera(perspective={"yfov": 1, "znear": 1}), camera(type="perspective", perspective={"yfov": 1, "znear": 1}), "/cameras/0",
+                              '"type" is missing; the lens that is there is taken'),
+    "camera without a type and a lens": ((), camera(), {}, "/cameras/0", '"type" is missing; the camera is left out'),
     "camera without a lens": ((), camera(type="orthographic"), {}, "/cameras/0", '"orthographic" is missing; the camera is left out'),
     "camera without a field of view": ((), camera(type="perspective", perspective={"znear": 1}), {}, "/cameras/0/perspective", '"yfov" is missing'),
     "camera of no field of view": ((), camera(type="perspective", perspective={"yfov": 0, "znear": 1}), {}, "/cameras/0/perspective/yfov",
@@ -185,9 +189,16 @@ ROWS = {
                                                   "fewer than its byteLength of 5000; what lies past them is left out"),
     "null as the attributes of a primitive": ((), {"/meshes/0/primitives/1": {"attributes": None}}, {}, "/meshes/0/primitives/1/attributes",
                                               "is null; the primitive is left out"),
-    "null as the length of a buffer": ((), {"/buffers/1": {"byteLength": None, "uri": "data:,abcd"}, **lost(4, 0, buffer=1)}, {}, "/buffers/1/byteLength",
-                                       "is null; the buffer is left out"),
-    "null as the length of a view": ((), lost(None, 0), {}, "/bufferViews/2/byteLength", "is null; the buffer view is left out"),
+    "null as the length of a buffer": ((), {"/buffers/0/byteLength": NULL}, {}, "/buffers/0/byteLength", "is null; the length of its data is taken"),
+    "buffer without a length": ((), {"/buffers/0/byteLength": None}, {}, "/buffers/0", '"byteLength" is missing; the length of its data is taken'),
+    "null as the lengths of views": ((), {"/bufferViews/0/byteLength": NULL, "/bufferViews/1/byteLength": NULL}, {}, "/bufferViews/0/byteLength",
+                                     "is null; all up to the end of its buffer is taken (2 times"),
+    "null as the buffer of a view": ((), {"/bufferViews/0/buffer": NULL}, {}, "/bufferViews/0/buffer", "is null; the only buffer is taken"),
+    "null as the buffer of a view, among two": ((), {**lost(12, 0), "/bufferViews/2/buffer": NULL, "/buffers/1": {"byteLength": 4, "uri": "data:,abcd"}}, {},
+                                                "/bufferViews/2/buffer", "is null; the buffer view is left out"),
+    "null as a count": ((), {"/accessors/1/count": NULL}, {}, "/accessors/1/count", "is null; as many as its buffer view holds are taken"),
+    "null as a count that its view does not tell": ((), {**lost(12, 0), "/accessors/2/bufferView": 0, "/accessors/2/count": NULL}, {}, "/accessors/2/count",
+                                                    "is null; the accessor is left out"),
     "view past its buffer": ((), lost(999, 0), {}, "/bufferViews/2", "reach past the 60 of its buffer; the buffer view is left out"),
     "accessor of an unknown type": ((), {**lost(12, 0), "/accessors/2/type": "VEC9"}, {}, "/accessors/2/type", '"VEC9" is no type of an accessor'),
     "accessor of an unknown component type": ((), {**lost(12, 0), "/accessors/2/componentType": 5130}, {}, "/accessors/2/componentType",
@@ -284,16 +295,17 @@ class Repairs(Case):
         root["nodes"][0]["name"] = "\U0001f600 \u00e4"  # a pair of surrogates, as json.dumps writes it
         self.assertEqual(self.picture(self.write("right", root)), (twin, []))
 
-    def test_an_empty_uri_of_a_glb_is_its_own_chunk(self):
+    def test_a_glb_without_uri_or_length_is_read_from_its_own_chunk(self):
         root = base()[0]
         data = struct.pack("<12f6H", 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 1, 2, 2, 1, 3)
         twin, _ = self.picture(self.write("right", root))
-        root["buffers"] = [{"byteLength": len(data), "uri": ""}]
-        text = json.dumps(root).encode()
-        text += b" " * (-len(text) % 4)
-        scene = self.folder / "broken.glb"
-        scene.write_bytes(b"glTF" + struct.pack("<3I", 2, 28 + len(text) + len(data), len(text)) + b"JSON" + text + struct.pack("<I", len(data)) + b"BIN\0" + data)
-        self.is_drawn_as(scene, twin, "/buffers/0/uri", "is empty")
+        for buffer, member, says in (({"byteLength": len(data), "uri": ""}, "uri", "is empty"), ({"byteLength": None}, "byteLength", "the length of its data is taken")):
+            root["buffers"] = [buffer]
+            text = json.dumps(root).encode()
+            text += b" " * (-len(text) % 4)
+            scene = self.folder / "broken.glb"
+            scene.write_bytes(b"glTF" + struct.pack("<3I", 2, 28 + len(text) + len(data), len(text)) + b"JSON" + text + struct.pack("<I", len(data)) + b"BIN\0" + data)
+            self.is_drawn_as(scene, twin, f"/buffers/0/{member}", says)
 
     def test_a_kind_has_one_line(self):
         """Primitives that are lost for reasons that differ in their numbers alone."""

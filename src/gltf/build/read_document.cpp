@@ -14,6 +14,7 @@
 #include "gltf/check/extensions.h"
 #include "gltf/check/repairs.h"
 #include "gltf/check/schema.h"
+#include "gltf/check/supply.h"
 #include "gltf/check/validity.h"
 #include "gltf/codecs/compression.h"
 #include "gltf/read/accessor.h"
@@ -106,9 +107,9 @@ Buffers readBuffers(json& root, Container& container, Worker& codecs, const IsUs
                     Document& document) {
   Diagnostics& diagnostics = document.diagnostics;
   Buffers buffers;
-  const json& described = arrayIn(root, "buffers");
+  json& described = arrayIn(root, "buffers");
   for (size_t i = 0; i < described.size(); ++i) {
-    const json& buffer = described[i];
+    json& buffer = described[i];
     const auto length = buffer["byteLength"].get<uint64_t>();
     std::vector<uint8_t>& bytes = buffers.emplace_back();
     if (length == 0 || (isFallback(buffer) && codecs.works())) continue;
@@ -129,10 +130,12 @@ Buffers readBuffers(json& root, Container& container, Worker& codecs, const IsUs
       continue;  // an extension may bring it; bytesOf() loses what uses it
     }
     if (bytes.empty()) {
-      diagnostics.warnLoss(place, "holds 0 bytes, fewer than its byteLength of " + std::to_string(length),
-                           "the buffer", isUsed(place));
+      const std::string than =
+          length < kToTheEnd ? ", fewer than its byteLength of " + buffer["byteLength"].dump() : "";
+      diagnostics.warnLoss(place, "holds 0 bytes" + than, "the buffer", isUsed(place));
       diagnostics.noteLost(place);
     }
+    if (length == kToTheEnd) buffer["byteLength"] = bytes.size();
     bytes.resize(std::min<uint64_t>(bytes.size(), length));
   }
   return buffers;
@@ -167,10 +170,11 @@ void checkBufferViews(json& root, const Buffers& data, const IsUsed& isUsed, Doc
     view.erase("byteStride");
     const std::string place = pointerTo("bufferViews", i);
     const uint64_t offset = view.value("byteOffset", uint64_t(0));
-    const auto length = view["byteLength"].get<uint64_t>();
     const auto buffer = view["buffer"].get<size_t>();
     const auto size = buffer < buffers.size() ? buffers[buffer]["byteLength"].get<uint64_t>() : 0;
     const uint64_t there = buffer < data.size() && !data[buffer].empty() ? data[buffer].size() : size;
+    if (view["byteLength"] == kToTheEnd) view["byteLength"] = there - std::min(offset, there);
+    const auto length = view["byteLength"].get<uint64_t>();
     const auto reachesPast = [&](uint64_t end) { return offset > end || length > end - offset; };
     const bool isTold = diagnostics.isLost(place) || diagnostics.isLost(pointerTo("buffers", buffer));
     if (!isTold && !reachesPast(there)) continue;
@@ -350,6 +354,7 @@ KeptDocument readDocument(const std::filesystem::path& path, const GltfOptions& 
   container.json = std::string();
   checkMembers(root, diagnostics);
   checkVersions(root, diagnostics);
+  supplyMembers(root, diagnostics);
   addLights(root, options.selection.lights, options.selection.up);
   const IsUsed isUsed = applySchema(root, options.selection, diagnostics);
   mendValues(root, isUsed, diagnostics);
