@@ -194,6 +194,44 @@ double windingNumber(const Solids& solids, const ClosedPart& part, const glm::dv
   return sum / (4.0 * glm::pi<double>());
 }
 
+/// Returns true if a part of the line between two points lies in the square -1..1.
+bool crossesSquare(const glm::dvec2& a, const glm::dvec2& b) {
+  double from = 0.0, to = 1.0;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double step = b[axis] - a[axis];
+    if (step == 0.0 && std::abs(a[axis]) > 1.0) return false;
+    if (step == 0.0) continue;
+    const double low = (-1.0 - a[axis]) / step;
+    const double high = (1.0 - a[axis]) / step;
+    from = std::max(from, std::min(low, high));
+    to = std::min(to, std::max(low, high));
+  }
+  return from <= to;
+}
+
+/// Returns true if the square -1..1 of the plane z = 0 crosses a triangle.
+bool crossesTriangle(const std::array<glm::dvec3, 3>& corners) {
+  std::vector<glm::dvec2> cut;
+  for (size_t i = 0; i < 3; ++i) {
+    const glm::dvec3& a = corners[i];
+    const glm::dvec3& b = corners[(i + 1) % 3];
+    if ((a.z < 0.0) != (b.z < 0.0)) cut.emplace_back(glm::mix(a, b, a.z / (a.z - b.z)));
+  }
+  return cut.size() == 2 && crossesSquare(cut[0], cut[1]);
+}
+
+bool crossesBall(const ClosedPart& ball, const Rectangle& rectangle) {
+  const glm::dvec3 half(0.5f * ball.box.extent());
+  const glm::dvec3 away = glm::dvec3(ball.box.center()) - rectangle.middle;
+  const glm::dvec2 size(glm::length(rectangle.right), glm::length(rectangle.up));
+  const glm::dvec2 place(glm::dot(away, rectangle.right) / size.x, glm::dot(away, rectangle.up) / size.y);
+  const glm::dvec2 near = glm::max(glm::abs(place) - size, 0.0);
+  const glm::dvec2 far = glm::abs(place) + size;
+  const double above = glm::dot(away, away) - glm::dot(place, place);
+  const double radius = half.x * half.x;
+  return above + glm::dot(near, near) < radius && above + glm::dot(far, far) > radius;
+}
+
 }  // namespace
 
 std::vector<SolidPart> solidParts(const Scene& scene, size_t first, size_t count) {
@@ -245,6 +283,27 @@ Solids solidsOf(const Scene& scene) {
   solids.boxes = boxesOf(scene);
   solids.nested = scene.materials.size() < kMostNested && anyOverlap(solids.boxes);
   return solids;
+}
+
+bool crossesSolid(const Solids& solids, const Rectangle& rectangle) {
+  const auto& [middle, right, up] = rectangle;
+  const glm::dmat4 fromPlane(glm::dvec4(right, 0.0), glm::dvec4(up, 0.0),
+                             glm::dvec4(glm::normalize(glm::cross(right, up)), 0.0), glm::dvec4(middle, 1.0));
+  for (const PlacedParts& placed : solids.placed) {
+    const glm::dmat4 toPlane = glm::inverse(placed.toMesh * fromPlane);
+    const auto inPlane = [&](const glm::vec3& corner) {
+      return glm::dvec3(toPlane * glm::dvec4(corner, 1.0));
+    };
+    for (uint32_t i = placed.first; i < placed.first + placed.count; ++i) {
+      const ClosedPart& part = solids.parts[i];
+      if (part.count == 0 && crossesBall(part, rectangle)) return true;
+      for (uint32_t k = part.first; k < part.first + part.count; ++k) {
+        const Corners& t = solids.triangles[k];
+        if (crossesTriangle({inPlane(t[0]), inPlane(t[1]), inPlane(t[2])})) return true;
+      }
+    }
+  }
+  return false;
 }
 
 std::vector<uint32_t> solidsAround(const Solids& solids, const glm::dvec3& point) {

@@ -57,4 +57,12 @@ Solids solidsOf(const Scene& scene);
 /// Winding Numbers, 2013) is 1 or more. Open parts hold no point.
 std::vector<uint32_t> solidsAround(const Solids& solids, const glm::dvec3& point);
 
+/// A rectangle of local space: its points are middle + x right + y up with x and y in -1..1.
+struct Rectangle {
+  glm::dvec3 middle{0.0}, right{0.0}, up{0.0};
+};
+
+/// Returns true if the rectangle crosses the boundary of a closed solid.
+bool crossesSolid(const Solids& solids, const Rectangle& rectangle);
+
 }  // namespace fragtrace

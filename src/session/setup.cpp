@@ -26,6 +26,7 @@
 #include "scene/describe.h"
 #include "scene/fit.h"
 #include "scene/projection.h"
+#include "scene/solids.h"
 #include "scene/strokes.h"
 #include "session/caught_light.h"
 #include "session/environment.h"
@@ -197,6 +198,26 @@ void checkCatcherPlace(const RenderOptions& options, Scene& scene) {
                 std::abs(below), below > 0.0 ? "below" : "above", size));
 }
 
+/// A camera whose rays begin on a plane that cuts a solid: that of an orthographic view, or a lens.
+void checkCameraPlane(const RenderOptions& options, LoadedScene& loaded) {
+  const Camera& camera = loaded.camera;
+  const LocalSpace& space = loaded.scene.space;
+  const Projection seen = projectionOf(camera, double(loaded.size.x) / loaded.size.y);
+  const double lens = loaded.view.lens.radius;
+  const bool parallel = camera.type == CameraType::Orthographic;
+  if (!has(options.stages, Stage::Refraction) || !(parallel || lens > 0.0)) return;
+  const glm::dvec3 right = parallel ? seen.right : lens * glm::normalize(seen.right);
+  const glm::dvec3 up = parallel ? seen.up : lens * glm::normalize(seen.up);
+  const glm::dvec3 middle = camera.position + seen.shift.x * right + seen.shift.y * up;
+  if (!crossesSolid(loaded.scene.solids, {space.localOf(middle), right / space.unit, up / space.unit}))
+    return;
+  loaded.scene.warnings.push_back(
+      std::string(parallel ? "the plane from which the orthographic camera looks" : "the lens") +
+      " cuts a solid that lets light in: all rays count as beginning " +
+      (loaded.view.cameraSolids == layout::kPrimitiveNone ? "outside" : "inside") +
+      ", as the camera's position is (--camera-position moves it)");
+}
+
 /// Fog so thick that paths are long, and that nearly nothing is seen through it.
 void checkFogDepth(const RenderOptions& options, Scene& scene) {
   constexpr double kMost = 20.0;  // mean free paths
@@ -361,6 +382,7 @@ void addByCamera(LoadedScene& loaded, const RenderOptions& options) {
   addStrokes(loaded.scene, loaded.camera, loaded.size, options.camera.lineWidth);
   checkCatcherPlace(options, loaded.scene);
   checkFogDepth(options, loaded.scene);
+  checkCameraPlane(options, loaded);
 }
 
 }  // namespace

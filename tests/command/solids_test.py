@@ -6,7 +6,7 @@ import sys
 import types
 from pathlib import Path
 
-from support import FRAGTRACE, WHITE, Case, luminances, main, mean, read_pfm
+from support import FRAGTRACE, WHITE, Case, luminances, main, mean, read_pfm, run
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "campaign"))
 import solids  # noqa: E402
@@ -111,6 +111,21 @@ class Solids(Case):
         for columns, right in ((slice(0, 8), share), (slice(24, 32), 1)):
             part = [row[columns] for row in seen]
             self.assertAlmostEqual(mean(part), right, delta=5 * math.sqrt(right * (1 - right) / (8 * 32 * 256)) + 1e-5)
+
+    def test_a_camera_plane_that_cuts_a_solid_is_told(self):
+        """That of an orthographic camera, and a lens."""
+        model = Model()
+        model.box(2, glass(volume=WATER))
+        model.write(self.folder / "model.gltf")
+        orthographic = ("--camera-type", "orthographic", "--camera-parallel-scale", 0.5)
+        for at, says, options in ((0, None, orthographic), (1.8, "the orthographic camera looks cuts a solid that lets light in: all rays count as beginning inside", orthographic),
+                                  (2.2, "count as beginning outside", orthographic), (2.6, None, orthographic),
+                                  (2.01, "the lens cuts a solid", ("--f-stop", 0.2)), (2.1, None, ("--f-stop", 0.2))):
+            told = run("render", self.folder / "model.gltf", "-o", self.folder / "x.pfm", "--resolution", "8,8", "--spp", 1, "--studio", "--camera-position", f"{at},0.5,0",
+                       "--camera-focal-point", f"{at},-1,0", "--camera-view-up", "0,0,-1", *options).stderr
+            with self.subTest(at=at, options=options):
+                self.assertIn(says or "", told)
+                self.assertEqual("cuts a solid" in told, says is not None, told)
 
     def test_a_room_behind_a_pane_is_not_inside_of_it(self):
         """A pane that is a single face from wall to wall, with a thickness: the camera behind it sees the world through it without tint, and not scaled."""

@@ -144,5 +144,44 @@ TEST(Solids, OpaqueAndThinMaterialsBoundNone) {
   EXPECT_EQ(solidsAround(solidsOf(scene), glm::dvec3(0.0)), Materials{});
 }
 
+/// A rectangle at that place, which is wide along x and faces z.
+Rectangle facingZ(const glm::dvec3& middle, double wide = 1.0, double high = 0.5) {
+  return {middle, {wide, 0.0, 0.0}, {0.0, high, 0.0}};
+}
+
+TEST(Solids, ARectangleCrossesTheBoundariesThatItMeets) {
+  Scene scene = glassScene(3);
+  scene.materials[2].thicknessFactor = 0.0f;
+  addBox(scene, 0, glm::vec3(0.0f), 2.0f);
+  addBox(scene, 1, glm::vec3(0.0f, 0.0f, 20.0f), 2.0f, false, 5);
+  addBox(scene, 2, glm::vec3(0.0f, 0.0f, 30.0f), 2.0f);
+  scene.spheres.push_back({glm::vec3(0.0f, 0.0f, 10.0f), 2.0f, {}, 0, "", 0});
+  const Solids solids = solidsOf(scene);
+  for (const double z : {0.0, 10.0}) {
+    EXPECT_FALSE(crossesSolid(solids, facingZ({0.0, 0.0, z})));      // inside
+    EXPECT_TRUE(crossesSolid(solids, facingZ({0.0, 0.0, z}, 9.0)));  // around it
+    EXPECT_TRUE(crossesSolid(solids, facingZ({1.5, 0.0, z})));
+    EXPECT_TRUE(crossesSolid(solids, facingZ({2.5, 0.0, z})));
+    EXPECT_FALSE(crossesSolid(solids, facingZ({3.5, 0.0, z})));  // beside it
+    EXPECT_FALSE(crossesSolid(solids, facingZ({0.0, 2.6, z})));
+    EXPECT_TRUE(crossesSolid(solids, facingZ({0.0, 2.4, z})));
+    EXPECT_FALSE(crossesSolid(solids, facingZ({0.0, 0.0, z + 2.1}, 9.0, 9.0)));  // before it
+  }
+  EXPECT_FALSE(crossesSolid(solids, facingZ({2.0, 0.0, 20.0})));  // open
+  EXPECT_FALSE(crossesSolid(solids, facingZ({2.0, 0.0, 30.0})));  // thin
+}
+
+TEST(Solids, ARectangleCrossesInstances) {
+  Scene scene = glassScene(1);
+  addBox(scene, 0, glm::vec3(0.0f), 1.0f);
+  scene.sharedMeshes.push_back({0, uint32_t(scene.triangles.size())});
+  const glm::dmat4 place = glm::translate(glm::dmat4(1.0), glm::dvec3(4.0, 0.0, 0.0));
+  scene.instances.push_back({glm::scale(place, glm::dvec3(-2.0, 1.0, 1.0)), 0});
+  const Solids solids = solidsOf(scene);
+  EXPECT_TRUE(crossesSolid(solids, facingZ({6.5, 0.0, 0.0})));
+  EXPECT_FALSE(crossesSolid(solids, facingZ({7.5, 0.0, 0.0})));
+  EXPECT_FALSE(crossesSolid(solids, facingZ({4.0, 0.0, 0.0})));
+}
+
 }  // namespace
 }  // namespace fragtrace
