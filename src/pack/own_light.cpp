@@ -18,12 +18,13 @@ constexpr double kDim = 1.0 / 8.0;
 bool isOn(const Light& light) { return glm::compMax(light.intensity) > 0.0f; }
 
 /// Returns true if lamps are read as radiometric: as written, what they light is far too bright, and less so
-/// divided.
-bool areRadiometric(const SeenLight& seen, LampUnits units) {
-  if (units != LampUnits::Auto) return units == LampUnits::Radiometric;
+/// divided, or lit by the user's surroundings then, which an exposure for the lamps would hide.
+bool areRadiometric(const SeenLight& seen, const LampReading& reading) {
+  if (reading.units != LampUnits::Auto) return reading.units == LampUnits::Radiometric;
   const double asWritten = seen.meanOfLampLit(1.0) / kMiddleGrey;
   const double divided = seen.meanOfLampLit(1.0 / kLumensPerWatt) / kMiddleGrey;
-  return asWritten > kTooBright && divided > 0.0 && std::abs(std::log(divided)) < std::log(asWritten);
+  const bool nearer = divided > 0.0 && std::abs(std::log(divided)) < std::log(asWritten);
+  return asWritten > kTooBright && (reading.besideSurroundings || nearer);
 }
 
 }  // namespace
@@ -34,7 +35,8 @@ bool mayShine(const Scene& scene) {
          std::ranges::any_of(scene.spheres, emits);
 }
 
-FileLight decideLight(const SeenScene& first, const Camera& camera, double aspectRatio, LampUnits units) {
+FileLight decideLight(const SeenScene& first, const Camera& camera, double aspectRatio,
+                      const LampReading& reading) {
   FileLight light;
   if (!mayShine(first.scene)) {
     light.own = OwnLight::None;
@@ -44,7 +46,7 @@ FileLight decideLight(const SeenScene& first, const Camera& camera, double aspec
   SeenScene seen = first;
   seen.readsTextures = !light.byLamps;
   const SeenLight estimate = seenLight(seen, camera, aspectRatio);
-  if (light.byLamps && areRadiometric(estimate, units)) light.lampScale = 1.0 / kLumensPerWatt;
+  if (light.byLamps && areRadiometric(estimate, reading)) light.lampScale = 1.0 / kLumensPerWatt;
   light.asWritten = estimate.meanOfLampLit(1.0);
   light.mean = estimate.meanLuminance(light.lampScale);
   const double asShown = light.byLamps ? std::exp2(exposureFor(light.mean)) : 1.0;

@@ -32,8 +32,15 @@ struct FileLight {
 /// something to decide. A lamp of intensity 0 is none.
 bool mayShine(const Scene& scene);
 
+/// What the user says about lamps.
+struct LampReading {
+  LampUnits units = LampUnits::Auto;
+  bool besideSurroundings = false;  ///< surroundings that the user chose light the scene, too
+};
+
 /// Decides by the first view. Emissive textures count where no lamps do.
-FileLight decideLight(const SeenScene& first, const Camera& camera, double aspectRatio, LampUnits units);
+FileLight decideLight(const SeenScene& first, const Camera& camera, double aspectRatio,
+                      const LampReading& reading);
 
 /// The exposure that brings such a mean to middle grey, to a tenth of a stop; 0: it is near enough.
 double exposureFor(double mean);

@@ -15,7 +15,7 @@ namespace fragtrace {
 namespace {
 
 /// Decides by the camera from which the file is seen without any option of it.
-FileLight decideByFirstView(const Scene& scene, const Bvh& tree, LampUnits units) {
+FileLight decideByFirstView(const Scene& scene, const Bvh& tree, const RenderOptions& options) {
   constexpr double kUsual = 1280.0 / 720.0;
   const CameraOverrides overrides = settledOverrides({}, scene);
   Camera camera = chooseCamera(scene.cameras, std::nullopt, overrides, scene.bounds);
@@ -23,7 +23,7 @@ FileLight decideByFirstView(const Scene& scene, const Bvh& tree, LampUnits units
   if (overrides.fit) {
     camera = fitted(camera, pointsToFit(scene, {}, {}, overrides).scene, aspect);
   }
-  return decideLight({scene, tree}, camera, aspect, units);
+  return decideLight({scene, tree}, camera, aspect, {options.light.lampUnits, hasMap(options)});
 }
 
 /// Returns true if the scene is the file's as it stands, with all that it shows.
@@ -52,28 +52,13 @@ std::string percent(double share) { return std::to_string(std::lround(100.0 * sh
 
 }  // namespace
 
-namespace {
-
-/// Lamps that are too bright are read as radiometric beside surroundings that the user chose: these light
-/// what the lamps then leave dark, and an exposure for the lamps would hide them.
-FileLight besideSurroundings(FileLight light, const RenderOptions& options) {
-  const bool tooBright = light.byLamps && light.asWritten > kTooBright * kMiddleGrey;
-  const bool asWritten = light.lampScale == 1.0 && options.light.lampUnits == LampUnits::Auto;
-  if (!hasMap(options) || !tooBright || !asWritten) return light;
-  light.lampScale = 1.0 / kLumensPerWatt;
-  light.mean *= light.lampScale;
-  return light;
-}
-
-/// As fileLightOf(), by the file alone.
-FileLight lightOfFile(const RenderOptions& options, const Scene& scene, const Bvh* tree,
+FileLight fileLightOf(const RenderOptions& options, const Scene& scene, const Bvh* tree,
                       std::shared_ptr<KeptDocument>* document) {
   if (staysDark(options, scene)) return {.own = OwnLight::None};
   if (hasMap(options) && scene.lightSources.empty()) return {};  // nothing hangs on its emission
   if (isAsFile(options.selection)) {
-    if (tree != nullptr && !tree->nodes.empty())
-      return decideByFirstView(scene, *tree, options.light.lampUnits);
-    return decideByFirstView(scene, buildSceneBvh(scene), options.light.lampUnits);
+    if (tree != nullptr && !tree->nodes.empty()) return decideByFirstView(scene, *tree, options);
+    return decideByFirstView(scene, buildSceneBvh(scene), options);
   }
   RenderOptions plain;
   plain.scene = options.scene;
@@ -83,14 +68,7 @@ FileLight lightOfFile(const RenderOptions& options, const Scene& scene, const Bv
   plain.limits = options.limits;
   plain.limits.strict = false;
   const Scene standing = loadGltf(plain.scene, gltfOptionsOf(plain), document);
-  return decideByFirstView(standing, buildSceneBvh(standing), options.light.lampUnits);
-}
-
-}  // namespace
-
-FileLight fileLightOf(const RenderOptions& options, const Scene& scene, const Bvh* tree,
-                      std::shared_ptr<KeptDocument>* document) {
-  return besideSurroundings(lightOfFile(options, scene, tree, document), options);
+  return decideByFirstView(standing, buildSceneBvh(standing), options);
 }
 
 void setLampScale(Scene& scene, double lampScale) {

@@ -33,9 +33,10 @@ GltfBuilder lit(const char* type, double intensity) {
   return builder;
 }
 
-FileLight lightOf(GltfBuilder builder, LampUnits units = LampUnits::Auto) {
+FileLight lightOf(GltfBuilder builder, LampUnits units = LampUnits::Auto, bool besideSurroundings = false) {
   const Scene scene = load(builder);
-  return decideLight({scene, buildSceneBvh(scene)}, frameScene(scene.bounds), 1.0, units);
+  return decideLight({scene, buildSceneBvh(scene)}, frameScene(scene.bounds), 1.0,
+                     {units, besideSurroundings});
 }
 
 TEST(OwnLight, IsNoneWithoutLightsAndEmission) {
@@ -75,6 +76,13 @@ TEST(OwnLight, LampsAreEnoughAndTheirUnitsAreThoseThatExpose) {
   }
   EXPECT_EQ(lightOf(lit("directional", 2000.0), LampUnits::Photometric).lampScale, 1.0);
   EXPECT_EQ(lightOf(lit("directional", 3.0), LampUnits::Radiometric).lampScale, 1.0 / kLumensPerWatt);
+}
+
+TEST(OwnLight, LampsThatAreTooBrightBesideSurroundingsAreRadiometric) {
+  EXPECT_EQ(lightOf(lit("directional", 12.0)).lampScale, 1.0);
+  EXPECT_EQ(lightOf(lit("directional", 12.0), LampUnits::Auto, true).lampScale, 1.0 / kLumensPerWatt);
+  EXPECT_EQ(lightOf(lit("directional", 12.0), LampUnits::Photometric, true).lampScale, 1.0);
+  EXPECT_EQ(lightOf(lit("directional", 3.0), LampUnits::Auto, true).lampScale, 1.0);
 }
 
 /// A matt surface of albedo 1 under a lamp that faces it shows E / pi.
