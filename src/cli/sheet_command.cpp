@@ -4,8 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/errors.h"
 #include "base/folder.h"
@@ -22,6 +24,7 @@
 #include "options/config_file.h"
 #include "options/numbers.h"
 #include "options/parse_render.h"
+#include "scene/parts.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
 #include "session/picture/denoising.h"
@@ -57,7 +60,7 @@ struct Model {
   fs::path file;
   SheetCell cell;
   CellState state = CellState::Waiting;
-  std::vector<SetNumber> set{};     ///< those values of --set that the file has
+  RenderOptions options{};          ///< those of the sheet that the file can have
   std::vector<std::string> said{};  ///< while it was drawn
 };
 
@@ -172,40 +175,87 @@ std::string withName(const Model& model, const std::string& line) {
   return (isWarning ? std::string(kWarning) : "") + model.cell.name + ": " + rest;
 }
 
-/// Gives the models those values of --set that their files have, and says how many have each. Throws
+/// A part of its file that an option names, or a value that it sets there. Not every model has it.
+struct Wish {
+  std::string text;
+  std::function<void(const fs::path& file)> check;  ///< throws NotInFile
+  std::function<void(RenderOptions&)> give;
+};
+
+using Arrays = std::vector<const char*>;
+
+/// A wish for a part in one of these arrays of the file.
+Wish partWish(const std::string& option, const std::string& name, const Arrays& arrays,
+              std::function<void(RenderOptions&)> give) {
+  const auto check = [=](const fs::path& file) {
+    if (!hasPart(file, arrays, name)) throw NotInFile("has no " + inQuotes(name));
+  };
+  return {option + ": " + inQuotes(name), check, std::move(give)};
+}
+
+/// Takes the wishes out of the options.
+std::vector<Wish> takeWishes(RenderOptions& options) {
+  std::vector<Wish> wishes;
+  SceneSelection& selection = options.selection;
+  for (const SetNumber& set : std::exchange(selection.set, {}))
+    wishes.push_back({"--set: " + set.pointer,
+                      [=](const fs::path& file) {
+                        checkChange(file, {&set, 1});
+                      },
+                      [=](RenderOptions& o) { o.selection.set.push_back(set); }});
+  for (const std::string& name : std::exchange(selection.hiddenNodes, {}))
+    wishes.push_back(partWish("--hide", name, {"/nodes"},
+                              [=](RenderOptions& o) { o.selection.hiddenNodes.push_back(name); }));
+  const auto named = std::ranges::partition(selection.doubleSided,
+                                            [](const std::string& name) { return name == kAllMaterials; });
+  for (const std::string& name : named)
+    wishes.push_back(partWish("--double-sided", name, {"/materials"},
+                              [=](RenderOptions& o) { o.selection.doubleSided.push_back(name); }));
+  selection.doubleSided.erase(named.begin(), named.end());
+  if (const std::string name = std::exchange(selection.materialVariant, {}); !name.empty())
+    wishes.push_back(partWish("--material-variant", name, {"/extensions/KHR_materials_variants/variants"},
+                              [=](RenderOptions& o) { o.selection.materialVariant = name; }));
+  if (const std::string name = std::exchange(options.camera.overrides.fitTo, {}); !name.empty())
+    wishes.push_back(partWish("--fit-to", name, {"/nodes", "/materials"},
+                              [=](RenderOptions& o) { o.camera.overrides.fitTo = name; }));
+  return wishes;
+}
+
+/// Gives the models the options that their files can have, and says how many have each part. Throws
 /// UsageError for one that none has.
-void giveValues(Sheet& sheet) {
-  const RenderOptions& options = sheet.options.render;
-  for (const SetNumber& set : options.selection.set) {
+void giveOptions(Sheet& sheet) {
+  RenderOptions common = sheet.options.render;
+  const std::vector<Wish> wishes = takeWishes(common);
+  for (Model& model : sheet.models) model.options = common;
+  for (const Wish& wish : wishes) {
     size_t lacking = 0;
     std::string reason;
     for (Model& model : sheet.models) {
       try {
-        checkChange(model.file, {&set, 1});
-        model.set.push_back(set);
+        wish.check(model.file);
+        wish.give(model.options);
       } catch (const NotInFile& error) {
         if (lacking++ == 0) reason = model.file.string() + ": " + error.what();
       } catch (const UsageError&) {
         throw;
       } catch (const std::exception&) {  // drawing it will say what is wrong with the file
-        model.set.push_back(set);
+        wish.give(model.options);
       }
     }
     const size_t having = sheet.models.size() - lacking;
-    if (having == 0) throw UsageError("--set: " + set.pointer + " is in no model of the folder; " + reason);
-    say(options, "--set: " + set.pointer + " is in " + std::to_string(having) + " of " +
-                     countText(sheet.models.size(), "model") +
-                     (lacking > 0 ? "; the others are drawn as they are" : ""));
+    if (having == 0) throw UsageError(wish.text + " is in no model of the folder; " + reason);
+    say(common, wish.text + " is in " + std::to_string(having) + " of " +
+                    countText(sheet.models.size(), "model") +
+                    (lacking > 0 ? "; the others are drawn as they are" : ""));
   }
 }
 
 /// Draws one model, and puts its name before what is said about it. An error that all models have in common
 /// is thrown.
 void drawCell(Sheet& sheet, Model& model, size_t index) {
-  RenderOptions options = sheet.options.render;
+  RenderOptions options = model.options;
   options.scene = model.file;
   options.output.file = model.cell.picture;
-  options.selection.set = model.set;
   setReportContext({{"output", sheet.options.render.output.file.string()},
                     {"model", model.file.string()},
                     {"number", index + 1},
@@ -311,7 +361,7 @@ int runSheet(SheetOptions options) {
   if (sheet.models.empty())
     throw InputError(options.folder.string() + ": holds no .gltf or .glb; links are not followed");
   for (Model& model : sheet.models) model.cell.picture = sheet.folder / (model.cell.name + ".png");
-  giveValues(sheet);
+  giveOptions(sheet);
   return leave(drawAll(sheet));
 }
 

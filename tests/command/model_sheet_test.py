@@ -71,6 +71,25 @@ class ModelSheets(Case):
             self.assertIn(says, result.stderr)
             self.assertFalse(self.cells.exists())
 
+    def test_a_model_without_the_part_that_an_option_names_is_drawn_as_it_is(self):
+        named = quad({"name": "Paint", "pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.1, 0.1, 1]}})
+        named["nodes"][0]["name"] = "Bolt"
+        named["nodes"].append({"mesh": 0, "name": "Nut", "translation": [0, 0, -1]})
+        named["scenes"] = [{"nodes": list(range(len(named["nodes"])))}]
+        named["extensions"] = {**named.get("extensions", {}), "KHR_materials_variants": {"variants": [{"name": "red"}]}}
+        named["extensionsUsed"] = [*named.get("extensionsUsed", []), "KHR_materials_variants"]
+        (self.models / "a 10.gltf").write_text(json.dumps(named))
+        for option, name in (("--hide", "Bolt"), ("--double-sided", "Paint"), ("--material-variant", "red"), ("--fit-to", "Nut")):
+            result = run("sheet", self.models, "-o", self.sheet, *OPTIONS[:-1], "--columns", 3, option, name)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn(f'{option}: "{name}" is in 1 of 3 models; the others are drawn as they are\n', result.stderr)
+            for model, place, options in (("a 2.gltf", (0, 0), []), ("a 10.gltf", (1, 0), [option, name])):
+                self.renders(self.models / model, "-o", self.folder / "single.png", *OPTIONS, *options)
+                self.assertEqual(self.parts(place)[0], [row for row in read_png(self.folder / "single.png")[2]], (option, model))
+            result = run("sheet", self.models, "-o", self.sheet, *OPTIONS[:-1], option, "nothing of it")
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn(f'{option}: "nothing of it" is in no model of the folder', result.stderr)
+
     def test_a_model_that_fails_is_a_cell_with_its_reason(self):
         (self.models / "a 2.gltf").write_text('{"asset": {"version": "2.0"}, "scenes": [{"nodes": [7]}]}')
         status = self.folder / "status.json"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/edit/changed_file.h"
 
+#include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -10,8 +11,10 @@
 #include "gltf/build/named_numbers.h"
 #include "gltf/build/numbers.h"
 #include "gltf/edit/json_text.h"
+#include "gltf/read/json_parts.h"
 #include "gltf/read/uri.h"
 #include "image/files/whole_file.h"
+#include "scene/parts.h"
 
 namespace fragtrace {
 
@@ -73,17 +76,35 @@ std::filesystem::path wholeFolderOf(const std::filesystem::path& file) {
   return std::filesystem::weakly_canonical(std::filesystem::absolute(file).parent_path());
 }
 
-}  // namespace
-
-void checkChange(const std::filesystem::path& from, std::span<const SetNumber> set) {
+json documentOf(const std::filesystem::path& from) {
   const std::string bytes = wholeText(from);
-  json document;
   try {
-    document = json::parse(jsonTextOf(bytes));
+    return json::parse(jsonTextOf(bytes));
   } catch (const std::exception& error) {
     throw InputError(from.string() + ": " + error.what());
   }
-  checkNumbers(document, set);
+}
+
+}  // namespace
+
+void checkChange(const std::filesystem::path& from, std::span<const SetNumber> set) {
+  checkNumbers(documentOf(from), set);
+}
+
+bool hasPart(const std::filesystem::path& file, std::span<const char* const> arrays,
+             const std::string& wanted) {
+  const json document = documentOf(file);
+  return std::ranges::any_of(arrays, [&](const char* array) {
+    const json::json_pointer pointer(array);
+    if (!document.contains(pointer) || !document[pointer].is_array()) return false;
+    std::vector<std::string> names;
+    for (const json& part : document[pointer]) {
+      const json& name = memberOf(part, "name");
+      names.push_back(name.is_string() ? name.get<std::string>() : "");
+    }
+    const bool isPlace = wanted.starts_with(array) && document.contains(json::json_pointer(wanted));
+    return isPlace || findPart(wanted, names).has_value();
+  });
 }
 
 void writeChanged(const std::filesystem::path& from, const std::filesystem::path& to,
