@@ -63,7 +63,7 @@ float dispersedIor(Path p, uint material) {
 
 /// Decides by chance what alpha lets pass of the ray that is traced next.
 Path withChances(Path p) {
-  p.traversal.key = chanceKey(p.sampler, p.bounce);
+  p.traversal.chances = chancesOf(p.sampler, p.bounce);
   p.traversal.time = p.time;
   return p;
 }

@@ -264,7 +264,7 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
       if (kCoincident) t.extends = !isShadow;
       if (kTestsAlpha) {
         uvec4 counts = readPathStates(row + kRowCounts);
-        t.key = chanceKey(makeSampler(keyOf(v, current), counts.x), bounceIn(counts.z));
+        t.chances = chancesOf(makeSampler(keyOf(v, current), counts.x), bounceIn(counts.z));
       }
       if (kPassing) {
         uvec4 tMins = readPathStates(row + kRowTMin);

@@ -29,7 +29,7 @@ struct Traversal {
   int tMinSlot;   // and those at it in later slots: what the ray has passed through lies there
   bool tested;    // kTestsAlpha: alpha may let the ray pass the hit of the last leaf,
   bool more;      // and that leaf may have others
-  uint key;       // kTestsAlpha: decides by chance what alpha lets pass (tree/alpha.glsl)
+  Sampler chances;  // kTestsAlpha: decide what alpha lets pass (tree/alpha.glsl)
   float time;     // kTestsAlpha and kMoving: of the path
   Stack stack;
 };
@@ -60,7 +60,7 @@ Traversal startTraversal(float limit, int leafCount) {
   s.tMinSlot = 0x7fffffff;
   s.tested = false;
   s.more = false;
-  s.key = 0u;
+  s.chances = Sampler(0u, 0u);
   s.time = 0.0f;
   s.stack = emptyStack();
   return s;

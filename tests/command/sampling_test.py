@@ -4,7 +4,7 @@
 import json
 import math
 
-from support import SCENES, TWO_TRIANGLES, Case, Gltf, main, read_pfm
+from support import SCENES, TWO_TRIANGLES, Case, Gltf, main, quad, read_pfm
 
 BOX = SCENES / "cornell-box.gltf"
 # Largest |z| of a mean that is taken as unbiased: two-sided, 1 in 16,000 by chance. Seeds are fixed, so it happens now or never.
@@ -34,6 +34,23 @@ class Means(Case):
 
     def test_samplers(self):
         self.agree("cornell-box", ["--enable", "sobol"], "--spp", 1024, *FLOOR)
+
+    def test_the_right_share_of_a_pixels_samples_passes_alpha(self):
+        """Of one sheet within a sample, of two of them independently of each other: no pixel sees the same in both."""
+        alpha, spp = 0.37, 16
+        sheet = {"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, alpha]}}
+        options = ["--resolution", "16,16", "--spp", spp, "--no-background", "--camera-position", "0,0,0.1", "--camera-focal-point", "0,0,-1"]
+        for schedule in ("megakernel", "wavefront"):
+            for count in (1, 2):
+                model = quad(sheet)
+                model["nodes"] = [{"mesh": 0, "translation": [4, 0, -i - 1], "scale": [9, 9, 9]} for i in range(count)]  # one triangle of each
+                model["scenes"] = [{"nodes": list(range(count))}]
+                exr = self.picture(str(self.written("sheet.gltf", model).with_suffix("")), "x.exr", *options, "--schedule", schedule, "--traversal", "front-to-back")
+                right = 1 - (1 - alpha)**count
+                covered = exr.values("A")
+                with self.subTest(schedule=schedule, count=count):
+                    self.assertLess(max(abs(a - right) for a in covered), 1 / spp if count == 1 else 4 / spp)
+                    self.assertAlmostEqual(sum(covered) / len(covered), right, delta=0.01)
 
     def test_light_found_by_scattered_rays_only(self):
         self.agree("cornell-box", ["--disable", "light-sampling"], "--spp", 8192, *FLOOR)
