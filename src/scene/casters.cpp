@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <iterator>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "base/vectors.h"
@@ -21,6 +23,8 @@ constexpr float kLeastSaving = 0.7f;
 /// and 3 for lamps of 0.002 sr, 5 and 3 for 0.02 sr, and 1.6 and 0.35 for 0.07 sr.
 constexpr double kWidestLamps = 0.03;  // sr
 constexpr size_t kBallsForWidth = 16;
+constexpr size_t kMostPatches = 512;
+constexpr double kHalfSphere = 2.0 * glm::pi<double>();
 
 struct Group {
   std::vector<Ball> balls;
@@ -67,10 +71,9 @@ std::vector<Ball> ballsOfTriangles(const Scene& scene, const std::vector<Caster>
   return balls;
 }
 
-std::vector<Ball> allBalls(const Scene& scene, const std::vector<Caster>& casters) {
-  size_t shared = scene.triangles.size();
-  for (const SharedMesh& mesh : scene.sharedMeshes) shared = std::min(shared, size_t(mesh.firstTriangle));
-  std::vector<Ball> balls = ballsOfTriangles(scene, casters, 0, shared);
+/// Balls of spheres, and around the casters of each instance.
+std::vector<Ball> ballsOfOthers(const Scene& scene, const std::vector<Caster>& casters) {
+  std::vector<Ball> balls;
   for (const Sphere& s : scene.spheres) {
     if (casters[s.material] != Caster::None) balls.push_back({s.center, s.radius});
   }
@@ -81,6 +84,12 @@ std::vector<Ball> allBalls(const Scene& scene, const std::vector<Caster>& caster
     const std::vector<Ball>& own = ofMeshes[instance.mesh];
     if (!own.empty()) balls.push_back(transformed(ballAround(own), instance.toLocal));
   }
+  return balls;
+}
+
+std::vector<Ball> allBalls(const Scene& scene, const std::vector<Caster>& casters) {
+  std::vector<Ball> balls = ballsOfTriangles(scene, casters, 0, flatTriangleCount(scene));
+  std::ranges::move(ballsOfOthers(scene, casters), std::back_inserter(balls));
   return balls;
 }
 
@@ -184,6 +193,46 @@ double widthOfLamps(const Scene& scene, const std::vector<Triangle>& lamps, cons
   return sum;
 }
 
+/// A part of a surface.
+struct Patch {
+  glm::dvec3 place{0.0};
+  double area = 0.0;
+};
+
+/// Patches of the flat triangles of such materials. Large triangles have many.
+template <typename IsAsked>
+std::vector<Patch> patchesOf(const Scene& scene, const IsAsked& isAsked) {
+  std::vector<Triangle> triangles;
+  std::ranges::copy_if(std::span(scene.triangles).first(flatTriangleCount(scene)),
+                       std::back_inserter(triangles), [&](const Triangle& t) { return isAsked(t.material); });
+  const auto share = double(kMostPatches) / double(std::max<size_t>(triangles.size(), 1));
+  const size_t rows = std::clamp<size_t>(size_t(std::sqrt(share)), 1, 16);
+  std::vector<Patch> patches;
+  for (const Triangle& t : triangles) {
+    const std::array<glm::dvec3, 3> c = cornersOf<glm::dvec3>(scene, t);
+    const double area = areaOf(c) / double(rows * rows);
+    // The triangles of a grid: those that point as the whole does, and those between them.
+    for (size_t i = 0; i < rows; ++i) {
+      for (size_t j = 0; j < 2 * (rows - i) - 1; ++j) {
+        const double third = j % 2 == 0 ? 1.0 / 3.0 : 2.0 / 3.0;
+        const double u = (double(i) + third) / double(rows);
+        const double v = (double(j / 2) + third) / double(rows);
+        patches.push_back({c[0] + u * (c[1] - c[0]) + v * (c[2] - c[0]), area});
+      }
+    }
+  }
+  return patches;
+}
+
+/// As many of them as are looked at, which have the area of all.
+std::vector<Patch> fewPatches(std::vector<Patch> all) {
+  const size_t step = (all.size() + kMostPatches - 1) / kMostPatches;
+  if (step <= 1) return all;
+  std::vector<Patch> few;
+  for (size_t i = 0; i < all.size(); i += step) few.push_back({all[i].place, all[i].area * double(step)});
+  return few;
+}
+
 }  // namespace
 
 Caster casterOf(const Material& m) {
@@ -216,10 +265,29 @@ std::vector<Caster> castersOf(const Scene& scene) {
 
 bool areLampsWide(const Scene& scene, const std::vector<Caster>& casters) {
   if (!scene.lights.empty()) return false;
-  const std::vector<Triangle> lamps = emissiveTriangles(scene);
-  return std::ranges::all_of(fewBalls(allBalls(scene, casters), kBallsForWidth), [&](const Ball& ball) {
-    return widthOfLamps(scene, lamps, ball) > kWidestLamps;
-  });
+  const std::vector<Patch> lamps =
+      fewPatches(patchesOf(scene, [&](uint32_t m) { return scene.materials[m].emissive(); }));
+  std::vector<Patch> lit = patchesOf(scene, [&](uint32_t m) { return casters[m] != Caster::None; });
+  for (const Ball& ball : ballsOfOthers(scene, casters)) {
+    for (int side = 0; side < 6; ++side) {
+      glm::dvec3 out(0.0);
+      out[side / 2] = side % 2 == 0 ? 1.0 : -1.0;
+      lit.push_back({glm::dvec3(ball.middle) + double(ball.radius) * out, double(ball.radius) * ball.radius});
+    }
+  }
+  double flux = 0.0;
+  double widths = 0.0;  // weighted by the flux
+  for (const Patch& patch : fewPatches(std::move(lit))) {
+    double width = 0.0;
+    for (const Patch& lamp : lamps) {
+      const glm::dvec3 away = lamp.place - patch.place;
+      width += std::min(lamp.area / glm::dot(away, away), kHalfSphere);
+    }
+    width = std::min(width, kHalfSphere);
+    flux += patch.area * width;
+    widths += patch.area * width * width;
+  }
+  return widths > kWidestLamps * flux;
 }
 
 std::vector<Ball> casterBalls(const Scene& scene, const std::vector<Caster>& casters, size_t most) {

@@ -25,9 +25,9 @@ Caster casterOf(const Material& material);
 /// light as well: 0.03 sr, as seen from the casters.
 std::vector<Caster> castersOf(const Scene& scene);
 
-/// Returns true if camera paths meet the light of all casters so often that a small picture can tell their
-/// noise: there are no punctual lights, and emissive triangles fill more than 0.03 sr as seen from every
-/// caster.
+/// Returns true if camera paths meet the light of casters so often that a small picture can tell their noise:
+/// there are no punctual lights, and where most of the light of emissive triangles meets casters, these
+/// triangles fill more than 0.03 sr.
 bool areLampsWide(const Scene& scene, const std::vector<Caster>& casters);
 
 /// A ball in local space.

@@ -11,6 +11,7 @@
 #include "gl/schedule.h"
 #include "pack/literals.h"
 #include "pack/textures/texture_plan.h"
+#include "scene/casters.h"
 #include "scene/light_spread.h"
 #include "session/file_light.h"
 #include "session/outputs.h"
@@ -113,6 +114,15 @@ bool haveNothingToBring(const RenderOptions& options, const TraitSet& present, c
          countedLight(options, loaded.light) == OwnLight::Dim && !samplesSun(present);
 }
 
+/// Returns true if the picture has fewer paths than are traced in the time that the program of light paths
+/// takes to compile, and camera paths alone find the light of its casters, too. Clocks decide nothing.
+bool isTooShortForLightPaths(const RenderOptions& options, const TraitSet& present,
+                             const LoadedScene& loaded) {
+  constexpr double kShortPicture = 3e6;  // paths
+  return options.light.caustics == Caustics::Auto && has(present, Trait::Caustics) && !samplesSun(present) &&
+         pathsOf(options, loaded.size) < kShortPicture && areLampsWide(loaded.scene, castersOf(loaded.scene));
+}
+
 /// Why light paths are traced for the picture, or are not.
 std::string whyCaustics(const ShaderVariant& variant, const TraitSet& present, const RenderOptions& options) {
   if (has(variant.traits, Trait::Caustics)) {
@@ -193,8 +203,11 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
                              Statistics& stats) {
   const TraitSet present = traitsOf(loaded.scene, loaded.environment);
   RenderOptions options = asDrawn(asked, present);
-  const bool dim = haveNothingToBring(options, present, loaded);
-  if (dim) options.light.caustics = Caustics::Off;
+  const char* const waste = haveNothingToBring(options, present, loaded) ? "lamps are too dim"
+                            : isTooShortForLightPaths(options, present, loaded)
+                                ? "few paths find the light of such wide lamps, too"
+                                : nullptr;
+  if (waste != nullptr) options.light.caustics = Caustics::Off;
   const RenderOptions drawn = withCameraRays(options, present, loaded.scene);
   const uint32_t need = loaded.bvh.stackNeed;
   const BufferReads undecided = options.device.bufferReads;  // packed data do not depend on it
@@ -212,7 +225,7 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
                        : tracer.variant.lightCandidates ? "candidates"
                                                         : "none";
   stats.cameraRays = tracer.variant.cameraRays;
-  if (gi) stats.lightPathReason = dim ? "lamps are too dim" : whyCaustics(tracer.variant, present, options);
+  if (gi) stats.lightPathReason = waste != nullptr ? waste : whyCaustics(tracer.variant, present, options);
   warnOfNoEffect(tracer.variant, present, options, stats);
   if (tracer.variant.clampIndirect) stats.clampIndirect = options.sampling.clampIndirect;
   for (const StageRow& row : stageRows()) {

@@ -61,13 +61,19 @@ class CausticSources(caustics_test.Case):
         def drawn(*options, spp=6):
             stats = self.folder / "stats.json"
             return self.picture(scene, "x.pfm", *caustics_test.SMALL, "--spp", spp, "--stats", stats, *options), json.loads(stats.read_text())["caustics"]
-        whole, told = drawn()
+        # A goal of noise that few samples reach leaves the picture's limit: four million paths.
+        goal = ("--noise", 0.9)
+        whole, told = drawn(*goal, spp=4096)
         self.assertEqual((told["light_paths"], told["pixels_per_path"], told["reason"]), (0, 0, "camera paths alone are less noisy"))
+        self.assertEqual(drawn(*goal, "--caustics", "off", spp=4096)[0], whole)
+        self.assertGreater(drawn("--caustics", "on")[1]["light_paths"], 0)
+        # Of few paths nothing is measured: no program of light paths is compiled.
+        whole, told = drawn()
+        self.assertEqual((told["light_paths"], told["casters"], told["reason"]), (0, 0, "few paths find the light of such wide lamps, too"))
         self.assertEqual(drawn("--caustics", "off")[0], whole)
         self.assertEqual([row[4:20] for row in whole[3:20]], drawn("--region", "4,3,16,17")[0])
         for options in (("--seed", 9), ("--sample-offset", 5)):
             self.assertEqual(drawn(*options, spp=1)[1]["light_paths"], 0, options)
-        self.assertGreater(drawn("--caustics", "on")[1]["light_paths"], 0)
         # A small lamp, and a punctual light, are not left to chance.
         for name, things, lights in (("small", (caustics_test.Caustics.lamp(((4, 0, 5), 0.1, 2000.0)),), ()),
                                      ("point", (lamp,), (({"type": "point", "intensity": 5}, {"translation": [2, 0, 4]}),))):

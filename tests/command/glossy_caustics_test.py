@@ -26,7 +26,7 @@ class GlossyCaustics(caustics_test.Case):
 
     def told(self, scene, *options):
         path = self.folder / "stats.json"
-        self.picture(scene, "x.pfm", "--resolution", "16,16", "--spp", 8, "--bounces", 1, "--stats", path, *options)
+        self.picture(scene, "x.pfm", "--resolution", "16,16", *caustics_test.ON, "--spp", 8, "--bounces", 1, "--stats", path, *options)
         return json.loads(path.read_text())["caustics"]
 
     def test_a_brushed_wall_and_metal_that_the_camera_sees(self):

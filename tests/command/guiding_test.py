@@ -28,7 +28,7 @@ class Guiding(Case):
     def test_the_first_sample_waits_for_no_guiding(self):
         def guiding_ms(spp):
             path = self.folder / "s.json"
-            self.renders(SCENES / "caustic-ball.gltf", "-o", self.folder / "x.pfm", "--resolution", "32,32", "--spp", spp, "--stats", path, "--quiet")
+            self.renders(SCENES / "caustic-ball.gltf", "-o", self.folder / "x.pfm", "--resolution", "32,32", *caustics_test.ON, "--spp", spp, "--stats", path, "--quiet")
             return json.loads(path.read_text())["caustics"]["guiding_ms"]
         self.assertEqual(guiding_ms(1), 0)
         self.assertGreater(guiding_ms(2), 0)

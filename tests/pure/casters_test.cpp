@@ -75,6 +75,34 @@ TEST(Casters, GlossyOnesAreNoneUnderWideLamps) {
   EXPECT_EQ(castersOf(scene)[2], Caster::Smooth);
 }
 
+TEST(Casters, LampsAreWideWhereMostOfTheirLightMeetsCasters) {
+  Scene scene;
+  Material lamp;
+  lamp.emissiveFactor = glm::vec3(1.0f);
+  scene.materials = {smoothGlass(), lamp};
+  // A pane of 8 m, and a lamp at this height over its middle.
+  const auto isWide = [&](float height, float half) {
+    scene.vertices.position = {{-4, 0, -4},        {4, 0, -4},        {0, 0, 4},
+                               {-half, height, 0}, {half, height, 0}, {0, height, half}};
+    scene.triangles = {{{0, 1, 2}, 0, true}, {{3, 4, 5}, 1, true}};
+    return areLampsWide(scene, castersOf(scene));
+  };
+  EXPECT_TRUE(isWide(1.0f, 0.5f));
+  EXPECT_FALSE(isWide(1.0f, 0.05f));
+  EXPECT_FALSE(isWide(6.0f, 0.5f));
+  // A bulb in a globe.
+  const auto isWideInGlobe = [&](float radius) {
+    isWide(1.0f, 0.1f);
+    scene.triangles.erase(scene.triangles.begin());
+    scene.spheres = {{.center = glm::vec3(0.0f, 1.0f, 0.03f), .radius = radius, .material = 0}};
+    return areLampsWide(scene, castersOf(scene));
+  };
+  EXPECT_TRUE(isWideInGlobe(0.3f));
+  EXPECT_FALSE(isWideInGlobe(0.8f));
+  scene.lights.emplace_back();
+  EXPECT_FALSE(isWideInGlobe(0.3f));
+}
+
 /// Spheres and triangles of glass about these places, and matt ones everywhere.
 Scene sceneAbout(const std::vector<glm::vec3>& places, int count, Draw& draw) {
   Scene scene;
