@@ -106,8 +106,6 @@ std::vector<float> readTimes(Document& document, const Channel& channel) {
     equal += i > 0 && times[i] == times[i - 1];
   }
   if (equal > 0) diagnostics.warn(place, "a key at the time of the one before replaces it", equal);
-  if (times.front() < 0.0f)
-    diagnostics.warn(place, "begins before 0 seconds; its times are taken as they are");
   return times;
 }
 

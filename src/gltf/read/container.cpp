@@ -18,7 +18,6 @@ namespace {
 
 constexpr size_t kHeaderSize = 12;
 constexpr size_t kChunkHeaderSize = 8;
-constexpr size_t kChunkAlignment = 4;
 constexpr uint32_t kJsonChunk = 0x4e4f534a;
 constexpr uint32_t kBinaryChunk = 0x004e4942;
 
@@ -166,9 +165,6 @@ Container splitGlb(const std::vector<uint8_t>& bytes, Diagnostics& diagnostics) 
     offset += kChunkHeaderSize;
     if (size > length - offset) refuseChunk(chunk, size, diagnostics);
     const uint8_t* data = bytes.data() + offset;
-    if (size % kChunkAlignment != 0)
-      diagnostics.warn("", "chunk " + std::to_string(chunk) +
-                               " of the .glb is not a multiple of 4 bytes long; it is read all the same");
     if (chunk == 0) {
       if (type != kJsonChunk) diagnostics.refuse("", "broken .glb: its first chunk is not JSON");
       container.json.assign(reinterpret_cast<const char*>(data), size);
