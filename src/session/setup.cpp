@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <future>
 #include <iterator>
+#include <ranges>
 
 #include "base/errors.h"
 #include "base/parallel.h"
@@ -311,11 +312,16 @@ std::future<LinearImage> startMap(const RenderOptions& options, Phase& reading) 
 glm::dvec2 shadowFadeOf(const RenderOptions& options, const CameraOverrides& settled, const Camera& camera,
                         std::span<const glm::dvec3> points, glm::ivec2 size) {
   constexpr double kLeast = 0.08;
+  constexpr double kFoot = 0.1;  // of the height
   const bool fades = options.light.shadowCatcher && settled.fit && !settled.fitShadow;
-  if (options.light.shadowFade || !fades) return options.light.shadowFade.value_or(glm::dvec2(0.0));
+  if (options.light.shadowFade || !fades || points.empty())
+    return options.light.shadowFade.value_or(glm::dvec2(0.0));
   const Projection projection = projectionOf(camera, double(size.x) / size.y);
+  const auto [lowest, highest] =
+      std::ranges::minmax(points | std::views::transform([](const glm::dvec3& point) { return point.y; }));
   glm::dvec2 filled(0.0);
   for (const glm::dvec3& point : points) {
+    if (point.y > glm::mix(lowest, highest, kFoot)) continue;
     const glm::dvec3 place = projected(projection, point);
     filled = glm::max(filled, place.z > 0.0 ? glm::abs(glm::dvec2(place) / place.z) : glm::dvec2(1.0));
   }

@@ -77,7 +77,8 @@ glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options);
 double catcherHeightOf(const RenderOptions& options, const BoundsDouble& bounds);
 
 /// LightOptions::shadowFade of a picture of that size, in which the camera has framed these points: as wide
-/// as the margins around them, so that no edge of it is seen; 0: nowhere.
+/// as the margins around the lowest of them, from which the shadow spreads, so that no edge of it is seen; 0:
+/// nowhere.
 glm::dvec2 shadowFadeOf(const RenderOptions& options, const CameraOverrides& settled, const Camera& camera,
                         std::span<const glm::dvec3> points, glm::ivec2 size);
 
