@@ -116,13 +116,39 @@ struct Distance {
   }
 };
 
-/// What is drawn until the blocks' targets, and is likely to be left then.
-Distance distanceOf(const Blocks& blocks, const AdaptiveGoal& goal) {
+/// Relative errors of a picture's pixels.
+struct Errors {
+  const FilmPixels& pixels;
+  const std::vector<double>& relative;
+};
+
+/// What is drawn until the blocks' targets, and is likely to be left then: the picture ends after the round
+/// that brings enough of its pixels to the goal, if errors fall with the root of the samples.
+Distance distanceOf(Blocks& blocks, const AdaptiveGoal& goal, const Errors& now) {
+  std::vector<int> samples;  // of each block after the rounds so far
+  for (const Block& b : blocks.blocks) samples.push_back(b.target);
+  for (bool grows = goal.noise > 0.0; grows;) {
+    std::vector<double> then;
+    for (size_t i = 0; i < now.relative.size(); ++i) {
+      const Block& b = blocks.ofPixel(int(i) % blocks.picture.x, int(i) / blocks.picture.x);
+      const int after = samples[size_t(&b - blocks.blocks.data())];
+      then.push_back(now.relative[i] * std::sqrt(double(b.samples) / std::max(after, 1)));
+    }
+    if (distanceTo(goal.noise, now.pixels, then, goal.catcher).share >= kPartUnderGoal) break;
+    grows = false;
+    for (size_t i = 0; i < samples.size(); ++i) {
+      const Block& b = blocks.blocks[i];
+      const int more = int(std::min<int64_t>(int64_t(samples[i]) * 2, b.last(goal, b.target)));
+      grows = grows || more > samples[i];
+      samples[i] = std::max(samples[i], more);
+    }
+  }
   Distance d;
-  for (const Block& b : blocks.blocks) {
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const Block& b = blocks.blocks[i];
     d.drawn += 2.0 * b.samples * b.rays;
     d.round += 2.0 * (b.target - b.samples) * b.rays;
-    d.after += 2.0 * (b.last(goal, b.target) - b.target) * b.rays;
+    d.after += 2.0 * (samples[i] - b.target) * b.rays;
   }
   return d;
 }
@@ -204,13 +230,13 @@ Block firstOf(const AdaptiveGoal& goal) {
 bool drawRound(Renderer& renderer, AdaptiveRun& run, Blocks& blocks, std::span<const View> views,
                bool isTimed, RenderTimes& times, const Renderer::Progress& progress,
                const std::function<void(int samples)>& look) {
-  constexpr int kFew = 8;
+  constexpr int kFew = 8;  // then twice as many, which tell more
   const int first = blocks.blocks.front().target;
   const bool begins = run.state.rounds == 0;
   const std::vector<Work> work = begins ? std::vector<Work>() : workOf(blocks);
   std::vector<int> steps = {first};
   if (begins && isTimed) steps = {1, std::min(4, first), first};
-  if (begins && !isTimed && first > kFew) steps = {kFew, first};
+  if (begins && !isTimed && first > 2 * kFew) steps = {kFew, 2 * kFew, first};
   bool more = true;
   int from = 0;
   for (const int to : steps) {
@@ -275,7 +301,9 @@ AdaptivePicture renderAdaptively(Renderer& renderer, AdaptiveRun& run, const Vie
   const double before = run.state.seconds;
   const auto elapsed = [&] { return before + std::chrono::duration<double>(Clock::now() - start).count(); };
   AdaptivePicture picture;
-  Distance distance{0.0, 1.0, 3.0};  // a guess, until samples are there
+  // Until samples are there, as many as the limit lets, but at most three rounds more, are a guess.
+  const double allowed = 0.5 * goal.mostSamples / firstOf(goal).target - 1.0;
+  Distance distance{0.0, 1.0, std::clamp(allowed, 0.0, 3.0)};
   const auto goOn = [&](double ofRound) {
     run.state.seconds = elapsed();
     const double timeDone = goal.seconds > 0.0 ? elapsed() / goal.seconds : 0.0;
@@ -299,9 +327,10 @@ AdaptivePicture renderAdaptively(Renderer& renderer, AdaptiveRun& run, const Vie
     const FilmPixels pixels = pooled(halves.a, halves.b);
     Blocks few = blocks;
     for (Block& b : few.blocks) b.samples = samples;
-    weigh(few, pixels, relativeErrors(pixels, varianceOfMean(halves)), goal.noise);
+    const std::vector<double> errors = relativeErrors(pixels, varianceOfMean(halves));
+    weigh(few, pixels, errors, goal.noise);
     for (size_t i = 0; i < few.blocks.size(); ++i) few.blocks[i].target = blocks.blocks[i].target;
-    distance = distanceOf(few, goal);
+    distance = distanceOf(few, goal, {pixels, errors});
     distance.round += distance.drawn;
     distance.drawn = 0.0;
   };
@@ -329,7 +358,7 @@ AdaptivePicture renderAdaptively(Renderer& renderer, AdaptiveRun& run, const Vie
     const double affordable = goal.seconds > 0.0 ? msLeft / std::max(renderer.msPerSample(), 1e-9)
                                                  : std::numeric_limits<double>::infinity();
     if (chooseTargets(blocks, goal, affordable, blind) <= 0.0) return picture;
-    distance = distanceOf(blocks, goal);
+    distance = distanceOf(blocks, goal, {picture.pixels, errors});
     run.state = stateOf(blocks, run.state);
     const std::vector<uint32_t> targets = targetsOf(blocks);
     run.films[0].setTargets(halves.a, targets);
