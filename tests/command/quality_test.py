@@ -59,6 +59,11 @@ class Quality(Case):
 
 
 class TimeLeft(Case):
+    def test_a_draft_that_its_limit_ends_was_near_its_end(self):
+        said = run("render", BOX, "-o", self.folder / "x.png", "--resolution", "600,400", "--quality", "draft", "--progress", "json").stderr
+        told = [event["fraction"] for event in map(json.loads, said.splitlines()) if event.get("phase") == "rendering"]
+        self.assertGreater(max(told), 0.75)
+
     def test_a_third_of_the_way_the_time_left_is_right(self):
         """Within 30 %, in the median of ten renders, and in eight of them within 60 %."""
         ratios = []
