@@ -44,8 +44,10 @@ const uint kPathPassingRows = 3u;
 const uint kWaveSlots = 32u;
 const uint kWaveLaneRows = kWaveSlots * kPathRows + 1u;
 
-// The number of work groups in a draw of the compute entries is a multiple of this (work_group.glsl).
+// The number of work groups in a draw of the compute entries is a multiple of this on software; on GPUs they fill
+// squares with sides of so many groups (work_group.glsl).
 const uint kWorkGroupHands = 8u;
+const uint kMortonSide = 8u;
 
 // The uniform block of one draw, and those of the scene's fog, of its grid, and of a camera that moves.
 const uint kFrameBinding = 0u;

@@ -70,6 +70,13 @@ layout::Volume packVolume(const Volume& volume, const PackedGrid& grid, const Lo
   return packed;
 }
 
+/// The groups that are started so that each of these is (shaders/work_group.glsl).
+uint32_t workGroups(glm::uvec2 groups, bool gpu) {
+  const auto roundUp = [](uint32_t count, uint32_t step) { return (count + step - 1u) / step * step; };
+  if (!gpu) return roundUp(groups.x * groups.y, layout::kWorkGroupHands);
+  return roundUp(groups.x, layout::kMortonSide) * roundUp(groups.y, layout::kMortonSide);
+}
+
 }  // namespace
 
 Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads,
@@ -321,8 +328,7 @@ Renderer::Flight Renderer::submit(const ShaderVariant& variant, const Work& tile
     const uint32_t slots = variant.wavefront ? layout::kWaveSlots : 1;
     const glm::uvec2 lanes(frame_.tile.z, (uint32_t(frame_.tile.w) + slots - 1u) / slots);
     const glm::uvec2 groups = (lanes + kGroupSide - 1u) / kGroupSide;
-    constexpr uint32_t kHands = layout::kWorkGroupHands;
-    glDispatchCompute((groups.x * groups.y + kHands - 1u) / kHands * kHands, 1, 1);
+    glDispatchCompute(workGroups(groups, variant.gpu), 1, 1);
   } else {
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
