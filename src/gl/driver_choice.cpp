@@ -10,14 +10,29 @@
 
 namespace fragtrace {
 
+namespace {
+
+bool isOfDataCentre(const Context& context) {
+  static constexpr std::array<std::string_view, 9> kDataCentre{"A100", "A800", "H100",  "H800", "H200",
+                                                               "H20",  "B200", "GH200", "GB200"};
+  return std::ranges::any_of(
+      kDataCentre, [&](std::string_view name) { return context.renderer.find(name) != std::string::npos; });
+}
+
+}  // namespace
+
 Dispatch chooseDispatch(Dispatch wanted, const Context& context, bool literals) {
   if (wanted != Dispatch::Auto) return wanted;
   if (context.software) return literals ? Dispatch::Compute : Dispatch::Fragment;
-  static constexpr std::array<std::string_view, 9> kDataCentre{"A100", "A800", "H100",  "H800", "H200",
-                                                               "H20",  "B200", "GH200", "GB200"};
-  const bool fewRasterisers = std::ranges::any_of(
-      kDataCentre, [&](std::string_view name) { return context.renderer.find(name) != std::string::npos; });
-  return fewRasterisers ? Dispatch::Compute : Dispatch::Fragment;
+  return isOfDataCentre(context) ? Dispatch::Compute : Dispatch::Fragment;
+}
+
+std::string whyDispatch(Dispatch wanted, const Context& context, const ShaderVariant& drawn) {
+  if (wanted != Dispatch::Auto) return "--dispatch";
+  if (drawn.wavefront) return "the wavefront needs it";
+  if (context.software) return "measured to be the faster one on software";
+  return isOfDataCentre(context) ? "measured to be the faster one on an H200"
+                                 : "neither is measured on GPUs of this kind";
 }
 
 bool mayHaveGpu() {

@@ -2,15 +2,21 @@
 // Choices by driver, such as the stage of the pipeline that runs the tracer fastest.
 #pragma once
 
+#include <string>
+
 #include "gl/context.h"
+#include "shader/variant.h"
 
 namespace fragtrace {
 
 /// Chooses fragments, except in two cases: compute on software for scenes that are literals, where it was
 /// measured to be faster (docs/design/architecture.md, "The shader"); and compute on NVIDIA's data-centre
-/// GPUs, known by their names. These are expected to run fragment shaders on a small part of the chip only;
-/// that compute is faster there has not been measured (docs/measurements/gpu.md).
+/// GPUs, known by their names: these run fragment shaders on a small part of the chip only, as was measured
+/// on an H200 (docs/measurements/gpu.md).
 Dispatch chooseDispatch(Dispatch wanted, const Context& context, bool literals);
+
+/// Says why the tracer runs in that stage, as whoever asked for `wanted` would ask.
+std::string whyDispatch(Dispatch wanted, const Context& context, const ShaderVariant& drawn);
 
 /// Returns true if this machine has a device that may be a GPU; without one, no driver need be asked.
 bool mayHaveGpu();

@@ -126,6 +126,16 @@ class Tunes(BothSchedules):
         for scene, options in TUNED_BY_FRAGMENTS:
             self.same_tuned(scene, *options)
 
+    def test_work_groups_of_several_squares(self):
+        self.same_tuned("room-ball", "--resolution", "131,70", "--stage", "flat", "--dispatch", "compute")
+
+    def test_verbose_says_which_stage_runs_the_tracer(self):
+        for options, said in (([], "dispatch fragment: measured"), (["--dispatch", "compute"], "dispatch compute: --dispatch;"),
+                              (["--schedule", "wavefront"], "dispatch compute: the wavefront")):
+            result = self.renders(SCENES / "room-ball.gltf", "-o", self.folder / "x.pfm", "--resolution", "8,8", "--spp", 1, "--verbose", *options)
+            self.assertIn(said, result.stderr)
+            self.assertIn("`fragtrace bench frame FILE --config ", result.stderr)
+
     def test_stacks_of_paths_that_are_suspended(self):
         write_field(self.folder, "field", 64, 500)
         self.same_tuned(str(self.folder / "field"), *SKY, "--instancing", "share", "--dispatch", "compute")

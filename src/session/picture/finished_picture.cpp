@@ -6,6 +6,7 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "base/worker.h"
+#include "gl/driver_choice.h"
 #include "image/channels.h"
 #include "image/over_white.h"
 #include "options/option_text.h"
@@ -60,6 +61,10 @@ void sayWhatIsChosen(const RenderOptions& options, const Context& context, const
   if (options.output.verbose) {
     say(options, "OpenGL " + context.version + " on " + context.renderer + " (" + context.backend + ")");
     say(options, "variant " + stats.variant);
+    say(options, "dispatch " + std::string(kDispatchNames[size_t(tracer.variant.dispatch)]) + ": " +
+                     whyDispatch(options.device.dispatch, context, tracer.variant) +
+                     "; `fragtrace bench frame FILE --config 'fragment=--dispatch fragment' --config "
+                     "'compute=--dispatch compute'` compares both");
     for (const std::string& line : stats.skipped) say(options, "skipped " + line);
     if (stats.sun)
       say(options, formatted("the sun stands %.1f degrees above the horizon, at %.1f degrees from north",
