@@ -5,6 +5,8 @@
 #include <array>
 #include <cstring>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "base/errors.h"
 #include "base/summary.h"
@@ -20,6 +22,7 @@
 #include "session/progress_bar.h"
 #include "session/setup.h"
 #include "tests/instruments/rays/hit_check.h"
+#include "tests/instruments/rays/plain_scene.h"
 #include "tests/instruments/rays/ray_caster.h"
 #include "tests/instruments/rays/ray_sets.h"
 
@@ -32,6 +35,7 @@ struct TraversalOptions {
   RawRender raw;
   RenderOptions render;  ///< scene, camera, traversal, device
   int rounds = 7;
+  bool plain = false;          ///< the plain tracer takes the rays, too
   std::filesystem::path rays;  ///< triangles and rays for another tracer
   ResultFiles files;
 };
@@ -44,6 +48,9 @@ void declareTraversal(CLI::App& app, TraversalOptions& o) {
   app.add_option("--rounds", o.rounds, "rounds of timing")
       ->check(wholeNumber(1, 10000))
       ->capture_default_str();
+  app.add_flag("--plain", o.plain,
+               "also trace the rays by a plain compute shader: a binary tree of boxes in floats, to compare "
+               "with on the same device");
   addOption(app, "--traversal", o.raw, "traversal to measure: auto, bvh, front-to-back")
       ->check(withChoices(std::array{"auto", "bvh", "front-to-back"}));
   addOption(app, "--camera-index", o.raw, "index of the camera of the primary rays, from 0");
@@ -77,9 +84,11 @@ struct MeasuredSet {
   RayKind kind;
   std::vector<Ray> rays;
   std::vector<FoundHit> found;
-  size_t count = 0;        ///< number of valid rays
-  std::vector<double> ms;  ///< one per round
-  size_t wrong = 0;        ///< rays whose hit is not that of double precision
+  size_t count = 0;             ///< number of valid rays
+  std::vector<double> ms;       ///< one per round
+  size_t wrong = 0;             ///< rays whose hit is not that of double precision
+  std::vector<double> plainMs;  ///< the same by the plain tracer
+  size_t plainWrong = 0;
   size_t provedByAll =
       0;  ///< rays on which double precision by the tree is itself held against all primitives
 
@@ -101,17 +110,18 @@ std::vector<MeasuredSet> makeSets(const LoadedScene& loaded, const ExactTracer& 
   return sets;
 }
 
-/// Holds what was found against double precision. Throws RenderError when it is wrong.
-void check(MeasuredSet& set, const ExactTracer& tracer, const Scene& scene) {
-  const std::vector<ExactHit> exact = tracer.nearest(set.rays);
+/// Returns how many rays have found something else than in double precision. Throws RenderError where these
+/// are too many.
+size_t wrongOf(const MeasuredSet& set, std::span<const FoundHit> found, std::span<const ExactHit> exact,
+               const Scene& scene) {
   const double size = glm::length(scene.bounds.extent()) / scene.space.unit;
-  set.wrong = set.anyHit() ? countWrongAny(set.rays, set.found, exact)
-                           : countWrongNearest(set.rays, set.found, exact, size);
-  if (set.wrong > wrongRaysAllowed(set.count)) {
-    throw RenderError(std::to_string(set.wrong) + " of " + std::to_string(set.count) + " " + set.name() +
+  const size_t wrong =
+      set.anyHit() ? countWrongAny(set.rays, found, exact) : countWrongNearest(set.rays, found, exact, size);
+  if (wrong > wrongRaysAllowed(set.count)) {
+    throw RenderError(std::to_string(wrong) + " of " + std::to_string(set.count) + " " + set.name() +
                       " rays hit something else than in double precision");
   }
-  set.provedByAll = proveTree(tracer, scene.triangles.size() + scene.spheres.size(), set.rays);
+  return wrong;
 }
 
 /// The line that is written of a kind of rays, behind what all have in common.
@@ -126,6 +136,10 @@ Json lineOf(Json line, const MeasuredSet& set) {
   line["wrong"] = set.wrong;
   line["wrong_allowed"] = wrongRaysAllowed(set.count);
   line["proved_by_all"] = set.provedByAll;
+  if (set.plainMs.empty()) return line;
+  line["plain_ms"] = set.plainMs;
+  line["plain_median_ms"] = summarize(set.plainMs).median;
+  line["plain_wrong"] = set.plainWrong;
   return line;
 }
 
@@ -158,6 +172,43 @@ Dispatch dispatchOf(const DeviceOptions& device, const Context& context) {
   return context.software ? Dispatch::Fragment : Dispatch::Compute;
 }
 
+/// The plain tracer with a tree of its own, without triangles beside it.
+struct PlainTracer {
+  Bvh bvh;
+  RayCaster caster;
+
+  PlainTracer(const Context& context, const LoadedScene& loaded, ShaderVariant variant,
+              const std::filesystem::path& shaderFolder)
+      : bvh(buildBvh(primitiveBounds(loaded.scene), uint32_t(loaded.scene.triangles.size()))),
+        caster(context, plainScene(loaded.scene, bvh), inCompute(std::move(variant)), loaded.size,
+               shaderFolder, "plain") {}
+
+  static ShaderVariant inCompute(ShaderVariant variant) {
+    variant.dispatch = Dispatch::Compute;
+    return variant;
+  }
+};
+
+/// Warms up, which is where the driver compiles, and checks what is found.
+std::vector<RayCaster::RaySet> uploadAndCheck(std::vector<MeasuredSet>& sets, RayCaster& caster,
+                                              PlainTracer* plain, const LoadedScene& loaded,
+                                              const ExactTracer& tracer) {
+  const Scene& scene = loaded.scene;
+  std::vector<RayCaster::RaySet> uploaded;
+  for (MeasuredSet& set : sets) {
+    uploaded.emplace_back(set.rays);
+    caster.trace(uploaded.back(), set.anyHit());
+    set.found = foundBy(caster, loaded.bvh);
+    const std::vector<ExactHit> exact = tracer.nearest(set.rays);
+    set.wrong = wrongOf(set, set.found, exact, scene);
+    set.provedByAll = proveTree(tracer, scene.triangles.size() + scene.spheres.size(), set.rays);
+    if (plain == nullptr) continue;
+    plain->caster.trace(uploaded.back(), set.anyHit());
+    set.plainWrong = wrongOf(set, foundBy(plain->caster, plain->bvh), exact, scene);
+  }
+  return uploaded;
+}
+
 std::vector<Json> measure(const TraversalOptions& options, const Context& context) {
   Statistics stats;
   LoadedScene loaded = loadScene(options.render, stats);
@@ -165,6 +216,8 @@ std::vector<Json> measure(const TraversalOptions& options, const Context& contex
   const Scene& scene = loaded.scene;
   if (!options.rays.empty() && !scene.spheres.empty())
     throw InputError(options.render.scene.string() + ": has spheres, which --rays does not write");
+  if (options.plain && !scene.spheres.empty())
+    throw InputError(options.render.scene.string() + ": has spheres, which --plain does not trace");
   ShaderVariant variant = chooseVariant(options.render, traitsOf(scene, Surroundings::None),
                                         Surroundings::None, loaded.bvh.stackNeed, BufferReads::Auto);
   if (loaded.bvh.besideTree > 0) variant.literals = largeFirst(scene, loaded.bvh, variant);
@@ -178,22 +231,20 @@ std::vector<Json> measure(const TraversalOptions& options, const Context& contex
   const double bytesPerTriangle = triangles > 0.0 ? double(packed.geometryBytes()) / triangles : 0.0;
   RayCaster caster(context, std::move(packed), variant, loaded.size, options.render.device.shaderFolder);
 
-  // Step: warm up, which is where the driver compiles, and check.
+  std::optional<PlainTracer> plain;
+  if (options.plain) plain.emplace(context, loaded, variant, options.render.device.shaderFolder);
+
   const ExactTracer tracer(scene, loaded.bvh);
   std::vector<MeasuredSet> sets = makeSets(loaded, tracer, options.render.sampling.seed);
-  std::vector<RayCaster::RaySet> uploaded;
-  for (MeasuredSet& set : sets) {
-    uploaded.emplace_back(set.rays);
-    caster.trace(uploaded.back(), set.anyHit());
-    set.found = foundBy(caster, loaded.bvh);
-    check(set, tracer, scene);
-  }
+  const std::vector<RayCaster::RaySet> uploaded =
+      uploadAndCheck(sets, caster, plain ? &*plain : nullptr, loaded, tracer);
 
   // Step: measure in turn.
   ProgressBar bar("measuring", options.render.output.quiet);
   for (int round = 0; round < options.rounds; ++round) {
     for (size_t i = 0; i < sets.size(); ++i) {
       sets[i].ms.push_back(caster.trace(uploaded[i], sets[i].anyHit()));
+      if (plain) sets[i].plainMs.push_back(plain->caster.trace(uploaded[i], sets[i].anyHit()));
     }
     bar.show(double(round + 1) / options.rounds);
   }

@@ -140,7 +140,7 @@ STRESS_CALLS = (("rays", []), ("shell", []), ("strips", ["--quick"]), ("boxes", 
                 ("hits", []), ("tree", []), ("film", ["--quick"]), ("no numbers", []))  # strips: each wedge has a program of its own
 STRESS_SECONDS = 500  # limit for all seeds together, so this part needs a call of its own
 
-RAYS = ["scenes/room-ball.gltf"]
+RAYS = ["scenes/room-ball.gltf", "--plain"]
 RAYS_SECONDS = 40
 RAY_AIMS = {"diffuse": "2000 Mrays/s"}
 

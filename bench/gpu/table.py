@@ -118,4 +118,6 @@ def pace_rows(name, lines):
 def ray_rows(lines):
     for line in lines:
         wrong = f"{line['wrong']} of {line['rays']} rays wrong ({line['wrong_allowed']} may be)"
+        if "plain_median_ms" in line:
+            wrong += f"; the plain tracer takes {line['plain_median_ms'] / line['median_ms']:.2f} times as long"
         yield f"{line['kind']} rays", f"{line['mrays_per_s']:.1f} Mrays/s", aim_text(RAY_AIMS.get(line["kind"])), wrong

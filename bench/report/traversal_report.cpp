@@ -32,6 +32,9 @@ std::string traversalTable(std::span<const Json> kinds) {
     text += formatted("%-10s %10.0f %6.1f %% %10.4g %10.4g %10.4g %12.4g %8.0f\n", word("kind").c_str(),
                       number("rays"), share, summary.median, summary.min, summary.p95, number("mrays_per_s"),
                       number("wrong"));
+    if (kind.contains("plain_median_ms"))
+      text += formatted("  %-8s %40.4g ms, %.2f times as long, by the plain tracer\n", "",
+                        number("plain_median_ms"), number("plain_median_ms") / summary.median);
   }
   return text;
 }

@@ -60,6 +60,16 @@ class BenchTraversal(Bench):
             self.assertLessEqual(kind["wrong"], 2)
             self.assertGreater(kind["hits"], 0)
 
+    def test_the_plain_tracer_finds_the_same(self):
+        result, rows = self.lines("traversal", ROOM, *RAYS, "--plain")
+        for row in rows:
+            self.assertEqual(len(row["plain_ms"]), 2)
+            self.assertLessEqual(row["plain_wrong"], 2)
+        self.assertEqual(result.stdout.count("by the plain tracer"), 3)
+        self.fails(3, "bench", "traversal", SCENES / "sphere-plane.gltf", *RAYS, "--plain", says=["spheres"])
+        folder = self.broken("entry/plain.glsl", "b >= 0.0 && ", "b >= 0.3 && ")
+        self.fails(1, "bench", "traversal", ROOM, *RAYS, "--plain", "--shader-folder", folder, says=["rays hit something else"])
+
     def test_rays_are_written_for_others(self):
         path = self.folder / "rays"
         _, rows = self.lines("traversal", ROOM, *RAYS, "--rays", path)

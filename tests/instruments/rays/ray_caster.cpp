@@ -2,6 +2,7 @@
 #include "tests/instruments/rays/ray_caster.h"
 
 #include <chrono>
+#include <utility>
 
 #include "base/errors.h"
 #include "pack/pack_tree.h"
@@ -41,9 +42,10 @@ GlBuffer makeFrameBuffer(const layout::Frame& frame) {
 }
 
 /// The program that finds the nearest hits, or any.
-GlProgram buildEntry(const std::filesystem::path& folder, bool anyHit, const ShaderVariant& variant) {
+GlProgram buildEntry(const std::filesystem::path& folder, const std::string& name, bool anyHit,
+                     const ShaderVariant& variant) {
   const ShaderSource source = shaderSource(folder);
-  const std::string entry = anyHit ? "entry/rays_any" : "entry/rays_nearest";
+  const std::string entry = "entry/" + name + (anyHit ? "_any" : "_nearest");
   if (variant.dispatch == Dispatch::Compute)
     return buildComputeProgram(assembleShader(source, entry + ".comp", variant));
   return buildProgram(assembleShader(source, "entry/fullscreen.vert", variant),
@@ -64,10 +66,11 @@ RayCaster::RaySet::RaySet(std::span<const Ray> rays) : buffer_(makeBuffer()) {
 }
 
 RayCaster::RayCaster(const Context& context, GpuScene scene, const ShaderVariant& variant, glm::ivec2 size,
-                     const std::filesystem::path& shaderFolder)
+                     const std::filesystem::path& shaderFolder, std::string entry)
     : buffers_(scene, variant.reads),
       variant_(variant),
       shaderFolder_(shaderFolder),
+      entry_(std::move(entry)),
       frameBuffer_(makeFrameBuffer(frameOf(scene, size))),
       hitBuffer_(makeBuffer()),
       vertexArray_(makeVertexArray()),
@@ -82,7 +85,7 @@ RayCaster::RayCaster(const Context& context, GpuScene scene, const ShaderVariant
 
 const GlProgram& RayCaster::program(bool anyHit) {
   std::optional<GlProgram>& program = programs_[anyHit ? 1 : 0];
-  if (!program) program = buildEntry(shaderFolder_, anyHit, variant_);
+  if (!program) program = buildEntry(shaderFolder_, entry_, anyHit, variant_);
   return *program;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "gl/context.h"
@@ -23,9 +24,10 @@ struct TracedRay {
 class RayCaster {
  public:
   /// Uploads the scene for the variant's traversal and reads. The size is that of all sets of rays. Throws
-  /// RenderError if an array is larger than the driver can read.
+  /// RenderError if an array is larger than the driver can read. Entries of shaders/entry have the name
+  /// `entry` and what ends a ray.
   RayCaster(const Context& context, GpuScene scene, const ShaderVariant& variant, glm::ivec2 size,
-            const std::filesystem::path& shaderFolder = {});
+            const std::filesystem::path& shaderFolder = {}, std::string entry = "rays");
 
   /// A set of rays on the device, width x height of them, rows from the bottom.
   class RaySet {
@@ -54,6 +56,7 @@ class RayCaster {
 
   ShaderVariant variant_;
   std::filesystem::path shaderFolder_;
+  std::string entry_;
   std::array<std::optional<GlProgram>, 2> programs_;  // nearest hit, any hit; built when first used
   GlBuffer frameBuffer_;
   GlBuffer hitBuffer_;
