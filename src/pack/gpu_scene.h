@@ -68,6 +68,7 @@ struct GpuScene {
       buffers;             ///< buffers by binding; empty if the variant never reads one
   glm::vec3 extent{1.0f};  ///< sceneExtent()
   uint32_t leafCount = 0;
+  std::vector<bool> cutOut{};       ///< triangles that the tree does without (cutOutTriangles)
   glm::ivec4 segments{1, 0, 0, 0};  ///< layout::Frame::segments
   glm::ivec2 environmentSize{0};
   glm::ivec2 backdropSize{0};

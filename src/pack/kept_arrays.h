@@ -33,7 +33,8 @@ struct KeptArrays {
     double sunPower = 0.0;    ///< the part of the power of the sun that light paths begin at
   };
   std::optional<KeptEnvironment> environment;  ///< the environment map; a sequence has only one
-  bool geometry = false;  ///< tree, leaves, faces and vertices are as packed before, as are all pictures
+  bool geometry = false;     ///< tree, leaves, faces and vertices are as packed before, as are all pictures
+  std::vector<bool> cutOut;  ///< the triangles that the tree was packed without (cutOutTriangles)
 };
 
 }  // namespace fragtrace

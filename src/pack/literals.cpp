@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/text.h"
+#include "bvh/pruned.h"
 #include "pack/literal_faces.h"
 #include "pack/literal_traversal.h"
 
@@ -98,7 +99,8 @@ std::string whyNoLiterals(const Scene& scene, const GpuScene& packed) {
                : std::to_string(count) + " " + what + ", at most " + std::to_string(most) + " can be";
   };
   if (!scene.spheres.empty()) return "the scene has spheres";
-  if (scene.triangles.empty()) return "the scene has no triangle";
+  if (std::ranges::count(packed.cutOut, false) == 0 && scene.triangles.size() == packed.cutOut.size())
+    return "the scene has no triangle";
   if (!scene.instances.empty()) return "the scene shares meshes";
   if (std::ranges::any_of(scene.triangles, [](const Triangle& t) { return t.reach > 0; }))
     return "surfaces of the scene coincide";
@@ -110,8 +112,9 @@ std::string whyNoLiterals(const Scene& scene, const GpuScene& packed) {
 
 bool paysAsLiterals(const Scene& scene, const Bvh& bvh, const GpuScene& packed, double paths) {
   if (!whyNoLiterals(scene, packed).empty()) return false;
-  const double faces = double(literalMesh(scene, bvh, 0, Joining::None).faces.size());
-  const double saved = bvhQuality(bvh).sahCost * kLockstep * kVisit - faces * kFace;
+  const Bvh drawn = pruned(bvh, packed.cutOut);
+  const double faces = double(literalMesh(scene, drawn, 0, Joining::None).faces.size());
+  const double saved = bvhQuality(drawn).sahCost * kLockstep * kVisit - faces * kFace;
   return paths * kRaysAPath * saved / 8.0 * kNanosecondsAnInstruction > faces * kCompilationOfAFace;
 }
 
@@ -131,7 +134,8 @@ std::string largeFirst(const Scene& scene, const Bvh& bvh, const ShaderVariant& 
 std::string literalScene(const Scene& scene, const Bvh& bvh, const GpuScene& packed,
                          const ShaderVariant& variant) {
   const bool weights = keepsWeights(variant);
-  const LiteralMesh mesh = literalMesh(scene, bvh, 0, joiningFor(weights), partsLamps(variant));
+  const LiteralMesh mesh =
+      literalMesh(scene, pruned(bvh, packed.cutOut), 0, joiningFor(weights), partsLamps(variant));
   const size_t slots = bvh.leaves.size() * 2;
   std::vector<bool> used(slots, false);
   for (const LiteralFace& face : mesh.faces) {

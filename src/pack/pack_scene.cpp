@@ -5,6 +5,8 @@
 #include <stdexcept>
 
 #include "base/words.h"
+#include "bvh/pruned.h"
+#include "pack/cut_out.h"
 #include "pack/energy_tables.h"
 #include "pack/environment_light.h"
 #include "pack/gpu_scene.h"
@@ -344,6 +346,17 @@ void packVolume(const Scene& scene, const TraitSet& traits, KeptArrays* kept, Gp
   kept->densities = packed.densities;
 }
 
+/// The triangles that the tree does without. A tree on the device that was packed without others is not kept.
+std::vector<bool> cutOutOf(const Scene& scene, const ShaderVariant& variant, const TexturePacker& textures,
+                           KeptArrays* kept) {
+  std::vector<bool> cutOut;
+  if (testsAlpha(variant) && !variant.countsVisits) cutOut = cutOutTriangles(scene, variant.traits, textures);
+  if (kept == nullptr || kept->cutOut == cutOut) return cutOut;
+  kept->geometry = false;
+  kept->cutOut = cutOut;
+  return cutOut;
+}
+
 /// Tree, leaves, faces and vertices, unless they are on the device as they are.
 void packGeometry(const Scene& scene, const Bvh& bvh, const TraitSet& traits, bool kept, GpuScene& packed) {
   using namespace layout;
@@ -378,17 +391,20 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   using namespace layout;
   GpuScene packed;
   const TraitSet& traits = variant.traits;
+  TexturePacker textures = packTextures(scene, plan, kept, progress, memory, packed);
+  packed.cutOut = cutOutOf(scene, variant, textures, kept);
+  const Bvh without = packed.cutOut.empty() ? Bvh() : pruned(bvh, packed.cutOut);
+  const Bvh& drawn = packed.cutOut.empty() ? bvh : without;
   packed.extent = sceneExtent(bvh.bounds);
   packed.leafCount = uint32_t(bvh.leaves.size());
   packed.segments = segmentsOf(scene, bvh);
   const double radius = radiusOf(bvh);
-  packGeometry(scene, bvh, traits, kept != nullptr && kept->geometry, packed);
+  packGeometry(scene, drawn, traits, kept != nullptr && kept->geometry, packed);
 
   // Step: lights; the environment shares light samples with the rest by power.
-  TexturePacker textures = packTextures(scene, plan, kept, progress, memory, packed);
   const std::vector<glm::vec3> radiance = meanRadiance(scene, traits, textures);
   std::vector<uint32_t> slots;
-  if (has(traits, Trait::EmissiveTriangles)) slots = leafSlots(scene, bvh);
+  if (has(traits, Trait::EmissiveTriangles)) slots = leafSlots(scene, drawn);
   PackedEmitters emitters = packEmitters(scene, radiance, slots, bvh.leaves.size() * 2, radius, variant);
   packed.emitterCount = emitters.count;
   const std::vector<Caster> casters = castersOf(scene);

@@ -84,6 +84,7 @@ void pad(Span& from, Span& to) {
 struct NodeSpans {
   std::array<std::array<std::array<Span, WideNode::kMost>, 3>, 2> span{};
   size_t count = 0;
+  uint32_t there = 0;  ///< a bit for each child that holds something; others have the box of one that does
 
   Spans along(size_t end, size_t axis) const { return Spans(span[end][axis]).first(count); }
 };
@@ -91,8 +92,13 @@ struct NodeSpans {
 NodeSpans spansOf(const Bvh& bvh, const WideNode& node, bool moving) {
   NodeSpans spans;
   spans.count = node.count;
+  uint32_t first = 0;
+  while (first < node.count && boxAt(bvh, node.place[first]).empty()) ++first;
+  if (first == node.count) return spans;
   for (uint32_t i = 0; i < node.count; ++i) {
-    const uint32_t place = node.place[i];
+    const bool isThere = !boxAt(bvh, node.place[i]).empty();
+    if (isThere) spans.there |= layout::kFirstChild << i;
+    const uint32_t place = node.place[isThere ? i : first];
     const Bounds& begins = boxAt(bvh, place);
     const Bounds& ends = bvh.endBounds.empty() ? begins : bvh.endBounds[place / 2][place % 2];
     const auto spanOf = [](const Bounds& box, int axis) {
@@ -153,7 +159,8 @@ void appendNode(const Bvh& bvh, const WideNode& node, uint32_t firstInstance, bo
     words.push_back(exponents);
     for (size_t axis = 0; axis < 3; ++axis)
       appendSides(words, spans.along(end, axis), origin[axis], cells[axis]);
-    for (const uint32_t group : groupsOf(bvh, node, firstInstance)) words.push_back(group);
+    for (const uint32_t group : groupsOf(bvh, node, firstInstance))
+      words.push_back(group & (spans.there | layout::kBaseMask));
   }
 }
 

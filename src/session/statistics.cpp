@@ -121,6 +121,7 @@ std::string statisticsText(const Statistics& s) {
   json["scene"] = sceneJson(s.scene);
   json["bvh"] = bvhJson(s.bvh);
   json["bvh"]["refitted"] = s.treeRefitted;
+  if (s.cutOut > 0) json["bvh"]["cut_out_triangles"] = s.cutOut;
   json["load_ms"] = s.loadMs;
   json["bvh_build_ms"] = s.bvhBuildMs;
   json["pack_ms"] = s.packMs;

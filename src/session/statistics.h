@@ -64,6 +64,7 @@ struct Statistics {
   std::optional<AdaptiveStatistics> adaptive;
   double featureMs = 0.0;  ///< drawing the layers of first hits
   std::optional<DenoiseStatistics> denoise;
+  size_t cutOut = 0;         ///< triangles that alpha cuts out wholly
   size_t sceneBytes = 0;     ///< memory of the scene on the device
   size_t geometryBytes = 0;  ///< bytes among these for tree, leaves, records and vertex attributes
   bool defaultLight = false;

@@ -300,6 +300,7 @@ void describe(Statistics& stats, const Context& context, const GpuScene& packed,
   stats.phases.push_back(packing);
   stats.packMs = packing.end - packing.begin;
   stats.casters = packed.casters.size();
+  stats.cutOut = size_t(std::ranges::count(packed.cutOut, true));
   stats.sceneBytes = packed.bytes();
   stats.geometryBytes = packed.geometryBytes();
 }

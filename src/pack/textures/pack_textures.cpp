@@ -105,6 +105,13 @@ TexturePacker::TexturePacker(const Scene& scene, const TexturePlan& plan, std::v
     : scene_(scene), plan_(plan), facts_(std::move(known)) {
   if (!facts_.empty()) return;
   facts_.resize(plan.places.size());
+  cutsOut_.resize(plan.places.size());
+  for (const Material& m : scene.materials) {
+    const TextureRef& ref = m.baseColorTexture;
+    if (m.alphaMode == AlphaMode::Opaque || !ref.present()) continue;
+    const uint32_t image = scene.textures[ref.texture].image;
+    if (image < cutsOut_.size()) cutsOut_[image] = true;
+  }
   std::vector<EncodedPicture> encoded;
   for (uint32_t image = 0; image < plan.places.size(); ++image) {
     if (plan.places[image].size.x == 0) continue;
@@ -139,10 +146,10 @@ void TexturePacker::take(const TexelImage& texels, const TexelMemory& memory, Pa
       [&](auto rgba) {
         facts_[picture.image] = meansOf(rgba);
         const TransferCurve curve = place.isColor ? TransferCurve::Srgb : TransferCurve::Linear;
-        if (size == place.size)
-          copyTo(rgba, words);
-        else
-          copyTo(decltype(rgba)(scaled(rgba, size, place.size, curve)), words);
+        std::vector<typename decltype(rgba)::value_type> smaller;
+        if (size != place.size) rgba = smaller = scaled(rgba, size, place.size, curve);
+        copyTo(rgba, words);
+        if (cutsOut_[picture.image]) facts_[picture.image].alpha = alphaPyramidOf(rgba, place.size);
       },
       texels.rgba);
 }
@@ -160,6 +167,16 @@ glm::uvec4 TexturePacker::slot(const TextureRef& ref) {
   flags |= wrapFlags(texture.wrapV, layout::kTextureClampV, layout::kTextureMirrorV);
   return {place.first, uint32_t(place.size.x) | uint32_t(place.size.y) << 16, flags,
           ref.transformed() ? transformRow(ref.transform) : 0u};
+}
+
+const AlphaPyramid* TexturePacker::alphaOf(const TextureRef& ref) const {
+  if (!ref.present() || scene_.textures[ref.texture].image == kMissIndex) return nullptr;
+  const PictureFacts& facts = facts_[scene_.textures[ref.texture].image];
+  return facts.isBroken || facts.alpha.levels.empty() ? nullptr : &facts.alpha;
+}
+
+glm::ivec2 TexturePacker::sizeOf(const TextureRef& ref) const {
+  return plan_.places[scene_.textures[ref.texture].image].size;
 }
 
 glm::vec3 TexturePacker::meanRadiance(const Material& m) const {

@@ -20,6 +20,10 @@ class TexturePacker {
   /// Mean of a texture's linear colour and alpha, 1 for none.
   glm::vec4 mean(const TextureRef& ref, TransferCurve curve) const;
 
+  /// The alpha of a texture on the device, and its size there; null: it is not known.
+  const AlphaPyramid* alphaOf(const TextureRef& ref) const;
+  glm::ivec2 sizeOf(const TextureRef& ref) const;
+
   /// Mean radiance of a material.
   glm::vec3 meanRadiance(const Material& m) const;
 
@@ -41,6 +45,7 @@ class TexturePacker {
   const Scene& scene_;
   const TexturePlan& plan_;
   std::vector<PictureFacts> facts_;
+  std::vector<bool> cutsOut_;  ///< by the index of the scene's image: the alpha of some material
   std::vector<PackedPicture> pictures_;
   std::vector<std::string> broken_;  ///< the reasons
   std::vector<TextureTransform> transforms_;

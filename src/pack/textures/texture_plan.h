@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "image/limits.h"
+#include "pack/textures/alpha_pyramid.h"
 #include "scene/scene.h"
 #include "shader/traits.h"
 
@@ -68,11 +70,12 @@ struct PackedPicture {
   std::vector<uint32_t> own{};  ///< the words, unless they are in the device's memory already
 };
 
-/// The facts of a decoded picture: its mean, as linear colour and alpha, by both curves.
+/// The facts of a decoded picture: its mean, as linear colour and alpha, by both curves, and its alpha.
 struct PictureFacts {
   bool isBroken = false;       ///< it cannot be decoded
   glm::vec4 meanNumber{1.0f};  ///< where its values are numbers
   glm::vec4 meanColor{1.0f};   ///< where they are colours in sRGB
+  AlphaPyramid alpha{};        ///< known of base colours whose alpha counts, as they are on the device
 };
 
 /// Told how many of how many pictures of the scene have been decoded. From any thread.
