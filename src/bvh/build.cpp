@@ -170,8 +170,9 @@ uint32_t appendTop(TopNode& top, Bvh& bvh) {
   return index;
 }
 
-SplitRules rulesFor(size_t primitiveCount, uint32_t firstSingle, uint32_t maxDepth) {
-  const uint32_t leafSize = firstSingle < primitiveCount ? 1 : 2;
+SplitRules rulesFor(std::span<const BuildItem> items, uint32_t firstSingle, uint32_t maxDepth) {
+  const auto isSingle = [&](const BuildItem& item) { return item.primitive >= firstSingle; };
+  const uint32_t leafSize = std::ranges::any_of(items, isSingle) ? 1 : 2;
   return {firstSingle, leafSize, std::min(maxDepth, kMaxBvhDepth)};
 }
 
@@ -190,21 +191,16 @@ WholeTree buildWhole(std::span<BuildItem> items, const SplitRules& rules, uint32
   return tree;
 }
 
-}  // namespace
-
-Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle, const BvhBuildSettings& settings) {
+Bvh buildOver(std::vector<BuildItem> items, uint32_t firstSingle, const BvhBuildSettings& settings) {
   Bvh bvh;
-  if (primitiveBounds.empty()) return bvh;
-  const SplitRules rules = rulesFor(primitiveBounds.size(), firstSingle, settings.maxDepth);
-  assert(primitiveBounds.size() < kBvhLeafBit && primitiveBounds.size() <= rules.capacityBelow(0));
+  if (items.empty()) return bvh;
+  const SplitRules rules = rulesFor(items, firstSingle, settings.maxDepth);
+  assert(items.size() < kBvhLeafBit && items.size() <= rules.capacityBelow(0));
   const uint32_t cores = std::max(std::thread::hardware_concurrency(), 1u);
   const uint32_t wanted = settings.threadCount > 0 ? settings.threadCount : cores;
-  const uint32_t threadCount = primitiveBounds.size() <= kSmallestPart ? 1 : wanted;
+  const uint32_t threadCount = items.size() <= kSmallestPart ? 1 : wanted;
 
   // Build the top, then all parts.
-  std::vector<BuildItem> items(primitiveBounds.size());
-  for (size_t i = 0; i < items.size(); ++i) items[i] = {primitiveBounds[i], uint32_t(i)};
-  primitiveBounds = std::vector<Bounds>();
   WholeTree tree = buildWhole(items, rules, threadCount);
   items = std::vector<BuildItem>();
 
@@ -223,6 +219,21 @@ Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle, const Bv
     bvh.nodes.push_back({{bvh.bounds, bvh.bounds}, {root, root}});
     bvh.depth = 1;
   }
+  return bvh;
+}
+
+}  // namespace
+
+Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle, const BvhBuildSettings& settings) {
+  std::vector<BuildItem> items(primitiveBounds.size());
+  for (size_t i = 0; i < items.size(); ++i) items[i] = {primitiveBounds[i], uint32_t(i)};
+  primitiveBounds = std::vector<Bounds>();
+  return buildOver(std::move(items), firstSingle, settings);
+}
+
+Bvh buildFromItems(std::vector<BuildItem> items, uint32_t firstSingle) {
+  Bvh bvh = buildOver(std::move(items), firstSingle, {});
+  collapse(bvh);
   return bvh;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bvh/bvh.h"
+#include "bvh/split.h"
 
 namespace fragtrace {
 
@@ -21,5 +22,8 @@ struct BvhBuildSettings {
 
 /// Builds the binary tree alone; collapse() adds the wide nodes.
 Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle, const BvhBuildSettings& settings);
+
+/// The whole tree over items, of which a primitive may have several.
+Bvh buildFromItems(std::vector<BuildItem> items, uint32_t firstSingle);
 
 }  // namespace fragtrace

@@ -11,8 +11,10 @@
 #include "base/errors.h"
 #include "base/parallel.h"
 #include "base/text.h"
+#include "bvh/build.h"
 #include "bvh/bvh.h"
 #include "bvh/large_first.h"
+#include "bvh/long_triangles.h"
 #include "bvh/moving_tree.h"
 #include "image/files/process.h"
 #include "image/files/video_format.h"
@@ -74,6 +76,11 @@ bool walksTree(const RenderOptions& options) {
          options.device.traversal != TraversalMethod::Literals;
 }
 
+/// Poses refit the tree by whole triangles, and text has each triangle once.
+bool mayCutLong(const Scene& scene) {
+  return scene.animationNames.empty() && scene.triangles.size() > kLeastBesideLarge;
+}
+
 bool besideAllowed(const RenderOptions& options) {
   return options.device.traversal == TraversalMethod::Auto && options.output.debugView != DebugView::Visits;
 }
@@ -129,6 +136,10 @@ Bvh buildTree(const Scene& scene, const RenderOptions& options) {
   if (options.device.traversal == TraversalMethod::Iterative) return listLeaves(scene);
   std::vector<Bounds> bounds = primitiveBounds(scene);
   const uint32_t triangles = uint32_t(scene.triangles.size());
+  if (mayCutLong(scene)) {
+    if (std::vector<BuildItem> pieces = cutLong(scene, bounds); !pieces.empty())
+      return buildFromItems(std::move(pieces), triangles);
+  }
   std::vector<uint32_t> large;
   if (besideAllowed(options) && bounds.size() >= kLeastBesideLarge) large = largeTriangles(bounds, triangles);
   // Literals know neither of coincidence nor of alpha.

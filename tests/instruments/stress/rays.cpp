@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "bvh/build.h"
 #include "bvh/large_first.h"
+#include "bvh/long_triangles.h"
 #include "gl/driver_choice.h"
 #include "pack/literals.h"
 #include "pack/pack_tree.h"
@@ -45,6 +47,11 @@ std::vector<Way> waysOf(const StressSetting& setting, const Scene& scene) {
   for (const auto& [name, method] :
        {std::pair{"bvh", TraversalMethod::Bvh}, std::pair{"front-to-back", TraversalMethod::FrontToBack}})
     ways.push_back({name, bvh, variantOf(setting, scene, method, bvh.stackNeed)});
+  if (std::vector<BuildItem> pieces = cutLong(scene, bounds, 0.0); !pieces.empty()) {
+    Bvh tree = buildFromItems(std::move(pieces), triangles);
+    const ShaderVariant variant = variantOf(setting, scene, TraversalMethod::FrontToBack, tree.stackNeed);
+    ways.push_back({"pieces", std::move(tree), variant});
+  }
   if (bounds.size() <= kMostIterative)
     ways.push_back(
         {"iterative", listLeaves(scene), variantOf(setting, scene, TraversalMethod::Iterative, 0)});
