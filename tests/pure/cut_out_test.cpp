@@ -8,6 +8,7 @@
 #include <random>
 
 #include "bvh/pruned.h"
+#include "pack/kept_arrays.h"
 
 namespace fragtrace {
 namespace {
@@ -168,6 +169,28 @@ TEST(CutOut, FactorsAloneDecideWithoutATexture) {
   EXPECT_TRUE(isOut(0.0f));
   scene.materials[0].alphaMode = AlphaMode::Opaque;
   EXPECT_FALSE(isOut(0.0f));
+}
+
+TEST(CutOut, AChangedFactorPacksTheTreeAgain) {
+  Scene scene;
+  scene.materials.emplace_back().alphaMode = AlphaMode::Mask;
+  scene.triangles.push_back({{0, 1, 2}, 0});
+  scene.vertices.position = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const Bvh bvh = buildBvh(primitiveBounds(scene), 1);
+  ShaderVariant variant;
+  variant.traits = readsAlpha();
+  KeptArrays kept;
+  const auto pack = [&](float alpha) {
+    scene.materials[0].baseColorFactor.a = alpha;
+    return packScene(scene, bvh, {}, variant, planTextures(scene, variant.traits), &kept);
+  };
+  EXPECT_EQ(pack(0.25f).cutOut, std::vector<bool>{true});
+  for (const auto& [alpha, isKept] : {std::pair(0.3f, true), {0.75f, false}, {0.8f, true}, {0.2f, false}}) {
+    kept.geometry = true;
+    const GpuScene packed = pack(alpha);
+    EXPECT_EQ(packed.cutOut.empty(), alpha > 0.5f) << alpha;
+    EXPECT_EQ(packed.unchanged[layout::kNodesBinding], isKept) << alpha;
+  }
 }
 
 TEST(CutOut, AlphaOf16BitsIsRoundedUp) {
