@@ -102,6 +102,20 @@ class CutOut(Case):
         self.assertNotIn("cut_out_triangles", self.drawn(cards, "--set", "/materials/2/alphaCutoff=0.3")[1]["bvh"])
         self.assertEqual(self.drawn(cards, "--set", "/materials/2/alphaCutoff=0.41")[1]["bvh"]["cut_out_triangles"], 160)
 
+    def test_an_animated_cutoff_in_a_sequence(self):
+        gltf = Gltf(json.loads(self.leaves(2, 40, nothing={"baseColorFactor": [1, 1, 1, 0.4]}).read_text()))
+        pointer = {"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": "/materials/2/alphaCutoff"}}}
+        gltf.root["animations"] = [{"samplers": [{"input": gltf.accessor([0, 1, 2]), "output": gltf.accessor([0.3, 0.6, 0.3])}],
+                                    "channels": [{"sampler": 0, "target": pointer}]}]
+        gltf.root["extensionsUsed"] = ["KHR_animation_pointer"]
+        scene = gltf.write(self.folder / "fading.gltf")
+        self.renders(scene, "-o", self.folder / "f#.pfm", "--quiet", *self.VIEW, "--frames", "0:2", "--fps", 1, "--stats", self.folder / "s#.json")
+        for frame, count in enumerate((0, 160, 0)):
+            told = json.loads((self.folder / f"s{frame}.json").read_text())
+            self.assertEqual(told["bvh"].get("cut_out_triangles", 0), count)
+            alone = self.drawn(scene, "--animation-time", frame, "--seed", told["seed"])[0]
+            self.assertEqual((self.folder / f"f{frame}.pfm").read_bytes() == alone, True, frame)
+
     def test_while_the_shutter_is_open(self):
         cards = self.leaves(2, 40, animation=True)
         without = self.leaves(0, name="without", animation=True)
