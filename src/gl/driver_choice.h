@@ -15,7 +15,7 @@ namespace fragtrace {
 /// on an H200 (docs/measurements/gpu.md).
 Dispatch chooseDispatch(Dispatch wanted, const Context& context, bool literals);
 
-/// Says why the tracer runs in that stage, as whoever asked for `wanted` would ask.
+/// Returns why the tracer runs in the stage in which it does, where `wanted` was asked for.
 std::string whyDispatch(Dispatch wanted, const Context& context, const ShaderVariant& drawn);
 
 /// Returns true if this machine has a device that may be a GPU; without one, no driver need be asked.
