@@ -199,6 +199,7 @@ const uint kTextureMirrorU = 16u;
 const uint kTextureClampV = 32u;
 const uint kTextureMirrorV = 64u;
 const uint kTextureWide = 128u;  // its texels have 16 bits a channel
+const uint kTextureLevelShift = 8u;  // of an array texture, only while a texel is read (tune/texels_arrays.glsl)
 const uint kTexturePlaceShift = 16u;
 // Pictures lie in up to this many buffers of words (tune/texels_words.glsl), whose image units are behind those of the
 // scene buffers; or in array textures (tune/texels_arrays.glsl), whose three units are behind those of reservoirs.

@@ -76,6 +76,7 @@ vec3 emittedFrom(uint material, int slot, vec2 weights, float cosine) {
     texcoords = interpolate(readTexcoordsAt(int(place.y)), readTexcoordsAt(int(place.z)), readTexcoordsAt(int(place.w)),
                             weights);
   }
+  if (kRayCones) coveredAreas = vec2(0.0f);
   vec3 radiance = emissionAt(material, texcoords);
   if (kAlpha && (materialFlags(material) & (kMaterialMask | kMaterialBlend)) != 0u) {
     vec4 color = vec4(1.0f);

@@ -21,6 +21,7 @@ const uint kReuseDimension = 8u;  // these are 8 to 10, at the first hit alone
 const uint kGuidingDimension = 8u;  // behind the first hit
 const uint kGlassDimension = 12u;
 const uint kFlightDimension = 13u;
+const uint kLevelDimension = 14u;
 const uint kFlightDimensions = 0x80000000u;  // hashed; 4,096 per bounce
 const uint kShadowFlights = 0x40000000u;      // shadow rays add this to kFlightDimensions
 
@@ -59,6 +60,7 @@ float dispersedIor(Path p, uint material) {
   return max(1.0, ior + float(pathChannel(p) - 1) * halfSpread);
 }
 
+#include "cones/cone.glsl"
 #include "media/medium.glsl"
 
 /// Decides by chance what alpha lets pass of the ray that is traced next.
@@ -191,6 +193,7 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int earlier, int steps) 
   // Outside of the fisheye's circle the ray goes up from above all, and meetSurroundings() gives it no light.
   if (kFisheye && !withinFisheye(point)) ray = CameraRay(vec3(0.0, kAboveAll, 0.0), vec3(0.0, 1.0, 0.0));
   Path p = pathAlong(ray.origin, ray.direction, sampler, steps, frame.cameraSolids);
+  if (kRayCones) p.cone = cameraCone(p);
   p.pixel = pixel;
   p.throughput = vec3(1.0 / float(kCameraRays));
   return p;
@@ -328,6 +331,7 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
   p.straightBounces += straight ? 1 : 0;
   p.after = ends ? kPhaseEnd : straight ? kPhasePass : kPhaseExtend;
   if (straight) return p;
+  if (kRayCones) p.cone = scatteredCone(p, pdf, transmitted);
   p.pdf = pdf;
   p.normal = normalOfLight(s, m);
   p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, direction);

@@ -18,8 +18,8 @@ const int kRowShadowHit = 9;        // the hit of the shadow ray, or of a suspen
 // The last surfaces that the ray and the shadow ray have passed: distance and slot of each; a suspended traversal has
 // its two groups instead of the second.
 const int kRowTMin = 10;
-// single-sided surfaces that a light path has met, instance of the row of the shadow ray's hit, instance that is
-// walked, medium of the shadow ray
+// single-sided surfaces that a light path has met, or the cone of a camera path; instance of the row of the shadow
+// ray's hit, instance that is walked, medium of the shadow ray
 const int kRowInstances = 11;
 // kResumable:
 const int kRowSuspended = 12;       // node of the traversal, light sample, more flags, visits
@@ -29,7 +29,7 @@ const int kRowBefore = kRowAov + (kLightPart ? 1 : 0);  // kTransparentGlass: be
 const int kRowLight = kRowStack + kStackSize / 4;  // kLightPaths: flux, waiting; splatPixel, range, travelled
 
 const bool kShadowRows = kShadows || kPassesLight || kInstances || kResumable;
-const bool kPassingRows = kPassing || kResumable || kMedia;
+const bool kPassingRows = kPassing || kResumable || kMedia || kRayCones;
 
 /// Rows of a path of the megakernel.
 const int kSuspendedRows = kRowBefore + (kTransparentGlass ? 1 : 0) + (kLightPaths ? 2 : 0);
@@ -75,6 +75,7 @@ void savePath(Path p, int row, bool begins) {
     Traversal t = p.traversal;
     pathStates[row + kRowTMin] = uvec4(floatBitsToUint(t.tMin), uint(t.tMinSlot), 0u, 0u);
     uint met = kLightPaths ? uint(p.fromLight.singleSided) : 0u;
+    if (kRayCones) met = p.cone;
     pathStates[row + kRowInstances] = uvec4(met, uint(t.hitInstance), uint(t.instance), p.shadowMedium);
   }
 }
@@ -115,6 +116,7 @@ Path loadPath(int row, uint key) {
     p.contribution = uintBitsToFloat(a.xyz);
     p.hitInstance = int(a.w);
   }
+  if (kRayCones) p.cone = readPathStates(row + kRowInstances).x;
   if (kDimsLate) {
     p.shadowMedium = readPathStates(row + kRowInstances).w;
     p.traversal.tMin = uintBitsToFloat(readPathStates(row + kRowTMin).x);

@@ -85,6 +85,7 @@ struct Path {
   uint medium;          // the solids that the ray is inside of, or kPrimitiveNone (media/solids.glsl)
   vec3 origin;
   vec3 direction;
+  uint cone;          // the width of the ray (kRayCones): packCone()
   float tie;          // part by which hits on fronts count as nearer: 0, kTie or -kTie (kCreases)
   vec3 shadowOrigin;
   vec3 shadowDirection;
@@ -127,6 +128,7 @@ Path newPath() {
   p.pdf = 0.0;
   p.normal = kNoNormal;
   p.medium = kPrimitiveNone;
+  p.cone = 0u;
   p.tie = 0.0;
   p.shadowOrigin = vec3(0.0);
   p.shadowDirection = vec3(0.0, 0.0, 1.0);

@@ -319,6 +319,7 @@ vec3 aovAt(Surface s, int slot, int instance, vec3 baseColor, vec3 wo, float tim
 /// One step at the point hit. The first visit (gi has one only) also settles absorption and emission.
 Path shade(Path p) {
   Surface s = surfaceAt(p.hitSlot, p.hitInstance, p.origin, p.direction, p.hitT, p.hitWeights, p.time);
+  if (kRayCones) coverSurface(p, s);
   uint flags = materialFlags(s.material);
   vec4 base = baseColorAt(s.material, s.texcoords, s.color);
   bool first = p.lightSampleIndex == 0;

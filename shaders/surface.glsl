@@ -140,6 +140,7 @@ Surface inLocalSpace(Surface s, int instance) {
 /// distance t and with barycentric weights.
 Surface surfaceAt(int slot, int instance, vec3 origin, vec3 direction, float t, vec2 weights, float time) {
   if (kCountWork) countWork(kWorkSurfaces, 1u);
+  if (kRayCones) coveredAreas = vec2(0.0);
   uvec4 face = faceRow(slot, 0);
   uvec4 place = faceRow(slot, 1);
   bool shown = kInstances && instance >= 0;

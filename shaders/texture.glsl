@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Textures of any size and number, with their texels as they are in the files. This file filters them: level 0,
-// magnification filter.
+// Textures of any size and number, with their texels as they are in the files. This file filters them by the
+// magnification filter, at level 0 or at that of a ray cone.
 
 #include "texels.glsl"
+#include "cones/level.glsl"
 
 /// Brings a texel coordinate from -1 to twice the size into 0..size-1 by repeating, clamping or mirroring. It does not
 /// divide, because llvmpipe divides integers lane by lane.
@@ -27,6 +28,7 @@ vec4 sampleTexture(uvec4 slot, vec4 texcoords, bool srgb) {
     uv = vec2(dot(uintBitsToFloat(readMaterials(row)).xyz, place),
               dot(uintBitsToFloat(readMaterials(row + 1)).xyz, place));
   }
+  if (kRayCones) slot = slotOfLevel(slot);
   ivec2 size = ivec2(slot.y & 0xffffu, slot.y >> 16);
   bool linear = (flags & kTextureLinear) != 0u;
   bool clampU = (flags & kTextureClampU) != 0u;

@@ -63,6 +63,7 @@ Path scatterInMedium(Path p) {
   vec3 before = p.direction;
   p.direction = samplePhase(scatter.w, before, uv.x, uv.y);
   p.pdf = open ? phasePdf(scatter.w, dot(before, p.direction)) : 0.0;
+  if (kRayCones) p.cone = coneBehind(p, 0.0, max(phasePdf(scatter.w, dot(before, p.direction)), 1e-30));
   p.origin = point;
   p.normal = kNoNormal;
   p.tie = 0.0;

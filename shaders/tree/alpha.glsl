@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Surfaces that let light pass by their alpha (docs/design/surfaces.md). A traversal asks before it accepts a hit, so
-// rays meet only what stops them. Guides alone meet all, and count them by their shares.
+// rays meet only what stops them. They ask at level 0: by the mean alpha of distant leaves, cutoffs would let through
+// all of them, or none. Guides alone meet all, and count them by their shares.
 
 /// A ray's chances at primitives, from the numbers of its sample and the number of its scatterings.
 Sampler chancesOf(Sampler s, int bounce) { return Sampler(mixBits(s.key) + mixBits(uint(bounce)), s.reversed); }

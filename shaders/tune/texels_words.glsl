@@ -11,6 +11,19 @@ float srgbValue16(uint value) {
   return mix(srgbValue(place), srgbValue(place + 1u), float(value - place * 257u) * float(1.0 / 257.0));
 }
 
+/// The slot row of a level of its picture. Levels lie one behind the other, each with room for as many texels as fit
+/// its size without rounding (texelsBefore() of src/pack/textures/texture_plan.cpp).
+uvec4 slotAtLevel(uvec4 slot, int level) {
+  uint width = slot.y & 0xffffu;
+  uint height = slot.y >> 16;
+  uint texels = width * height;
+  uint smaller = texels - (texels >> (2 * max(level - 1, 0)));
+  uint before = level > 0 ? texels + (11u * smaller >> 5) : 0u;
+  slot.x += kWideTextures && (slot.z & kTextureWide) != 0u ? 2u * before : before;
+  slot.y = width >> level | height >> level << 16;
+  return slot;
+}
+
 /// The linear colour and alpha of a texel of a slot's picture.
 vec4 readTexel(uvec4 slot, ivec2 place, bool srgb) {
   uint unit = slot.z >> kTexturePlaceShift;

@@ -13,28 +13,53 @@ constexpr size_t kNumbers = 0;
 constexpr size_t kColors = 1;
 constexpr size_t kWide = 2;
 
-/// An array texture of one level; one layer, where there are none.
-GlTexture makeArray(GLenum format, int side, int64_t layers) {
+/// The size of an array texture; one texel, where there is no layer.
+struct ArraySize {
+  GLsizei side = 1;
+  GLsizei layers = 1;
+  GLsizei levels = 1;
+
+  ArraySize(const TexturePlan& plan, int64_t filled) {
+    if (filled == 0) return;
+    side = plan.layerSide;
+    layers = GLsizei(filled);
+    if (plan.levels) levels = levelsOf({side, side});
+  }
+};
+
+GlTexture makeArray(GLenum format, const ArraySize& size) {
   GlTexture texture = makeTexture(GL_TEXTURE_2D_ARRAY);
-  const GLsizei edge = layers > 0 ? side : 1;
-  glTextureStorage3D(texture.name(), 1, format, edge, edge, GLsizei(std::max<int64_t>(layers, 1)));
+  glTextureStorage3D(texture.name(), size.levels, format, size.side, size.side, size.layers);
   return texture;
 }
 
 /// The same texels as colours in sRGB.
-GlTexture colorView(const GlTexture& numbers, int64_t layers) {
+GlTexture colorView(const GlTexture& numbers, const ArraySize& size) {
   GLuint name = 0;
   glGenTextures(1, &name);  // a view needs a name without a texture
-  glTextureView(name, GL_TEXTURE_2D_ARRAY, numbers.name(), GL_SRGB8_ALPHA8, 0, 1, 0,
-                GLuint(std::max<int64_t>(layers, 1)));
+  glTextureView(name, GL_TEXTURE_2D_ARRAY, numbers.name(), GL_SRGB8_ALPHA8, 0, GLuint(size.levels), 0,
+                GLuint(size.layers));
   return GlTexture(name);
+}
+
+/// Uploads a picture, with its levels, to its place in an array.
+void upload(const GlTexture& array, const TexturePlan& plan, const PackedPicture& picture) {
+  const TexturePlace& place = plan.places[picture.image];
+  const glm::ivec2 corner(place.first & 0xffffu, place.first >> 16);
+  for (int level = 0; level < (plan.levels ? levelsOf(place.size) : 1); ++level) {
+    const glm::ivec2 at = corner >> level, size = place.size >> level;
+    const uint32_t* words = picture.own.data() + texelsBefore(place.size, level) * (place.wide ? 2 : 1);
+    glTextureSubImage3D(array.name(), level, at.x, at.y, GLint(place.number), size.x, size.y, 1, GL_RGBA,
+                        place.wide ? GL_UNSIGNED_SHORT : GL_UNSIGNED_BYTE, words);
+  }
 }
 
 }  // namespace
 
-TextureRoom textureRoom(TextureReads wanted, const Context& context) {
+TextureRoom textureRoom(const RenderOptions& options, const Context& context) {
+  const TextureReads wanted = options.device.textureReads;
   const bool arrays = wanted == TextureReads::Auto ? !context.software : wanted == TextureReads::Arrays;
-  TextureRoom room;
+  TextureRoom room{.levels = options.sampling.textureFilter == TextureFilter::Cones};
   if (arrays) {
     room.reads = TexelReads::Arrays;
     room.side = int(driverLimit(GL_MAX_TEXTURE_SIZE));
@@ -51,62 +76,54 @@ TextureRoom textureRoom(TextureReads wanted, const Context& context) {
   return room;
 }
 
-TexelMemory SceneTextures::makeBuffers(const TexturePlan& plan) {
+void SceneTextures::makeBuffers(const TexturePlan& plan) {
   constexpr GLbitfield kAccess = GL_MAP_READ_BIT | GL_MAP_WRITE_BIT;
-  TexelMemory memory;
   for (const int64_t words : plan.sizes) {
     const auto bytes = GLsizeiptr(std::max<int64_t>(words, 1) * int64_t(sizeof(uint32_t)));
     GlBuffer& buffer = buffers_.emplace_back(makeBuffer());
     glNamedBufferStorage(buffer.name(), bytes, nullptr, kAccess);
     const GlTexture& view = textures_.emplace_back(makeTexture(GL_TEXTURE_BUFFER));
     glTextureBuffer(view.name(), GL_R32UI, buffer.name());
-    memory.push_back(static_cast<uint32_t*>(glMapNamedBufferRange(buffer.name(), 0, bytes, kAccess)));
+    memory_.push_back(static_cast<uint32_t*>(glMapNamedBufferRange(buffer.name(), 0, bytes, kAccess)));
   }
-  return memory;
 }
 
 void SceneTextures::makeArrays(const TexturePlan& plan) {
-  textures_.push_back(makeArray(GL_RGBA8, plan.layerSide, plan.sizes[0]));
-  textures_.push_back(colorView(textures_[kNumbers], plan.sizes[0]));
-  textures_.push_back(makeArray(GL_RGBA16, plan.layerSide, plan.sizes[1]));
+  const ArraySize narrow(plan, plan.sizes[0]), wide(plan, plan.sizes[1]);
+  textures_.push_back(makeArray(GL_RGBA8, narrow));
+  textures_.push_back(colorView(textures_[kNumbers], narrow));
+  textures_.push_back(makeArray(GL_RGBA16, wide));
 }
 
-TexelMemory SceneTextures::prepare(const TexturePlan& plan) {
+const TexelMemory& SceneTextures::prepare(const TexturePlan& plan) {
   reads_ = plan.reads;
+  memory_.clear();
   buffers_.clear();
   textures_.clear();
-  TexelMemory memory;
   if (reads_ == TexelReads::Words)
-    memory = makeBuffers(plan);
+    makeBuffers(plan);
   else
     makeArrays(plan);
   checkGl("making room for textures");
-  if (std::ranges::find(memory, nullptr) != memory.end()) throw RenderError("textures cannot be mapped");
+  if (std::ranges::find(memory_, nullptr) != memory_.end()) throw RenderError("textures cannot be mapped");
   isPrepared_ = true;
-  return memory;
+  return memory_;
 }
 
 void SceneTextures::replace(GpuScene& scene) {
-  const TexturePlan& plan = scene.textures;
   if (scene.pictures.empty() && !isPrepared_) return;
-  if (!isPrepared_) {
-    const TexelMemory memory = prepare(plan);
-    for (const PackedPicture& picture : scene.pictures) {
-      const TexturePlace& place = plan.places[picture.image];
-      if (reads_ == TexelReads::Words) std::ranges::copy(picture.words, memory[place.number] + place.first);
-    }
-  }
+  const TexturePlan& plan = scene.textures;
+  if (!isPrepared_) prepare(plan);
   for (PackedPicture& picture : scene.pictures) {
     const TexturePlace& place = plan.places[picture.image];
-    if (reads_ == TexelReads::Arrays) {
-      const GlTexture& array = textures_[place.wide ? kWide : kNumbers];
-      glTextureSubImage3D(array.name(), 0, GLint(place.first & 0xffffu), GLint(place.first >> 16),
-                          GLint(place.number), place.size.x, place.size.y, 1, GL_RGBA,
-                          place.wide ? GL_UNSIGNED_SHORT : GL_UNSIGNED_BYTE, picture.words.data());
-    }
+    if (reads_ == TexelReads::Arrays)
+      upload(textures_[place.wide ? kWide : kNumbers], plan, picture);
+    else
+      std::ranges::copy(picture.own, memory_[place.number] + place.first);
     picture = {};
   }
   for (const GlBuffer& buffer : buffers_) glUnmapNamedBuffer(buffer.name());
+  memory_.clear();
   isPrepared_ = false;
   checkGl("uploading textures");
 }

@@ -157,6 +157,12 @@ std::vector<OptionRow> samplingRows() {
           "removes bright dots but darkens the picture",
           FRAGTRACE_MEMBER(sampling.clampIndirect), {1e-6, 1e30},
           {.effect = Effect::Picture, .renewal = Renewal::Program, .attribute = "clamp_indirect"}),
+      choice(
+          "--texture-filter",
+          "exact reads textures at their full resolution, so that samples alone filter them; cones takes the "
+          "mean over what a pixel or a scattered ray sees of them, which has less noise, but blurs",
+          FRAGTRACE_MEMBER(sampling.textureFilter), kTextureFilterNames,
+          {.effect = Effect::Picture, .renewal = Renewal::Program}),
   };
 }
 

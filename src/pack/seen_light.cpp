@@ -67,7 +67,7 @@ struct SurfacePoint {
 /// A textured surface that emits: its picture, coarse.
 struct EmissivePicture {
   const PackedPicture* picture = nullptr;
-  glm::ivec2 size{0};
+  TexturePlace place{};
   glm::vec3 mean{0.0f};  ///< radiance
 };
 
@@ -142,7 +142,7 @@ LightEstimator::LightEstimator(const SeenScene& seen)
       const auto found = std::ranges::find(texels_, image, &PackedPicture::image);
       if (found == texels_.end()) continue;
       pictures_[i].picture = &*found;
-      pictures_[i].size = plan.places[image].size;
+      pictures_[i].place = plan.places[image];
     }
   }
 }
@@ -210,10 +210,10 @@ glm::vec3 coarseTexel(const EmissivePicture& emissive, const Texture& texture, c
     if (wrap == Wrap::MirroredRepeat && std::fmod(std::abs(turns), 2.0f) == 1.0f) part = 1.0f - part;
     return std::clamp(int(part * float(count)), 0, count - 1);
   };
-  const int x = along(uv.x, emissive.size.x, texture.wrapU);
-  const int y = along(uv.y, emissive.size.y, texture.wrapV);
-  const size_t texel = size_t(y) * size_t(emissive.size.x) + size_t(x);
-  return glm::vec3(texelOf(*emissive.picture, texel, TransferCurve::Srgb));
+  const int x = along(uv.x, emissive.place.size.x, texture.wrapU);
+  const int y = along(uv.y, emissive.place.size.y, texture.wrapV);
+  const size_t texel = size_t(y) * size_t(emissive.place.size.x) + size_t(x);
+  return glm::vec3(texelOf(*emissive.picture, emissive.place, texel, TransferCurve::Srgb));
 }
 
 glm::dvec3 LightEstimator::emissionAt(uint32_t primitive, const glm::dvec3& place) const {

@@ -117,6 +117,9 @@ class Renderer {
   /// Replaces the scene by the next one of a sequence, which is read in the same way. Programs stay.
   void replaceScene(GpuScene scene);
 
+  /// The textures, for preparing those of the next scene.
+  SceneTextures& textures() { return textures_; }
+
   /// Replaces arrays by others of the same numbers of rows, except those that are unchanged. The same samples
   /// are drawn: guiding stays as it was trained.
   void replaceArrays(GpuScene scene) {

@@ -23,17 +23,19 @@ namespace fragtrace {
 void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const RenderOptions& options,
                  ShaderVariant& variant) {
   if (loaded.scene.motion.segments > 0) return;
+  const bool asked = options.device.traversal == TraversalMethod::Literals;
+  // Cones read the leaves.
+  if (variant.rayCones && asked) throw UsageError("--traversal literals: not with --texture-filter cones");
   if (loaded.bvh.besideTree > 0) {
     variant.literals = largeFirst(loaded.scene, loaded.bvh, variant);
     return;
   }
   if (variant.aov != Aov::None && !isLightPart(variant.aov)) return;
-  const bool asked = options.device.traversal == TraversalMethod::Literals;
   if (variant.countsVisits) {
     if (asked) throw UsageError("--traversal literals: has no tree whose nodes the heat map could count");
     return;
   }
-  if (!asked && options.device.traversal != TraversalMethod::Auto) return;
+  if (!asked && (options.device.traversal != TraversalMethod::Auto || variant.rayCones)) return;
   if (!options.output.lightGroups.empty()) {
     if (asked) throw UsageError("--traversal literals: not with --aov light:NAME, whose light is no literal");
     return;
@@ -266,14 +268,17 @@ void warnOfShrunk(const ShrunkTextures& shrunk, const RenderOptions& options, St
 /// Makes room for the textures of the scene. Where a device has not enough memory, half as much is tried, and
 /// so on. Returns where they are to be written.
 TexelMemory prepareTextures(Tracer& tracer, const LoadedScene& loaded, const ShaderVariant& everything,
-                            const RenderOptions& options, const Context& context, SceneTextures& textures) {
+                            const RenderOptions& options, const Context& context, SceneTextures& textures,
+                            Statistics& stats) {
   constexpr size_t kLeastBytes = size_t(16) << 20;  // that are worth another try
-  TextureRoom room = textureRoom(options.device.textureReads, context);
+  TextureRoom room = textureRoom(options, context);
   for (;; room.bytes = tracer.textures.bytes() / 2) {
     tracer.textures = planTextures(loaded.scene, everything.traits, room);
     if (tracer.textures.bytes() == 0) return {};
     try {
-      return textures.prepare(tracer.textures);
+      TexelMemory memory = textures.prepare(tracer.textures);
+      warnOfShrunk(tracer.textures.shrunk, options, stats);
+      return memory;
     } catch (const RenderError&) {
       if (tracer.textures.bytes() < kLeastBytes) throw;
     }
@@ -334,8 +339,7 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   Tracer tracer;
   const ShaderVariant everything = chooseVariants(tracer, loaded, options, stats);
   SceneTextures textures;
-  const TexelMemory memory = prepareTextures(tracer, loaded, everything, options, context, textures);
-  warnOfShrunk(tracer.textures.shrunk, options, stats);
+  const TexelMemory memory = prepareTextures(tracer, loaded, everything, options, context, textures, stats);
   ProgramCache programs =
       before ? std::move(*before) : ProgramCache(shaderSource(options.device.shaderFolder));
   Phase packing;  // outlives the thread that sets it
@@ -373,14 +377,13 @@ void replaceScene(Tracer& tracer, const Context& context, const LoadedScene& loa
                   const RenderOptions& options, Statistics& stats, bool surfacesAlone) {
   const ShaderVariant everything = chooseVariants(tracer, loaded, options, stats);
   PhaseTimer timer("pack");
-  if (!holdsTextures(tracer.textures, loaded.scene, everything.traits)) {
-    const TextureRoom room = textureRoom(options.device.textureReads, context);
-    tracer.textures = planTextures(loaded.scene, everything.traits, room);
-    warnOfShrunk(tracer.textures.shrunk, options, stats);
-  }
+  TexelMemory memory;
+  if (!holdsTextures(tracer.textures, loaded.scene, everything.traits))
+    memory =
+        prepareTextures(tracer, loaded, everything, options, context, tracer.renderer->textures(), stats);
   tracer.kept.geometry = surfacesAlone;
   GpuScene packed = packScene(loaded.scene, loaded.bvh, loaded.environment, everything, tracer.textures,
-                              &tracer.kept, loaded.decoding);
+                              &tracer.kept, loaded.decoding, memory);
   tracer.kept.geometry = false;
   sayBroken(options, packed, stats);
   describe(stats, context, packed, timer.end());

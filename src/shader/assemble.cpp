@@ -138,6 +138,7 @@ struct Assembly {
       return fileText(variant.textureArrays ? "tune/texels_arrays.glsl" : "tune/texels_words.glsl");
     if (name == "texel_words.glsl")
       return texelWordsText(variant.texelBuffers, readsTextures(variant.traits));
+    if (name.starts_with("cones/") && !variant.rayCones) return "";
     if (name == "work/count.glsl" && !variant.countsWork) return "";
     if (name == "shutter/camera.glsl" && !has(variant.traits, Trait::MovingCamera)) return "";
     if (name == "media/fog_block.glsl" && !has(variant.traits, Trait::Fog)) return "";
@@ -205,6 +206,7 @@ void appendConstants(std::string& text, const ShaderVariant& variant) {
   constant("kLightPaths", variant.lightPaths);
   constant("kGuided", usesGuiding(variant));
   constant("kGpu", variant.gpu);
+  constant("kRayCones", variant.rayCones);
   const auto number = [&](const char* name, int value) {
     text.append("const int ").append(name).append(" = " + std::to_string(value) + ";\n");
   };

@@ -39,6 +39,10 @@ inline constexpr std::array<std::string_view, 3> kBackendNames{"auto", "egl", "o
 enum class BufferReads : uint8_t { Auto, Ssbo, Image, Texel };
 inline constexpr std::array<std::string_view, 4> kBufferReadsNames{"auto", "ssbo", "image", "texel"};
 
+/// How texels are filtered where many of them lie in a pixel: exactly, by samples alone, or by mip levels
+/// that ray cones choose.
+enum class TextureFilter : uint8_t { Exact, Cones };
+inline constexpr std::array<std::string_view, 2> kTextureFilterNames{"exact", "cones"};
 /// How the shader reads texels; Auto means words on software, array textures on GPUs.
 enum class TextureReads : uint8_t { Auto, Words, Arrays };
 inline constexpr std::array<std::string_view, 3> kTextureReadsNames{"auto", "words", "arrays"};
@@ -155,9 +159,10 @@ struct SamplingOptions {
   int spp = 64;
   int sampleOffset = 0;  ///< index of the first sample in the seed's sequence
   uint32_t seed = 0;
-  int cameraRays = 0;          ///< per sample; 0: chosen by the scene
-  int bounces = 16;            ///< kUnlimitedBounces: no limit
-  int rouletteDepth = 6;       ///< roulette from this scattering on, the first being 1
+  int cameraRays = 0;     ///< per sample; 0: chosen by the scene
+  int bounces = 16;       ///< kUnlimitedBounces: no limit
+  int rouletteDepth = 6;  ///< roulette from this scattering on, the first being 1
+  TextureFilter textureFilter = TextureFilter::Exact;
   double clampIndirect = 0.0;  ///< largest radiance that two scatterings or more may add; 0: no limit
   double noise = 0.0;          ///< relative error to reach, adaptively; 0: spp samples in every pixel
   double seconds = 0.0;        ///< time to spend, adaptively; 0: no limit

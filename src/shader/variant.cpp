@@ -123,6 +123,11 @@ int cameraRaysOf(const ShaderVariant& v, int wanted) {
   return one || wanted == 0 ? 1 : wanted;
 }
 
+/// Returns true if ray cones choose the levels of textures.
+bool followsCones(const RenderOptions& options, const TraitSet& traits) {
+  return options.sampling.textureFilter == TextureFilter::Cones && readsTextures(traits);
+}
+
 /// Returns true if a lamp lies in the box of solids that absorb. A light path does not know which solids its
 /// lamp stands in until it leaves one, and where solids are nested it may meet another one before.
 bool lampsMayBeInside(const Scene& scene) {
@@ -277,6 +282,7 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   v.transparentGlass = has(v.stages, Stage::Gi) && options.light.transparentGlass && hasPage &&
                        has(v.traits, Trait::Transmission) && !v.countsVisits;
   v.cameraRays = cameraRaysOf(v, options.sampling.cameraRays);
+  v.rayCones = followsCones(options, v.traits);
   return v;
 }
 
@@ -342,6 +348,7 @@ ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& pre
   v.traits.set(size_t(Trait::Fog), paths && options.fog.density > 0.0 && !options.light.shadowCatcher);
   v.traits.set(size_t(Trait::DensityGrid), paths && has(present, Trait::DensityGrid) && !v.shadowCatcher);
   v.aov = aov;
+  v.rayCones = followsCones(options, v.traits);
   v.cameraRays = 1;
   return v;
 }
@@ -357,6 +364,7 @@ std::optional<ShaderVariant> lightPathVariant(const ShaderVariant& variant) {
   if (!has(variant.traits, Trait::Caustics)) return std::nullopt;
   ShaderVariant light = variant;
   light.lightPaths = true;
+  light.rayCones = false;
   light.transparentGlass = false;
   light.cameraRays = 1;
   light.neighbours = false;
@@ -432,6 +440,7 @@ std::string variantName(const ShaderVariant& variant) {
   if (variant.lensShift) append("lens-shift");
   if (variant.camera != CameraType::Perspective) append(kCameraTypeNames[size_t(variant.camera)].data());
   if (variant.lightPaths) append("light-paths");
+  if (variant.rayCones) append("ray-cones");
   append(std::string(kBufferReadsNames[size_t(variant.reads)]) + "-reads");
   append(std::string(kDispatchNames[size_t(variant.dispatch)]));
   if (variant.gpu) append("gpu");

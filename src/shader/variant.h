@@ -36,6 +36,7 @@ struct ShaderVariant {
   bool lensShift = false;
   CameraType camera = CameraType::Perspective;  ///< Perspective stands for orthographic cameras, too
   bool lightPaths = false;     ///< it traces light paths instead of camera paths (shaders/caustics/)
+  bool rayCones = false;       ///< textures are read at the levels that ray cones choose (shaders/cones)
   bool gpu = false;            ///< the text suits the compilers of GPUs, else that of llvmpipe
   bool wavefront = false;      ///< else the megakernel
   int waveUnit = -1;           ///< image unit through which it reads its states; -1: a storage buffer

@@ -101,13 +101,13 @@ class KnownTextures(Case):
         shades = [20 + 30 * i for i in range(len(sizes))]
         images = [png(w, h, [shade, 255 - shade, shade, 255] * (w * h)) for (w, h), shade in zip(sizes, shades)]
         materials = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": i}}} for i in range(len(sizes))]
-        for reads in READS:
-            picture = self.square(reads, images, materials, (-2.3, 3.1), "--stage", "flat", side=32)
+        for reads, kind in ((reads, kind) for reads in READS for kind in ("exact", "cones")):
+            picture = self.square(reads, images, materials, (-2.3, 3.1), "--stage", "flat", "--texture-filter", kind, side=32)
             for i, shade in enumerate(shades):
                 for row in picture:
                     for pixel in row[32 * i:32 * i + 32]:
-                        self.assertLess(abs(pixel[0] - linear(shade / 255)), LARGEST_ERROR[reads], sizes[i])
-                        self.assertLess(abs(pixel[1] - linear(1 - shade / 255)), LARGEST_ERROR[reads], sizes[i])
+                        self.assertLess(abs(pixel[0] - linear(shade / 255)), LARGEST_ERROR[reads], (kind, sizes[i]))
+                        self.assertLess(abs(pixel[1] - linear(1 - shade / 255)), LARGEST_ERROR[reads], (kind, sizes[i]))
 
     def test_each_wrap_and_filter(self):
         texels, light = texture()

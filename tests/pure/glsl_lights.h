@@ -22,6 +22,7 @@ inline bool kNeighbours = false;
 inline bool kTexcoords = false;
 inline bool kAlpha = false;
 inline bool kVertexColors = false;
+inline bool kRayCones = false;
 
 inline layout::Frame frame{};
 inline std::vector<glm::vec4> casters;

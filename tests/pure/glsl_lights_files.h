@@ -18,6 +18,7 @@ inline uvec4 faceRow(int slot, int row) { return readFaces(slot * int(kFaceRows)
 inline vec3 emissionAt(uint material, vec4 /*texcoords*/) {
   return vec3(materialFloats(material, kMaterialEmission));
 }
+inline vec2 coveredAreas;
 inline bool readsSlot(uint /*slot*/) { return false; }
 inline uint materialFlags(uint /*material*/) { return 0u; }
 inline vec4 readColorAt(int /*i*/) { return vec4(1.0f); }

@@ -54,53 +54,77 @@ void expectApart(std::vector<Taken> taken) {
 }
 
 TEST(TexturePlan, AThousandPicturesLieInBuffersOneBehindTheOther) {
-  const TextureRoom room{.words = 1 << 19, .buffers = 8};
-  const Scene scene = sceneWith(randomSizes(1000, 64), 16);
-  const TexturePlan plan = planTextures(scene, baseColors(), room);
-  EXPECT_EQ(plan.shrunk.count, 0u);
-  EXPECT_GT(plan.sizes.size(), 1u);
-  std::vector<Taken> taken;
-  for (size_t i = 0; i < plan.places.size(); ++i) {
-    const TexturePlace& place = plan.places[i];
-    EXPECT_EQ(place.size, glm::ivec2(scene.images[i].width, scene.images[i].height));
-    EXPECT_EQ(place.wide, i % 2 == 1);
-    EXPECT_TRUE(place.isColor);
-    const int64_t words = int64_t(place.size.x) * place.size.y * (place.wide ? 2 : 1);
-    taken.push_back({place.number, place.first, place.first + words});
-    EXPECT_LE(taken.back().end, plan.sizes[place.number]);
+  for (const bool levels : {false, true}) {
+    const TextureRoom room{.words = 1 << 19, .buffers = 9, .levels = levels};
+    const Scene scene = sceneWith(randomSizes(1000, 64), 16);
+    const TexturePlan plan = planTextures(scene, baseColors(), room);
+    EXPECT_EQ(plan.shrunk.count, 0u);
+    EXPECT_GT(plan.sizes.size(), 1u);
+    std::vector<Taken> taken;
+    for (size_t i = 0; i < plan.places.size(); ++i) {
+      const TexturePlace& place = plan.places[i];
+      EXPECT_EQ(place.size, glm::ivec2(scene.images[i].width, scene.images[i].height));
+      EXPECT_EQ(place.wide, i % 2 == 1);
+      EXPECT_TRUE(place.isColor);
+      const int64_t words = int64_t(place.size.x) * place.size.y * (place.wide ? 2 : 1);
+      EXPECT_GE(int64_t(plan.wordsOf(place)), words);
+      EXPECT_LE(double(plan.wordsOf(place)), double(words) * (levels ? 1.344 : 1.0));
+      taken.push_back({place.number, place.first, place.first + int64_t(plan.wordsOf(place))});
+      EXPECT_LE(taken.back().end, plan.sizes[place.number]);
+    }
+    for (const int64_t words : plan.sizes) EXPECT_LE(words, room.words);
+    expectApart(taken);
   }
-  for (const int64_t words : plan.sizes) EXPECT_LE(words, room.words);
-  expectApart(taken);
+}
+
+TEST(TexturePlan, LevelsLieOneBehindTheOther) {
+  std::vector<glm::ivec2> sizes = randomSizes(1000, 3000);
+  sizes.insert(sizes.end(), {{1, 1}, {16384, 16384}, {16384, 1}, {3, 16383}});
+  for (const glm::ivec2 size : sizes) {
+    EXPECT_EQ(std::min(size.x, size.y) >> (levelsOf(size) - 1), 1);
+    for (int level = 0; level < levelsOf(size); ++level) {
+      const glm::ivec2 there = size >> level;
+      EXPECT_LE(texelsBefore(size, level) + size_t(there.x) * size_t(there.y), texelsBefore(size, level + 1))
+          << size.x << " x " << size.y << ", " << level;
+    }
+  }
+}
+
+/// The parts of the rows of a level of layers that pictures of 8 or 16 bits take.
+std::vector<Taken> rowsOf(const TexturePlan& plan, bool wide, int level) {
+  std::vector<Taken> rows;
+  const int64_t side = plan.layerSide >> level;
+  for (const TexturePlace& place : plan.places) {
+    if (place.wide != wide || level >= levelsOf(place.size)) continue;
+    const int64_t x = (place.first & 0xffffu) >> level;
+    const int64_t top = place.first >> 16 >> level;
+    const glm::ivec2 size = place.size >> level;
+    EXPECT_LE(x + size.x, side);
+    EXPECT_LE(top + size.y, side);
+    EXPECT_LT(place.number, plan.sizes[wide ? 1 : 0]);
+    for (int64_t y = top; y < top + size.y; ++y)
+      rows.push_back({place.number, y * side + x, y * side + x + size.x});
+  }
+  return rows;
 }
 
 TEST(TexturePlan, AThousandPicturesLieInLayersWithoutOverlap) {
-  const TextureRoom room{.reads = TexelReads::Arrays, .side = 4096};
   std::vector<glm::ivec2> sizes = randomSizes(1000, 300);
   sizes.emplace_back(4096, 3);
   sizes.emplace_back(4096, 4096);
   const Scene scene = sceneWith(sizes, 16);
-  const TexturePlan plan = planTextures(scene, baseColors(), room);
-  EXPECT_EQ(plan.layerSide, 4096);
   int64_t used = 0;
-  for (const bool wide : {false, true}) {
-    std::vector<Taken> rows;
-    for (const TexturePlace& place : plan.places) {
-      if (place.wide != wide) continue;
-      used += int64_t(place.size.x) * place.size.y;
-      const int64_t x = place.first & 0xffffu;
-      const int64_t top = place.first >> 16;
-      ASSERT_LE(x + place.size.x, plan.layerSide);
-      ASSERT_LE(top + place.size.y, plan.layerSide);
-      ASSERT_LT(place.number, plan.sizes[wide ? 1 : 0]);
-      for (int64_t y = top; y < top + place.size.y; ++y) {
-        const int64_t row = y * plan.layerSide + x;
-        rows.push_back({place.number, row, row + place.size.x});
-      }
-    }
-    expectApart(rows);
+  for (const glm::ivec2 size : sizes) used += int64_t(size.x) * size.y;
+  for (const bool levels : {false, true}) {
+    const TextureRoom room{.reads = TexelReads::Arrays, .side = 4096, .levels = levels};
+    const TexturePlan plan = planTextures(scene, baseColors(), room);
+    EXPECT_EQ(plan.layerSide, 4096);
+    for (const bool wide : {false, true})
+      for (int level = 0; level < (levels ? 13 : 1); ++level) expectApart(rowsOf(plan, wide, level));
+    // Shelves waste little: a layer is filled by two thirds, or where levels ask for steps by a third.
+    EXPECT_LT(int64_t(plan.bytes()),
+              used * (levels ? 8 * 3 : 6 * 3 / 2) + 2 * int64_t(4096) * 4096 * (levels ? 11 : 8));
   }
-  // Shelves waste little: a layer is filled by two thirds.
-  EXPECT_LT(int64_t(plan.bytes()), used * 6 * 3 / 2 + 2 * int64_t(4096) * 4096 * 8);
 }
 
 /// Squares of those sides, each with a picture of its own of 1000 x 1000 texels over the whole square.

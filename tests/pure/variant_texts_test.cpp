@@ -49,7 +49,12 @@ void addEntries(BufferReads reads, std::vector<ShaderVariant>& variants) {
   wavefront.wavefront = true;
   ShaderVariant resumable = full(reads);
   resumable.resumable = true;
-  for (ShaderVariant& v : std::array{full(reads), empty, compute, wavefront, resumable}) {
+  ShaderVariant cones = wavefront;
+  cones.rayCones = true;
+  ShaderVariant conesInArrays = full(reads);
+  conesInArrays.rayCones = conesInArrays.textureArrays = true;
+  for (ShaderVariant& v :
+       std::array{full(reads), empty, compute, wavefront, resumable, cones, conesInArrays}) {
     variants.push_back(v);
     v.gpu = true;
     variants.push_back(v);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <span>
+#include <type_traits>
 
 #include "base/errors.h"
 #include "base/words.h"
@@ -38,10 +40,23 @@ TransferCurve curveOf(TransferCurve ofColor, size_t channel) {
   return channel < 3 ? ofColor : TransferCurve::Linear;
 }
 
+/// The linear values from which on those stored are rounded up to the next one in sRGB.
+template <typename Value>
+const std::vector<float>& bordersOfSrgb() {
+  static const std::vector<float> borders = [] {
+    std::vector<float> values(std::numeric_limits<Value>::max());
+    for (size_t i = 0; i < values.size(); ++i)
+      values[i] = float(decodeSrgb((double(i) + 0.5) / double(values.size())));
+    return values;
+  }();
+  return borders;
+}
+
 template <typename Value>
 Value stored(double linear, TransferCurve curve) {
-  constexpr double kOne = std::numeric_limits<Value>::max();
-  return Value(std::lround((curve == TransferCurve::Srgb ? encodeSrgb(linear) : linear) * kOne));
+  if (curve == TransferCurve::Linear) return Value(std::lround(linear * std::numeric_limits<Value>::max()));
+  const std::vector<float>& borders = bordersOfSrgb<Value>();
+  return Value(std::ranges::upper_bound(borders, float(linear)) - borders.begin());
 }
 
 uint32_t wrapFlags(Wrap wrap, uint32_t clamp, uint32_t mirror) {
@@ -65,37 +80,64 @@ PictureFacts meansOf(std::span<const Value> rgba) {
   return {.meanNumber = meanBy(TransferCurve::Linear), .meanColor = meanBy(TransferCurve::Srgb)};
 }
 
-/// Each texel is the mean of those that it replaces, in linear light, rounded to their bits again.
+/// The texels of a line that one of a shorter line replaces.
+struct Replaced {
+  int begin;
+  int end;
+  int from;  ///< length of the line
+  int to;    ///< length of the shorter one
+  int texel;
+
+  Replaced(int number, int before, int after)
+      : begin(int(int64_t(number) * before / after)),
+        end(int((int64_t(number + 1) * before + after - 1) / after)),
+        from(before),
+        to(after),
+        texel(number) {}
+  /// The part of a texel that is replaced, of `to`; all of them add up to `from`.
+  double partOf(int i) const {
+    const int64_t first = std::max(int64_t(i) * to, int64_t(texel) * from);
+    return double(std::min(int64_t(i + 1) * to, int64_t(texel + 1) * from) - first);
+  }
+};
+
+/// Scales a picture down. Each texel is the mean of the area that it replaces, in linear light, rounded to
+/// its bits again. isCut: alpha weights the colours.
 template <typename Value>
-std::vector<Value> scaled(std::span<const Value> rgba, glm::ivec2 from, glm::ivec2 to, TransferCurve curve) {
-  const auto begin = [](int i, int stored, int drawn) { return int(int64_t(i) * stored / drawn); };
-  std::vector<Value> result;
-  result.reserve(size_t(to.x) * size_t(to.y) * 4);
+void scale(const Value* rgba, glm::ivec2 from, glm::ivec2 to, TransferCurve curve, bool isCut,
+           Value* result) {
+  std::array<const float*, 4> linear{};
+  for (size_t c = 0; c < 4; ++c) linear[c] = linearValues<Value>(curveOf(curve, c)).data();
+  const double area = double(from.x) * double(from.y);
   for (int y = 0; y < to.y; ++y) {
-    const int top = begin(y, from.y, to.y);
-    const int bottom = std::max(begin(y + 1, from.y, to.y), top + 1);
+    const Replaced rows(y, from.y, to.y);
     for (int x = 0; x < to.x; ++x) {
-      const int left = begin(x, from.x, to.x);
-      const int right = std::max(begin(x + 1, from.x, to.x), left + 1);
+      const Replaced columns(x, from.x, to.x);
       glm::dvec4 sum(0.0);
-      for (int v = top; v < bottom; ++v) {
-        for (int u = left; u < right; ++u) {
-          const Value* t = &rgba[(size_t(v) * size_t(from.x) + size_t(u)) * 4];
-          for (size_t c = 0; c < 4; ++c) sum[int(c)] += linearValues<Value>(curveOf(curve, c))[t[c]];
+      glm::dvec3 shown(0.0);
+      for (int v = rows.begin; v < rows.end; ++v) {
+        for (int u = columns.begin; u < columns.end; ++u) {
+          const Value* t = rgba + (size_t(v) * size_t(from.x) + size_t(u)) * 4;
+          const glm::dvec4 texel(linear[0][t[0]], linear[1][t[1]], linear[2][t[2]], linear[3][t[3]]);
+          const glm::dvec4 part = rows.partOf(v) * columns.partOf(u) * texel;
+          sum += part;
+          shown += part.a * glm::dvec3(texel);
         }
       }
-      sum /= double((bottom - top) * (right - left));
-      for (size_t c = 0; c < 4; ++c) result.push_back(stored<Value>(sum[int(c)], curveOf(curve, c)));
+      if (isCut && sum.a > 0.0) sum = glm::dvec4(shown * (area / sum.a), sum.a);
+      for (size_t c = 0; c < 4; ++c) *result++ = stored<Value>(sum[int(c)] / area, curveOf(curve, c));
     }
   }
-  return result;
 }
 
-/// Copies the values as they are in memory.
+/// Fills the levels of a picture behind its texels.
 template <typename Value>
-void copyTo(std::span<const Value> rgba, std::span<uint32_t> words) {
-  std::copy_n(reinterpret_cast<const uint8_t*>(rgba.data()), std::min(rgba.size_bytes(), words.size_bytes()),
-              reinterpret_cast<uint8_t*>(words.data()));
+void addLevels(const TexturePlace& place, Value* rgba) {
+  const auto at = [&](int level) { return rgba + 4 * texelsBefore(place.size, level); };
+  const TransferCurve curve = place.isColor ? TransferCurve::Srgb : TransferCurve::Linear;
+  for (int level = 1; level < levelsOf(place.size); ++level)
+    scale<Value>(at(level - 1), place.size >> (level - 1), place.size >> level, curve, place.isCut,
+                 at(level));
 }
 
 }  // namespace
@@ -115,7 +157,7 @@ TexturePacker::TexturePacker(const Scene& scene, const TexturePlan& plan, std::v
   std::vector<EncodedPicture> encoded;
   for (uint32_t image = 0; image < plan.places.size(); ++image) {
     if (plan.places[image].size.x == 0) continue;
-    pictures_.push_back({.image = image, .wide = plan.places[image].wide});
+    pictures_.push_back({.image = image});
     encoded.push_back({scene.images[image].bytes, nameOf(scene.images[image])});
   }
   std::mutex mutex;
@@ -137,19 +179,22 @@ TexturePacker::TexturePacker(const Scene& scene, const TexturePlan& plan, std::v
 void TexturePacker::take(const TexelImage& texels, const TexelMemory& memory, PackedPicture& picture) {
   const TexturePlace& place = plan_.places[picture.image];
   const glm::ivec2 size(texels.width, texels.height);
-  const size_t count = size_t(place.size.x) * size_t(place.size.y) * (place.wide ? 2 : 1);
-  if (memory.empty()) picture.own.resize(count);
-  const std::span<uint32_t> words(memory.empty() ? picture.own.data() : memory[place.number] + place.first,
-                                  count);
-  picture.words = words;
+  if (memory.empty()) picture.own.resize(plan_.wordsOf(place));
+  uint32_t* words = memory.empty() ? picture.own.data() : memory[place.number] + place.first;
+  picture.words = {words, texelsBefore(place.size, 1) * (place.wide ? 2 : 1)};
   std::visit(
       [&](auto rgba) {
         facts_[picture.image] = meansOf(rgba);
+        auto* values = reinterpret_cast<typename decltype(rgba)::value_type*>(words);
         const TransferCurve curve = place.isColor ? TransferCurve::Srgb : TransferCurve::Linear;
-        std::vector<typename decltype(rgba)::value_type> smaller;
-        if (size != place.size) rgba = smaller = scaled(rgba, size, place.size, curve);
-        copyTo(rgba, words);
-        if (cutsOut_[picture.image]) facts_[picture.image].alpha = alphaPyramidOf(rgba, place.size);
+        if (size == place.size)
+          std::ranges::copy(rgba, values);
+        else
+          scale(rgba.data(), size, place.size, curve, false, values);
+        const std::span<const std::remove_pointer_t<decltype(values)>> drawn =
+            size == place.size ? rgba : std::span(values, 4 * texelsBefore(place.size, 1));
+        if (cutsOut_[picture.image]) facts_[picture.image].alpha = alphaPyramidOf(drawn, place.size);
+        if (plan_.levels) addLevels(place, values);
       },
       texels.rgba);
 }
@@ -219,7 +264,8 @@ glm::vec4 TexturePacker::mean(const TextureRef& ref, TransferCurve curve) const 
   return curve == TransferCurve::Srgb ? facts.meanColor : facts.meanNumber;
 }
 
-glm::vec4 texelOf(const PackedPicture& picture, size_t texel, TransferCurve curve) {
+glm::vec4 texelOf(const PackedPicture& picture, const TexturePlace& place, size_t texel,
+                  TransferCurve curve) {
   const auto valueOf = [&](auto zero) {
     using Value = decltype(zero);
     const auto* rgba = reinterpret_cast<const Value*>(picture.words.data()) + 4 * texel;
@@ -227,7 +273,7 @@ glm::vec4 texelOf(const PackedPicture& picture, size_t texel, TransferCurve curv
     for (size_t c = 0; c < 4; ++c) value[int(c)] = linearValues<Value>(curveOf(curve, c))[rgba[c]];
     return value;
   };
-  return picture.wide ? valueOf(uint16_t{}) : valueOf(uint8_t{});
+  return place.wide ? valueOf(uint16_t{}) : valueOf(uint8_t{});
 }
 
 }  // namespace fragtrace

@@ -52,6 +52,6 @@ class TexturePacker {
 };
 
 /// The linear colour and alpha of a texel of a picture, by its number in the picture.
-glm::vec4 texelOf(const PackedPicture& picture, size_t texel, TransferCurve curve);
+glm::vec4 texelOf(const PackedPicture& picture, const TexturePlace& place, size_t texel, TransferCurve curve);
 
 }  // namespace fragtrace

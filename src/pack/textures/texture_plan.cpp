@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "pack/textures/texel_density.h"
 #include "shader/layout.h"
@@ -23,10 +24,6 @@ glm::ivec2 within(glm::ivec2 size, int side) {
   return glm::max(glm::ivec2(glm::round(glm::dvec2(size) * scale)), glm::ivec2(1));
 }
 
-int64_t wordsOf(const TexturePlace& place) {
-  return int64_t(place.size.x) * place.size.y * (place.wide ? 2 : 1);
-}
-
 bool isUsed(const TexturePlace& place) { return place.size.x > 0; }
 
 /// One picture behind the other. Returns false where the room ends.
@@ -34,7 +31,7 @@ bool placeInBuffers(const TextureRoom& room, TexturePlan& plan) {
   plan.sizes.assign(1, 0);
   for (TexturePlace& place : plan.places) {
     if (!isUsed(place)) continue;
-    const int64_t words = wordsOf(place);
+    const auto words = int64_t(plan.wordsOf(place));
     if (words > room.words) return false;
     if (plan.sizes.back() + words > room.words) plan.sizes.push_back(0);
     if (plan.sizes.size() > room.buffers) return false;
@@ -45,17 +42,21 @@ bool placeInBuffers(const TextureRoom& room, TexturePlan& plan) {
   return true;
 }
 
-/// Pictures of one array texture in shelves, the highest first. Returns the number of layers.
-uint32_t placeInLayers(std::vector<TexturePlace*>& places, int side) {
-  std::ranges::stable_sort(places, [](const TexturePlace* a, const TexturePlace* b) {
-    return std::pair(a->size.y, a->size.x) > std::pair(b->size.y, b->size.x);
+/// Pictures of one array texture in shelves, the highest first. Returns the number of layers. With levels, a
+/// picture lies at multiples of what its last level divides sides by; the largest of these come first.
+uint32_t placeInLayers(std::vector<TexturePlace*>& places, int side, bool levels) {
+  const auto stepOf = [&](const TexturePlace& place) { return levels ? 1 << (levelsOf(place.size) - 1) : 1; };
+  const auto stepped = [](int begin, int step) { return (begin + step - 1) / step * step; };
+  std::ranges::stable_sort(places, [&](const TexturePlace* a, const TexturePlace* b) {
+    return std::tuple(stepOf(*a), a->size.y, a->size.x) > std::tuple(stepOf(*b), b->size.y, b->size.x);
   });
   uint32_t layer = 0;
   glm::ivec2 end{0};
   int shelf = 0;  // its top
   for (TexturePlace* place : places) {
+    end.x = stepped(end.x, stepOf(*place));
     if (end.x + place->size.x > side) {
-      shelf = end.y;
+      shelf = stepped(end.y, stepOf(*place));
       end.x = 0;
     }
     if (shelf + place->size.y > side) {
@@ -79,7 +80,7 @@ bool placeInArrays(const TextureRoom& room, TexturePlan& plan) {
     std::vector<TexturePlace*> places;
     for (TexturePlace& place : plan.places)
       if (isUsed(place) && place.wide == wide) places.push_back(&place);
-    plan.sizes.push_back(placeInLayers(places, plan.layerSide));
+    plan.sizes.push_back(placeInLayers(places, plan.layerSide, plan.levels));
   }
   return std::ranges::max(plan.sizes) <= int64_t(room.layers);
 }
@@ -112,10 +113,30 @@ std::vector<TexturePlace> readPictures(const Scene& scene, const TraitSet& trait
     pictures[index].wide = image.texelBits > 8;
     pictures[index].isColor |= curve == TransferCurve::Srgb;
   });
+  for (const Material& m : scene.materials) {
+    const uint32_t texture = m.baseColorTexture.texture;
+    if (m.alphaMode != AlphaMode::Opaque && m.baseColorTexture.present() &&
+        scene.textures[texture].image != kMissIndex)
+      pictures[scene.textures[texture].image].isCut = true;
+  }
   return pictures;
 }
 
 }  // namespace
+
+int levelsOf(glm::ivec2 size) { return std::bit_width(uint32_t(std::min(size.x, size.y))); }
+
+size_t texelsBefore(glm::ivec2 size, int level) {
+  if (level == 0) return 0;
+  // A level has at most a quarter of the texels of that before it. 11 / 32 is the next above a third that
+  // shifts divide.
+  const size_t texels = size_t(size.x) * size_t(size.y);
+  return texels + (11 * (texels - (texels >> (2 * (level - 1)))) >> 5);
+}
+
+size_t TexturePlan::wordsOf(const TexturePlace& place) const {
+  return texelsBefore(place.size, levels ? levelsOf(place.size) : 1) * (place.wide ? 2 : 1);
+}
 
 size_t TexturePlan::bytes() const {
   const auto sum = [&](auto bytesOf) {
@@ -124,7 +145,8 @@ size_t TexturePlan::bytes() const {
     return bytes;
   };
   if (reads == TexelReads::Words) return sum([](size_t) { return sizeof(uint32_t); });
-  const size_t texels = size_t(layerSide) * size_t(layerSide);
+  size_t texels = 0;
+  for (int side = layerSide; side > 0; side = levels ? side / 2 : 0) texels += size_t(side) * size_t(side);
   return sum([&](size_t array) { return texels * (array == 0 ? 4 : 8); });
 }
 
@@ -151,7 +173,7 @@ void forEachPicture(const Scene& scene, const TraitSet& traits,
 
 TexturePlan planTextures(const Scene& scene, const TraitSet& traits, const TextureRoom& room) {
   const std::vector<TexturePlace> whole = readPictures(scene, traits);
-  TexturePlan plan{.reads = room.reads};
+  TexturePlan plan{.reads = room.reads, .levels = room.levels};
   if (placeWithin(
           whole, [](size_t) { return 1.0; }, room, plan))
     return plan;

@@ -28,6 +28,7 @@ struct TextureRoom {
   int side = kLargestTextureSide;       ///< of a picture
   uint32_t layers = uint32_t(1) << 11;  ///< the most of an array texture
   size_t bytes = size_t(1) << 50;       ///< the most of all
+  bool levels = false;                  ///< pictures have mip levels, which take a third more
 };
 
 /// The place of a picture. An unused picture has no size.
@@ -36,6 +37,7 @@ struct TexturePlace {
   glm::ivec2 size{0};    ///< size on the device
   bool wide = false;     ///< 16 bits a channel, else 8
   bool isColor = false;  ///< some use takes its colours as sRGB
+  bool isCut = false;    ///< its alpha hides parts of its colours
   uint32_t number = 0;   ///< of the buffer or of the layer
   uint32_t first = 0;    ///< the first word of a buffer, or x | y << 16 of a layer
   bool operator==(const TexturePlace&) const = default;
@@ -54,10 +56,21 @@ struct TexturePlan {
   /// Words of each buffer; or the numbers of layers of the two array textures, of 8 and of 16 bits a channel.
   std::vector<int64_t> sizes{};
   int layerSide = 0;
+  bool levels = false;  ///< each picture has all that levelsOf() counts
   ShrunkTextures shrunk{};
 
+  /// The words of a picture.
+  size_t wordsOf(const TexturePlace& place) const;
   size_t bytes() const;
 };
+
+/// The number of levels of a picture with mip levels: the sides are halved, and rounded down, until the
+/// smaller one is a texel.
+int levelsOf(glm::ivec2 size);
+
+/// The texels of a picture before those of a level, which lie one behind the other. Shaders compute the same
+/// (slotAtLevel() of shaders/tune/texels_words.glsl).
+size_t texelsBefore(glm::ivec2 size, int level);
 
 /// The mapped buffers of a plan, into which pictures are written; empty where none is mapped.
 using TexelMemory = std::vector<uint32_t*>;
@@ -65,9 +78,8 @@ using TexelMemory = std::vector<uint32_t*>;
 /// A decoded picture: a word for each texel, or two where it is wide.
 struct PackedPicture {
   uint32_t image = 0;  ///< index of the scene's image
-  bool wide = false;
   std::span<const uint32_t> words{};
-  std::vector<uint32_t> own{};  ///< the words, unless they are in the device's memory already
+  std::vector<uint32_t> own{};  ///< these and the levels, unless they are in the device's memory already
 };
 
 /// The facts of a decoded picture: its mean, as linear colour and alpha, by both curves, and its alpha.

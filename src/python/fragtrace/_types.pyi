@@ -39,6 +39,7 @@ class Keywords(TypedDict, total=False):
     camera_rays: int | None
     rr_depth: int | None
     clamp_indirect: float | None
+    texture_filter: Literal["exact", "cones"] | None
     light_selection: Literal["auto", "tree", "power", "uniform"] | None
     light_reuse: Literal["none", "candidates", "spatial"] | None
     caustics: Literal["auto", "on", "off"] | None
