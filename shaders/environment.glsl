@@ -22,9 +22,7 @@ vec3 environmentDirection(vec2 uv) {
 
 /// Radiance and pdf of a texel, as src/pack/environment_texel.h packs them.
 vec4 environmentTexel(ivec2 p, ivec2 size, int first) {
-  int index = p.y * size.x + p.x;
-  uvec4 row = readEnvironment(first + (index >> 1));
-  uvec2 texel = (index & 1) == 0 ? uvec2(row.x, row.y) : uvec2(row.z, row.w);
+  uvec2 texel = readEnvironmentTexel(2 * first + p.y * size.x + p.x);
   uvec3 digits = uvec3(texel.x & 4095u, (texel.x >> 12u) & 4095u, ((texel.x >> 24u) << 4u) | (texel.y & 15u));
   float unit = uintBitsToFloat((((texel.y >> 4u) & 127u) + 64u) << 23u);
   return vec4(vec3(digits) * unit, uintBitsToFloat((texel.y >> 11u) << 10u));

@@ -59,11 +59,22 @@ std::string readOf(std::string_view name, BufferReads reads, bool counts) {
          value + "; }\n";
 }
 
+/// readEnvironmentTexel(), which reads half a row of the environment. A storage buffer has a second block for
+/// it, so that GPUs read 8 bytes and not 16.
+std::string texelReadOfEnvironment(const ShaderVariant& variant) {
+  const std::string begin = "uvec2 readEnvironmentTexel(int index) { ";
+  if (variant.reads == BufferReads::Ssbo && !variant.countsWork)
+    return "layout(std430, binding = kEnvironmentBinding) readonly restrict buffer EnvironmentTexelBlock { "
+           "uvec2 environmentTexels[]; };\n" +
+           begin + "return environmentTexels[index]; }\n";
+  return begin + "uvec4 row = readEnvironment(index >> 1); return (index & 1) == 0 ? row.xy : row.zw; }\n";
+}
+
 /// The scene buffers and their functions.
 std::string readsText(const ShaderVariant& variant) {
   std::string text;
   for (const std::string_view name : kSceneBuffers) text += readOf(name, variant.reads, variant.countsWork);
-  return text;
+  return text + texelReadOfEnvironment(variant);
 }
 
 /// The buffers of texels, readTexelWord(), and srgbValue() (shaders/tune/texels_words.glsl).

@@ -7,6 +7,10 @@ inline uvec4 readMaterials(int index) { return rowOf(glsl_variant::materials, in
 inline uvec4 readEmitters(int index) { return rowOf(glsl_variant::emitters, index); }
 inline uvec4 readLights(int index) { return rowOf(glsl_variant::lights, index); }
 inline uvec4 readEnvironment(int index) { return rowOf(glsl_variant::environment, index); }
+inline uvec2 readEnvironmentTexel(int index) {
+  const uvec4 row = readEnvironment(index >> 1);
+  return (index & 1) == 0 ? uvec2(row.x, row.y) : uvec2(row.z, row.w);
+}
 inline uvec4 readEnvironmentInversion(int index) { return rowOf(glsl_variant::environmentInversion, index); }
 
 // These functions are those of material.glsl and surface.glsl; the tests' emission has no textures.
