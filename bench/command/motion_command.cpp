@@ -171,6 +171,7 @@ class References {
  private:
   void load(const RenderOptions& options) {
     shown_ = options_.render;
+    shown_.sampling.textureFilter = TextureFilter::Exact;
     shown_.light.sky = options.light.sky;
     shown_.selection = options.selection;
     shown_.output.denoise = Denoise::None;

@@ -23,7 +23,7 @@ struct ArraySize {
     if (filled == 0) return;
     side = plan.layerSide;
     layers = GLsizei(filled);
-    if (plan.levels) levels = levelsOf({side, side});
+    if (plan.levels != MipLevels::None) levels = levelsOf({side, side});
   }
 };
 
@@ -46,7 +46,7 @@ GlTexture colorView(const GlTexture& numbers, const ArraySize& size) {
 void upload(const GlTexture& array, const TexturePlan& plan, const PackedPicture& picture) {
   const TexturePlace& place = plan.places[picture.image];
   const glm::ivec2 corner(place.first & 0xffffu, place.first >> 16);
-  for (int level = 0; level < (plan.levels ? levelsOf(place.size) : 1); ++level) {
+  for (int level = 0; level < (plan.levels == MipLevels::None ? 1 : levelsOf(place.size)); ++level) {
     const glm::ivec2 at = corner >> level, size = place.size >> level;
     const uint32_t* words = picture.own.data() + texelsBefore(place.size, level) * (place.wide ? 2 : 1);
     glTextureSubImage3D(array.name(), level, at.x, at.y, GLint(place.number), size.x, size.y, 1, GL_RGBA,
@@ -59,7 +59,8 @@ void upload(const GlTexture& array, const TexturePlan& plan, const PackedPicture
 TextureRoom textureRoom(const RenderOptions& options, const Context& context) {
   const TextureReads wanted = options.device.textureReads;
   const bool arrays = wanted == TextureReads::Auto ? !context.software : wanted == TextureReads::Arrays;
-  TextureRoom room{.levels = options.sampling.textureFilter == TextureFilter::Cones};
+  TextureRoom room;
+  if (options.sampling.textureFilter == TextureFilter::Cones) room.levels = MipLevels::Made;
   if (arrays) {
     room.reads = TexelReads::Arrays;
     room.side = int(driverLimit(GL_MAX_TEXTURE_SIZE));
@@ -77,14 +78,16 @@ TextureRoom textureRoom(const RenderOptions& options, const Context& context) {
 }
 
 void SceneTextures::makeBuffers(const TexturePlan& plan) {
-  constexpr GLbitfield kAccess = GL_MAP_READ_BIT | GL_MAP_WRITE_BIT;
+  staysMapped_ = plan.levels == MipLevels::Later;
+  const GLbitfield access =
+      GL_MAP_READ_BIT | GL_MAP_WRITE_BIT | (staysMapped_ ? GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT : 0u);
   for (const int64_t words : plan.sizes) {
     const auto bytes = GLsizeiptr(std::max<int64_t>(words, 1) * int64_t(sizeof(uint32_t)));
     GlBuffer& buffer = buffers_.emplace_back(makeBuffer());
-    glNamedBufferStorage(buffer.name(), bytes, nullptr, kAccess);
+    glNamedBufferStorage(buffer.name(), bytes, nullptr, access);
     const GlTexture& view = textures_.emplace_back(makeTexture(GL_TEXTURE_BUFFER));
     glTextureBuffer(view.name(), GL_R32UI, buffer.name());
-    memory_.push_back(static_cast<uint32_t*>(glMapNamedBufferRange(buffer.name(), 0, bytes, kAccess)));
+    memory_.push_back(static_cast<uint32_t*>(glMapNamedBufferRange(buffer.name(), 0, bytes, access)));
   }
 }
 
@@ -122,9 +125,11 @@ void SceneTextures::replace(GpuScene& scene) {
       std::ranges::copy(picture.own, memory_[place.number] + place.first);
     picture = {};
   }
-  for (const GlBuffer& buffer : buffers_) glUnmapNamedBuffer(buffer.name());
-  memory_.clear();
   isPrepared_ = false;
+  if (!staysMapped_) {
+    for (const GlBuffer& buffer : buffers_) glUnmapNamedBuffer(buffer.name());
+    memory_.clear();
+  }
   checkGl("uploading textures");
 }
 

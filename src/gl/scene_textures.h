@@ -22,6 +22,8 @@ class SceneTextures {
   /// Takes the pictures of the scene, into the room that was prepared, or else into room of its own. Frees
   /// them. Without pictures it stays as it is. Throws the same.
   void replace(GpuScene& scene);
+  /// The mapped buffers, where levels are filled later: they stay mapped while they are read.
+  const TexelMemory& memory() const { return memory_; }
   void bind() const;
 
  private:
@@ -30,7 +32,8 @@ class SceneTextures {
 
   TexelReads reads_ = TexelReads::Words;
   bool isPrepared_ = false;
-  TexelMemory memory_;  ///< the buffers, while they are prepared
+  bool staysMapped_ = false;
+  TexelMemory memory_;  ///< the mapped buffers
   std::vector<GlBuffer> buffers_;
   std::vector<GlTexture> textures_;  ///< views of the buffers; or numbers, colours and wide texels
 };

@@ -106,8 +106,8 @@ Renewal Session::set(const RenderOptions& options, Device& device, Statistics& s
     tracer_.reset();
     stats.skipped.clear();
     const bool hashes = alwaysHashes_ || keepsCheckpoint(options) || holdsLayers(options);
-    tracer_ =
-        makeTracer(*device.context, *loaded_, options, stats, hashes, std::exchange(device.programs, {}));
+    tracer_ = makeTracer(*device.context, *loaded_, options, stats, {.hash = hashes},
+                         std::exchange(device.programs, {}));
   }
   prepared_ = stats;
   return renewal;

@@ -252,6 +252,13 @@ void settleVariants(Tracer& tracer, const LoadedScene& loaded, const GpuScene& p
     aov.dispatch = chooseDispatch(options.device.dispatch, context, false);
     aov.gpu = isForGpu(options.device.tune, context);
   }
+  tracer.cones.clear();
+  if (tracer.textures.levels == MipLevels::Later && readsTextures(tracer.variant.traits) &&
+      tracer.variant.traversal != TraversalMethod::Literals) {
+    tracer.cones = tracer.aovs;
+    tracer.cones.insert(tracer.cones.begin(), tracer.variant);
+    for (ShaderVariant& variant : tracer.cones) variant.rayCones = readsTextures(variant.traits);
+  }
   stats.variant = variantName(tracer.variant);
   stats.countsWork = tracer.variant.countsWork;
 }
@@ -269,11 +276,18 @@ void warnOfShrunk(const ShrunkTextures& shrunk, const RenderOptions& options, St
 /// so on. Returns where they are to be written.
 TexelMemory prepareTextures(Tracer& tracer, const LoadedScene& loaded, const ShaderVariant& everything,
                             const RenderOptions& options, const Context& context, SceneTextures& textures,
-                            Statistics& stats) {
+                            bool later, Statistics& stats) {
   constexpr size_t kLeastBytes = size_t(16) << 20;  // that are worth another try
   TextureRoom room = textureRoom(options, context);
+  if (later && room.levels == MipLevels::None && room.reads == TexelReads::Words)
+    room.levels = MipLevels::Later;
   for (;; room.bytes = tracer.textures.bytes() / 2) {
     tracer.textures = planTextures(loaded.scene, everything.traits, room);
+    if (room.levels == MipLevels::Later && tracer.textures.shrunk.count > 0) {
+      // Level 0 has more detail.
+      room.levels = MipLevels::None;
+      tracer.textures = planTextures(loaded.scene, everything.traits, room);
+    }
     if (tracer.textures.bytes() == 0) return {};
     try {
       TexelMemory memory = textures.prepare(tracer.textures);
@@ -330,16 +344,18 @@ std::optional<Phase> buildAhead(ProgramCache& programs, ShaderVariant variant, c
 
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
                   Statistics& stats, std::optional<ProgramCache> programs) {
-  return makeTracer(context, loaded, options, stats, keepsCheckpoint(options) || holdsLayers(options),
+  return makeTracer(context, loaded, options, stats,
+                    TracerExtras{.hash = keepsCheckpoint(options) || holdsLayers(options)},
                     std::move(programs));
 }
 
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
-                  Statistics& stats, bool withHash, std::optional<ProgramCache> before) {
+                  Statistics& stats, TracerExtras extras, std::optional<ProgramCache> before) {
   Tracer tracer;
   const ShaderVariant everything = chooseVariants(tracer, loaded, options, stats);
   SceneTextures textures;
-  const TexelMemory memory = prepareTextures(tracer, loaded, everything, options, context, textures, stats);
+  const TexelMemory memory =
+      prepareTextures(tracer, loaded, everything, options, context, textures, extras.levels, stats);
   ProgramCache programs =
       before ? std::move(*before) : ProgramCache(shaderSource(options.device.shaderFolder));
   Phase packing;  // outlives the thread that sets it
@@ -355,7 +371,7 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   GpuScene packed = packedLater.get();
   sayBroken(options, packed, stats);
   describe(stats, context, packed, packing);
-  if (withHash) tracer.sceneHash = sceneHash(packed, tracer.arrayHashes);
+  if (extras.hash) tracer.sceneHash = sceneHash(packed, tracer.arrayHashes);
   const ReadChoice choice = chooseReads(options.device.bufferReads, context.software, packed, readLimits());
   tracer.reads = choice.reads;
   stats.readFallback = choice.fallback;
@@ -379,8 +395,8 @@ void replaceScene(Tracer& tracer, const Context& context, const LoadedScene& loa
   PhaseTimer timer("pack");
   TexelMemory memory;
   if (!holdsTextures(tracer.textures, loaded.scene, everything.traits))
-    memory =
-        prepareTextures(tracer, loaded, everything, options, context, tracer.renderer->textures(), stats);
+    memory = prepareTextures(tracer, loaded, everything, options, context, tracer.renderer->textures(),
+                             tracer.textures.levels == MipLevels::Later, stats);
   tracer.kept.geometry = surfacesAlone;
   GpuScene packed = packScene(loaded.scene, loaded.bvh, loaded.environment, everything, tracer.textures,
                               &tracer.kept, loaded.decoding, memory);

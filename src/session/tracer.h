@@ -18,6 +18,8 @@ using ArrayHashes = std::array<uint64_t, layout::kSceneBufferCount + 1>;
 struct Tracer {
   ShaderVariant variant;
   std::vector<ShaderVariant> aovs;  ///< the layers' variants, in the order of options.aovs
+  /// The same variants by ray cones, that of the picture first; none unless levels have room.
+  std::vector<ShaderVariant> cones;
   std::unique_ptr<Renderer> renderer;
   double programMs = 0.0;     ///< time to build the variant's program
   uint64_t sceneHash = 0;     ///< hash of all that was uploaded; only for .exr and checkpoints, which keep it
@@ -38,10 +40,16 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
 /// Reads texels in a variant from where the plan places them.
 void useTextures(const TexturePlan& textures, ShaderVariant& variant);
 
+/// What a tracer has beside what its pictures need.
+struct TracerExtras {
+  bool hash = false;
+  bool levels = false;  ///< room for mip levels, which addLevels() fills later, if texels are read as words
+};
+
 /// Packs and uploads what the variants need; by default with the hash where the options' output keeps it.
 /// `programs` may be built already, from the same shader folder. Throws InputError, RenderError.
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
-                  Statistics& stats, bool withHash, std::optional<ProgramCache> programs = {});
+                  Statistics& stats, TracerExtras extras, std::optional<ProgramCache> programs = {});
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
                   Statistics& stats, std::optional<ProgramCache> programs = {});
 

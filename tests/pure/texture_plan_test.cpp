@@ -55,7 +55,8 @@ void expectApart(std::vector<Taken> taken) {
 
 TEST(TexturePlan, AThousandPicturesLieInBuffersOneBehindTheOther) {
   for (const bool levels : {false, true}) {
-    const TextureRoom room{.words = 1 << 19, .buffers = 9, .levels = levels};
+    const TextureRoom room{
+        .words = 1 << 19, .buffers = 9, .levels = levels ? MipLevels::Made : MipLevels::None};
     const Scene scene = sceneWith(randomSizes(1000, 64), 16);
     const TexturePlan plan = planTextures(scene, baseColors(), room);
     EXPECT_EQ(plan.shrunk.count, 0u);
@@ -116,7 +117,8 @@ TEST(TexturePlan, AThousandPicturesLieInLayersWithoutOverlap) {
   int64_t used = 0;
   for (const glm::ivec2 size : sizes) used += int64_t(size.x) * size.y;
   for (const bool levels : {false, true}) {
-    const TextureRoom room{.reads = TexelReads::Arrays, .side = 4096, .levels = levels};
+    const TextureRoom room{
+        .reads = TexelReads::Arrays, .side = 4096, .levels = levels ? MipLevels::Made : MipLevels::None};
     const TexturePlan plan = planTextures(scene, baseColors(), room);
     EXPECT_EQ(plan.layerSide, 4096);
     for (const bool wide : {false, true})

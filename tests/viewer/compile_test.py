@@ -81,6 +81,26 @@ class Compiles(Case):
         self.assertTrue(pixels_of(written) != pixels_of(self.render("vitrine", *SIZE, "--sky")), "the sun has moved")
         self.ends_well(viewer, viewer.close())
 
+    def test_a_moving_picture_reads_textures_by_cones_and_a_resting_one_does_not(self):
+        options = (*SIZE, "--traversal", "front-to-back")
+        viewer = self.view("mapped-plane", *options, environment=self.screen.environment)
+        moves_by_cones = lambda s: "ray-cones" in s["sides"][0]["variant"]
+        def moves():
+            """Moves the mouse while a button is held."""
+            self.place = 300 - self.place
+            viewer.at(self.place, 100)
+            return moves_by_cones(viewer.status())
+        self.place = 100
+        viewer.at(self.place, 100)
+        viewer.xdotool("mousedown", 1)
+        viewer.wait(moves, 60, "a picture by cones")
+        viewer.xdotool("mouseup", 1)
+        self.assertFalse(moves_by_cones(viewer.rest(lambda s: not moves_by_cones(s), "without cones")))
+        viewer.key("Return")
+        viewer.rest()
+        self.same(pixels_of(viewer.press_for_file("F12", ".png")), pixels_of(self.render("mapped-plane", *options)))
+        self.ends_well(viewer, viewer.close())
+
     def test_it_ends_while_it_compiles(self):
         viewer = self.start()
         viewer.until(lambda s: s["state"] == "compiling" and s["pictures"] > 0, "compiling")

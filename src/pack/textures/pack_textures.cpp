@@ -194,7 +194,7 @@ void TexturePacker::take(const TexelImage& texels, const TexelMemory& memory, Pa
         const std::span<const std::remove_pointer_t<decltype(values)>> drawn =
             size == place.size ? rgba : std::span(values, 4 * texelsBefore(place.size, 1));
         if (cutsOut_[picture.image]) facts_[picture.image].alpha = alphaPyramidOf(drawn, place.size);
-        if (plan_.levels) addLevels(place, values);
+        if (plan_.levels == MipLevels::Made) addLevels(place, values);
       },
       texels.rgba);
 }
@@ -262,6 +262,17 @@ glm::vec4 TexturePacker::mean(const TextureRef& ref, TransferCurve curve) const 
   if (!ref.present() || scene_.textures[ref.texture].image == kMissIndex) return glm::vec4(1.0f);
   const PictureFacts& facts = facts_[scene_.textures[ref.texture].image];
   return curve == TransferCurve::Srgb ? facts.meanColor : facts.meanNumber;
+}
+
+void addLevels(const TexturePlan& plan, const TexelMemory& memory) {
+  for (const TexturePlace& place : plan.places) {
+    if (place.size.x == 0) continue;
+    uint32_t* words = memory[place.number] + place.first;
+    if (place.wide)
+      addLevels(place, reinterpret_cast<uint16_t*>(words));
+    else
+      addLevels(place, reinterpret_cast<uint8_t*>(words));
+  }
 }
 
 glm::vec4 texelOf(const PackedPicture& picture, const TexturePlace& place, size_t texel,

@@ -51,6 +51,9 @@ class TexturePacker {
   std::vector<TextureTransform> transforms_;
 };
 
+/// Fills the levels of the pictures of a plan, which are in this memory already.
+void addLevels(const TexturePlan& plan, const TexelMemory& memory);
+
 /// The linear colour and alpha of a texel of a picture, by its number in the picture.
 glm::vec4 texelOf(const PackedPicture& picture, const TexturePlace& place, size_t texel, TransferCurve curve);
 

@@ -80,7 +80,7 @@ bool placeInArrays(const TextureRoom& room, TexturePlan& plan) {
     std::vector<TexturePlace*> places;
     for (TexturePlace& place : plan.places)
       if (isUsed(place) && place.wide == wide) places.push_back(&place);
-    plan.sizes.push_back(placeInLayers(places, plan.layerSide, plan.levels));
+    plan.sizes.push_back(placeInLayers(places, plan.layerSide, plan.levels != MipLevels::None));
   }
   return std::ranges::max(plan.sizes) <= int64_t(room.layers);
 }
@@ -135,7 +135,8 @@ size_t texelsBefore(glm::ivec2 size, int level) {
 }
 
 size_t TexturePlan::wordsOf(const TexturePlace& place) const {
-  return texelsBefore(place.size, levels ? levelsOf(place.size) : 1) * (place.wide ? 2 : 1);
+  return texelsBefore(place.size, levels == MipLevels::None ? 1 : levelsOf(place.size)) *
+         (place.wide ? 2 : 1);
 }
 
 size_t TexturePlan::bytes() const {
@@ -146,7 +147,8 @@ size_t TexturePlan::bytes() const {
   };
   if (reads == TexelReads::Words) return sum([](size_t) { return sizeof(uint32_t); });
   size_t texels = 0;
-  for (int side = layerSide; side > 0; side = levels ? side / 2 : 0) texels += size_t(side) * size_t(side);
+  for (int side = layerSide; side > 0; side = levels == MipLevels::None ? 0 : side / 2)
+    texels += size_t(side) * size_t(side);
   return sum([&](size_t array) { return texels * (array == 0 ? 4 : 8); });
 }
 

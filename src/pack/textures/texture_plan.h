@@ -20,6 +20,9 @@ namespace fragtrace {
 /// layers of array textures (texels_arrays.glsl).
 enum class TexelReads : uint8_t { Words, Arrays };
 
+/// The mip levels of pictures: made while they are decoded, or given room, for addLevels() to fill later.
+enum class MipLevels : uint8_t { None, Made, Later };
+
 /// The room that a driver has for texels. By default it is endless, in words.
 struct TextureRoom {
   TexelReads reads = TexelReads::Words;
@@ -28,7 +31,7 @@ struct TextureRoom {
   int side = kLargestTextureSide;       ///< of a picture
   uint32_t layers = uint32_t(1) << 11;  ///< the most of an array texture
   size_t bytes = size_t(1) << 50;       ///< the most of all
-  bool levels = false;                  ///< pictures have mip levels, which take a third more
+  MipLevels levels = MipLevels::None;   ///< they take a third more
 };
 
 /// The place of a picture. An unused picture has no size.
@@ -56,7 +59,7 @@ struct TexturePlan {
   /// Words of each buffer; or the numbers of layers of the two array textures, of 8 and of 16 bits a channel.
   std::vector<int64_t> sizes{};
   int layerSide = 0;
-  bool levels = false;  ///< each picture has all that levelsOf() counts
+  MipLevels levels = MipLevels::None;  ///< each picture has all that levelsOf() counts, or none
   ShrunkTextures shrunk{};
 
   /// The words of a picture.

@@ -92,13 +92,13 @@ void PictureMaker::prepareFilter() {
   seen_.show(raw, *filter, 1.0, Behind::Background, kCompiledFor, into.texture, passes_);
 }
 
-bool PictureMaker::drawGuides(int samples, glm::ivec2 size, Tracer& tracer, const View& view,
+bool PictureMaker::drawGuides(const Showing& showing, glm::ivec2 size, Tracer& tracer, const View& view,
                               SideMemory& memory, const std::function<bool()>& goOn) {
-  const int wanted = std::min(samples, kFewLayerSamples);
+  const int wanted = std::min(showing.samples, kFewLayerSamples);
   if (memory.guideSamples >= kFewLayerSamples ||
       (memory.guideSamples > 0 && wanted < kGuideStep * memory.guideSamples))
     return true;
-  const ShaderVariant& variant = tracer.aovs.front();
+  const ShaderVariant& variant = showing.cones ? tracer.cones[1] : tracer.aovs.front();
   if (!memory.guides)
     memory.guides.emplace(size);
   else if (memory.guideSamples == 0)
@@ -148,7 +148,7 @@ bool PictureMaker::show(const Film& film, const Showing& showing, const RenderOp
     return true;
   }
   if (grows(room_, size)) raw_ = makePictureTexture(GL_RGBA32F, room_);
-  if (!drawGuides(showing.samples, size, tracer, view, memory, goOn)) return false;
+  if (!drawGuides(showing, size, tracer, view, memory, goOn)) return false;
   clock_.end(Pass::Guides);
   SeenPicture& present = memory.present;
   makeRoom(present.noisy, size);

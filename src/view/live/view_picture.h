@@ -47,6 +47,7 @@ struct Showing {
   bool byOidn = false;      ///< Open Image Denoise filters, and must be there; else the variance filter
   int samples = 0;          ///< per pixel
   bool past = true;         ///< uses the picture of the view before
+  bool cones = false;       ///< guides read textures by ray cones, as the film's samples did
   double expectedMs = 0.0;  ///< time of layers and variance filter, 0: not known
 };
 
@@ -75,8 +76,8 @@ class PictureMaker {
   glm::vec3 count(const Film& film);
 
  private:
-  bool drawGuides(int samples, glm::ivec2 size, Tracer& tracer, const View& view, SideMemory& memory,
-                  const std::function<bool()>& goOn);
+  bool drawGuides(const Showing& showing, glm::ivec2 size, Tracer& tracer, const View& view,
+                  SideMemory& memory, const std::function<bool()>& goOn);
   const GlTexture* filtered(const Showing& showing, const RenderOptions& options, const SeenPicture& present,
                             const std::function<bool()>& goOn);
 

@@ -8,6 +8,7 @@
 #include "gl/debug_log.h"
 #include "gl/gl.h"
 #include "options/option_row.h"
+#include "pack/textures/pack_textures.h"
 #include "session/picture/denoising.h"
 
 namespace fragtrace {
@@ -51,6 +52,8 @@ void compileAll(ViewProgram& program, const View& view) {
   try {
     Film tiny(kCompiledFor);
     for (const ShaderVariant& aov : tracer.aovs) tracer.renderer->compile(aov, tiny, view);
+    if (program.asksForCones)
+      for (const ShaderVariant& cones : tracer.cones) tracer.renderer->compile(cones, tiny, view);
     tracer.renderer->compile(tracer.variant, tiny, view);
   } catch (const ContextLost&) {
     throw;
@@ -101,14 +104,27 @@ std::shared_ptr<ViewProgram> ViewPrograms::soon(const RenderOptions& options) {
   const RenderOptions part = programPart(options);
   if (!aside_ || has(options) || !sameTree(treeOptions_, part)) return of(options);
   if (compiling()) return nullptr;
-  std::packaged_task<std::shared_ptr<ViewProgram>()> task([this, part] { return makeAside(part); });
+  startAside([this, part] { return makeAside(part); });
+  return nullptr;
+}
+
+void ViewPrograms::addCones(const std::shared_ptr<ViewProgram>& program) {
+  if (!aside_ || compiling() || program->asksForCones || program->tracer.cones.empty()) return;
+  program->asksForCones = true;
+  startAside([this, program] {
+    runIn(aside_->context, [&] { makeCones(*program); });
+    return program;
+  });
+}
+
+void ViewPrograms::startAside(std::function<std::shared_ptr<ViewProgram>()> make) {
+  std::packaged_task<std::shared_ptr<ViewProgram>()> task(std::move(make));
   coming_ = task.get_future();
   compiler_ = std::jthread([task = std::move(task), came = aside_->came]() mutable {
     nameThread("compile");
     task();
     came();
   });
-  return nullptr;
 }
 
 bool ViewPrograms::takeNews() {
@@ -122,6 +138,7 @@ void ViewPrograms::waitForCompiler() {
   news_ = true;
   const std::shared_ptr<ViewProgram> program = coming_.get();
   compileAll(*program, loaded_.view);
+  if (program->asksForCones) program->hasCones = program->error.empty();
   keep(program);
 }
 
@@ -131,6 +148,7 @@ void ViewPrograms::forget() {
 }
 
 void ViewPrograms::keep(std::shared_ptr<ViewProgram> program) {
+  programs_.remove(program);
   programs_.push_front(std::move(program));
   size_t bytes = 0;
   size_t count = 0;
@@ -174,6 +192,7 @@ void ViewPrograms::showSurfaces(const SceneSelection& selection) {
 
 void ViewPrograms::replace(ViewProgram& program, bool surfacesAlone) const {
   Statistics stats;
+  const std::vector<TexturePlace> places = program.tracer.textures.places;
   replaceScene(program.tracer, context_, loaded_, program.options, stats, surfacesAlone);
   program.variant = stats.variant;
   if (!surfacesAlone) program.bytes = stats.sceneBytes;
@@ -184,6 +203,10 @@ void ViewPrograms::replace(ViewProgram& program, bool surfacesAlone) const {
     renderer.use(program.tracer.variant);
   else
     renderer.compile(program.tracer.variant, tiny, loaded_.view);
+  const std::vector<ShaderVariant>& cones = program.tracer.cones;
+  const bool keepsCones = !cones.empty() && places == program.tracer.textures.places &&
+                          std::ranges::all_of(cones, [&](const auto& v) { return renderer.knows(v); });
+  if (!keepsCones) program.asksForCones = program.hasCones = false;
 }
 
 void ViewPrograms::showSurroundings() {
@@ -206,13 +229,28 @@ std::shared_ptr<ViewProgram> ViewPrograms::makeAside(const RenderOptions& part) 
   return program;
 }
 
+/// Fills the levels, and compiles the variants for the driver's cache: an empty scene will do.
+void ViewPrograms::makeCones(const ViewProgram& program) const {
+  const Tracer& tracer = program.tracer;
+  addLevels(tracer.textures, tracer.renderer->textures().memory());
+  Renderer renderer(context_, GpuScene{}, tracer.reads, program.options.device.shaderFolder);
+  Film tiny(kCompiledFor);
+  try {
+    for (const ShaderVariant& cones : tracer.cones) renderer.compile(cones, tiny, loaded_.view);
+  } catch (const ContextLost&) {
+    throw;
+  } catch (const RenderError&) {
+    return;  // the context that draws says so
+  }
+}
+
 std::shared_ptr<ViewProgram> ViewPrograms::make(const RenderOptions& part) const {
   auto program = std::make_shared<ViewProgram>();
   program->options = part;
   const auto fail = [&](const std::exception& error) { program->error = error.what(); };
   try {
     Statistics stats;
-    program->tracer = makeTracer(context_, loaded_, part, stats, true);
+    program->tracer = makeTracer(context_, loaded_, part, stats, {.hash = true, .levels = true});
     program->variant = stats.variant;
     program->bytes = stats.sceneBytes;
     Film tiny(kCompiledFor);

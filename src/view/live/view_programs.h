@@ -19,6 +19,8 @@ struct ViewProgram {
   RenderOptions options;  ///< the options on which a program depends
   Tracer tracer;
   std::string variant;
+  bool asksForCones = false;           ///< levels and the programs of Tracer::cones are made, or were
+  bool hasCones = false;               ///< they are there
   size_t bytes = 0;                    ///< on the device
   std::string error;                   ///< why it cannot be had; empty: it can
   std::vector<std::string> driverLog;  ///< messages of the context that compiled it, if that was another one
@@ -45,6 +47,9 @@ class ViewPrograms {
   /// Returns the same as of(), but null if the program compiles in the background. That begins now unless
   /// another one does.
   std::shared_ptr<ViewProgram> soon(const RenderOptions& options);
+  /// Begins to make what a moving picture of the program needs to read textures by ray cones, beside other
+  /// drawing. Does nothing while another program compiles.
+  void addCones(const std::shared_ptr<ViewProgram>& program);
   /// Returns true if a program that was compiled aside has come since the last call.
   bool takeNews();
   bool compiling() const { return coming_.valid(); }
@@ -66,6 +71,8 @@ class ViewPrograms {
  private:
   std::shared_ptr<ViewProgram> make(const RenderOptions& part) const;
   std::shared_ptr<ViewProgram> makeAside(const RenderOptions& part) const;
+  void startAside(std::function<std::shared_ptr<ViewProgram>()> make);
+  void makeCones(const ViewProgram& program) const;
   void keep(std::shared_ptr<ViewProgram> program);
   void replace(ViewProgram& program, bool surfacesAlone) const;
   void refuseWhileCompiling() const;

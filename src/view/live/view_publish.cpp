@@ -92,7 +92,7 @@ bool ViewTracer::show(Side& side, bool past, const std::function<bool()>& goOn) 
   const double pixels = double(side.film->size().x) * side.film->size().y;
   const bool byOidn = denoisesByOidn(side);
   const double expectedMs = filtered && !byOidn ? filterMsPerPixel_ * pixels : 0.0;
-  const Showing showing{filtered, byOidn, side.samples, past, expectedMs};
+  const Showing showing{filtered, byOidn, side.samples, past, drawsCones(side), expectedMs};
   bool complete = false;
   try {
     complete = maker_->show(*side.film, showing, side.options, tracer, side.view, side.memory, into, goOn);
@@ -160,7 +160,7 @@ std::optional<TracedPicture> ViewTracer::pictureOf(Side& side) {
     s.filterMs = side.filterMs;
   }
   s.resting = isStill() && !side.awaited && resting(side);
-  s.variant = side.program->variant;
+  s.variant = drawsCones(side) ? variantName(side.program->tracer.cones.front()) : side.program->variant;
   s.deviceBytes = side.program->bytes + size_t(size.x) * size_t(size.y) * bytesPerPixel(side.memory);
   s.copied = !shares_;
   s.passes = clock_.take();

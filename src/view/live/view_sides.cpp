@@ -50,10 +50,12 @@ void ViewTracer::setSide(Side& side, const RenderOptions& asked) {
   const bool same = side.program && side.program == program && drawsTheSame(side.options, options);
   const bool otherLook = side.options.output.treeLevel != options.output.treeLevel ||
                          side.options.output.denoise != options.output.denoise;
-  if (differInCameraAlone(side.options, options))
+  if (differInCameraAlone(side.options, options)) {
     side.memory.turn();
-  else if (!same)
+    if (!side.awaited) programs_->addCones(program);
+  } else if (!same) {
     side.memory.forget();
+  }
   side.options = options;
   if (same && otherLook && !side.stale && side.samples > 0) publish(side);
   if (same) return;

@@ -54,6 +54,7 @@ class ViewTracer {
     std::optional<RenderOptions> awaited;  ///< options to draw once their program is compiled
     bool previews = false;                 ///< draws in Blinn-Phong until then
     bool guessesLightPaths = false;        ///< the film's View::pixelsPerPath was not measured
+    bool byCones = false;                  ///< the film's samples read textures by ray cones
     std::unique_ptr<Film> film;
     View view;
     int samples = 0;
@@ -107,6 +108,8 @@ class ViewTracer {
   void noteAnswered();
   /// A film of the size that is drawn at now; empty, if it was of another.
   void fitFilm(Side& side);
+  /// Returns true if the side's film reads textures by ray cones.
+  static bool drawsCones(const Side& side);
   bool resting(const Side& side) const;
   /// Returns true if nothing moves and the resolution is the full one.
   bool isStill() const;

@@ -30,12 +30,14 @@ void ViewTracer::fitFilm(Side& side) {
   const glm::ivec2 size = sizeAtStep(request_.size, resolution_.step);
   side.view.firstInMiddle = resolution_.step > 0;
   const bool fits = side.film && side.film->size() == size;
-  if (fits && !side.stale && !(side.guessesLightPaths && isStill())) return;
+  const bool wasMoving = side.guessesLightPaths || side.byCones;
+  if (fits && !side.stale && !(wasMoving && isStill())) return;
   // A moving picture does not wait to see if it needs light paths: it does as the one before.
   side.guessesLightPaths = !isStill() && side.program->tracer.renderer->weighsLightPaths(side.view);
   const int before = side.film ? side.film->pixelsPerPath() : 0;
   side.view.pixelsPerPath = !side.guessesLightPaths ? 0 : before > 0 ? before : kPixelsPerPath;
-  if (!fits) side.memory.turn();
+  if (!fits || side.byCones) side.memory.turn();
+  side.byCones = !isStill() && side.program->hasCones;
   side.shownAt = 0;
   if (side.film)
     side.film->restart(size);
@@ -47,6 +49,8 @@ void ViewTracer::fitFilm(Side& side) {
   side.error = -1.0;
   side.errorAt = 0;
 }
+
+bool ViewTracer::drawsCones(const Side& side) { return side.byCones && side.program->hasCones; }
 
 bool ViewTracer::resting(const Side& side) const {
   if (!side.program) return true;
@@ -70,6 +74,8 @@ bool ViewTracer::draw(Side& side) {
   int count = isStill() ? int(std::clamp(affordable, 1.0, double(most))) : 1;
   const double before = side.times.renderMs;
   clock_.restart();
+  const Tracer& tracer = side.program->tracer;
+  renderer.use(drawsCones(side) ? tracer.cones.front() : tracer.variant);
   // A frame of a moving picture is short, and worth its end: else nothing would be seen before the hand
   // rests. Its first sample says how many more it may have, which are drawn at once.
   int added = 0;
