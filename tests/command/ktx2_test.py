@@ -91,7 +91,7 @@ class Ktx2(Case):
         for gone, program in ((None, self.run_without_codec), ("wood.ktx2", run)):
             if gone:
                 (self.folder / gone).unlink()
-            result = program("info", scene)
+            result = program("info", scene, "--missing-textures", "refuse")
             self.assertEqual(result.returncode, 3)
             self.assertIn("green.png cannot be opened", result.stderr)
 
@@ -103,7 +103,7 @@ class Ktx2(Case):
         noise = whole[:-200] + bytes((i * 151 + 77) % 256 for i in range(200))
         for data, reason in ((cube, "it is a cube map"), (whole[:-30], "the file is truncated"), (noise, "its level 0 is broken")):
             (self.folder / "wood.ktx2").write_bytes(data)
-            self.fails(3, "info", scene, "--decode", says=["wood.ktx2", "scene.gltf: /images/0", reason])
+            self.fails(3, "info", scene, "--decode", "--missing-textures", "refuse", says=["wood.ktx2", "scene.gltf: /images/0", reason])
 
     def test_a_codec_that_crashes_is_named(self):
         (self.folder / "fragtrace_worker").write_text("#!/bin/sh\nkill -SEGV $$")
