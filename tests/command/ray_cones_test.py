@@ -113,6 +113,17 @@ class RayCones(Case):
             print(f"{part}: squared error of a sample {errors[0]:.5f}, with cones {errors[1]:.5f}")
             self.assertLess(errors[1], 0.05 * errors[0], part)
 
+    def test_a_file_says_which_filter_drew_it(self):
+        for filters, says in (((), False), (CONES, True)):
+            settings = self.picture_settings(*filters)
+            self.assertEqual("ray-cones" in settings, says)
+
+    def picture_settings(self, *options):
+        self.square(checkers(8, 8), "x.pfm")
+        path = self.folder / "x.exr"
+        self.renders(self.folder / "square.gltf", "-o", path, "--quiet", "--resolution", "4,4", "--spp", 1, *options)
+        return path.read_bytes().decode("latin-1")
+
     def test_both_schedules_draw_the_same(self):
         pictures = [self.lit("--spp", 2, *CONES, "--schedule", schedule, "--dispatch", "compute") for schedule in ("megakernel", "wavefront")]
         self.assertEqual(*pictures)
