@@ -107,6 +107,7 @@ class Keywords(TypedDict, total=False):
     debug_view: Literal["none", "geometric-normal", "normal", "albedo", "roughness", "texcoords", "depth", "visits", "samples", "variance"] | None
     tree_level: int | None
     region: str | Sequence[int] | None
+    trace_file: str | PathLike[str] | None
     count_work: bool | None
     denoise: Literal["none", "variance", "oidn", "auto"] | None
     oidn_library: str | PathLike[str] | None
