@@ -3,6 +3,7 @@
 #include "layout.glsl"
 layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frame; };
 #include "read.glsl"
+#include "random.glsl"
 #include "intersect.glsl"
 #include "slab.glsl"
 #include "stack.glsl"

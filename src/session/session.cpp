@@ -90,6 +90,7 @@ Renewal Session::set(const RenderOptions& options, Device& device, Statistics& s
   } else {
     stats = prepared_;
     stats.phases.clear();
+    if (renewal != Renewal::None) stats.skipped.clear();
     stats.clockMs = steadyMilliseconds();
     stats.clockCpuMs = threadMilliseconds();
     stats.loadMs = stats.bvhBuildMs = stats.packMs = stats.uploadMs = stats.compileMs = 0.0;
@@ -104,7 +105,6 @@ Renewal Session::set(const RenderOptions& options, Device& device, Statistics& s
     replaceScene(*tracer_, *device.context, *loaded_, options, stats);
   } else {
     tracer_.reset();
-    stats.skipped.clear();
     const bool hashes = alwaysHashes_ || keepsCheckpoint(options) || holdsLayers(options);
     tracer_ = makeTracer(*device.context, *loaded_, options, stats, {.hash = hashes},
                          std::exchange(device.programs, {}));

@@ -20,7 +20,7 @@ class CameraRays(Case):
         """Every kind of surface may be the first one."""
         for scene in ("cornell-box", "many-lights", "lobes", "rough-glass", "glass-sphere", "thin-glass", "coverage", "sun-sky"):
             spp, rays = 1024 if scene == "many-lights" else 512, 3 if scene == "lobes" else 4
-            one, several = (luminances(self.picture(scene, "x.pfm", *SIZE, "--seed", count, "--spp", samples, "--camera-rays", count))
+            one, several = (luminances(self.picture(scene, "x.pfm", *SIZE, "--seed", count, "--spp", samples, "--camera-rays", count, "--caustics", "on"))
                             for count, samples in ((1, spp), (rays, spp // 4)))
             self.assert_same_light(several, one, f"{scene}, {rays} rays", 0.003)
 

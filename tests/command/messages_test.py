@@ -230,7 +230,7 @@ class InVain(Case):
                 said = self.renders(scene, "-o", self.folder / "x.png", *TINY, *options).stderr
                 self.assertEqual([line for line in says if line not in said], [], said)
                 self.assertEqual("whose shadows --shadow-catcher does not show" in said, factor == 1 and options != [], said)
-                self.assertEqual("no light paths" in said, factor == 1 and options != [], said)
+                self.assertNotIn("no light paths", said)
             for options in (["--studio"], ["--shop"]):
                 said = self.renders(scene, "-o", self.folder / "x.png", *TINY, *options, "--shadow-catcher", "bottom").stderr
                 self.assertNotIn("only emissive surfaces", said, options)
