@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <random>
+#include <span>
 
 #include "bvh/build.h"
 #include "bvh_triangles.h"
@@ -84,11 +84,11 @@ void checkTree(const std::vector<Bounds>& boxes, uint32_t firstSingle = kNoSingl
 }
 
 bool equal(const Bvh& a, const Bvh& b) {
-  return a.nodes.size() == b.nodes.size() && a.leaves.size() == b.leaves.size() && a.depth == b.depth &&
-         std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(BvhNode)) == 0 &&
-         std::memcmp(a.leaves.data(), b.leaves.data(), a.leaves.size() * sizeof(BvhLeaf)) == 0 &&
-         a.wide.size() == b.wide.size() && a.stackNeed == b.stackNeed &&
-         std::memcmp(a.wide.data(), b.wide.data(), a.wide.size() * sizeof(WideNode)) == 0;
+  const auto same = [](const auto& x, const auto& y) {
+    return std::ranges::equal(std::as_bytes(std::span(x)), std::as_bytes(std::span(y)));
+  };
+  return a.depth == b.depth && a.stackNeed == b.stackNeed && same(a.nodes, b.nodes) &&
+         same(a.leaves, b.leaves) && same(a.wide, b.wide);
 }
 
 TEST(Bvh, OfNothingIsEmpty) {
