@@ -196,15 +196,25 @@ Motion motionOf(const std::string& name, double period, const RenderOptions& opt
   return [path](ViewState& state, const CameraPose& start, double s) { state.edit.pose = path(start, s); };
 }
 
-MotionFigures runMotion(const MotionPlan& plan, const std::function<bool(double fraction)>& goOn) {
-  Exchange exchange;
-  TracingThread thread(plan.view, exchange);
+namespace {
+
+/// The viewer's state once the scene is loaded.
+ViewState loadedState(const MotionPlan& plan, Exchange& exchange) {
   exchange.request(&Requests::load, {plan.view.render});
   ViewState state;
   state.edit = editOf(plan.view.render);
   showScene(state, awaitScene(exchange));
   state.size = plan.size;
   state.edit.posed = true;
+  return state;
+}
+
+}  // namespace
+
+MotionFigures runMotion(const MotionPlan& plan, const std::function<bool(double fraction)>& goOn) {
+  Exchange exchange;
+  TracingThread thread(plan.view, exchange);
+  ViewState state = loadedState(plan, exchange);
   const CameraPose start = state.edit.pose;
   MotionFigures figures;
   std::deque<Asked> unanswered;

@@ -123,7 +123,8 @@ std::optional<TimelineFile> takeTimeline() {
   const double start = t.spans.front().begin;
   std::map<std::string, int> rows;
   nlohmann::ordered_json events = nlohmann::ordered_json::array();
-  const auto add = [&](const std::string& name, const char* kind, int row, nlohmann::ordered_json more) {
+  const auto add = [&](const std::string& name, const char* kind, int row,
+                       const nlohmann::ordered_json& more) {
     nlohmann::ordered_json event = {{"name", name}, {"ph", kind}, {"pid", int(::getpid())}, {"tid", row}};
     event.update(more);
     events.push_back(std::move(event));

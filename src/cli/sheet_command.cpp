@@ -206,12 +206,13 @@ std::vector<Wish> takeWishes(RenderOptions& options) {
   for (const std::string& name : std::exchange(selection.hiddenNodes, {}))
     wishes.push_back(partWish("--hide", name, {"/nodes"},
                               [=](RenderOptions& o) { o.selection.hiddenNodes.push_back(name); }));
-  const auto named = std::ranges::partition(selection.doubleSided,
-                                            [](const std::string& name) { return name == kAllMaterials; });
-  for (const std::string& name : named)
-    wishes.push_back(partWish("--double-sided", name, {"/materials"},
-                              [=](RenderOptions& o) { o.selection.doubleSided.push_back(name); }));
-  selection.doubleSided.erase(named.begin(), named.end());
+  for (const std::string& name : std::exchange(selection.doubleSided, {})) {
+    if (name == kAllMaterials)
+      selection.doubleSided.push_back(name);
+    else
+      wishes.push_back(partWish("--double-sided", name, {"/materials"},
+                                [=](RenderOptions& o) { o.selection.doubleSided.push_back(name); }));
+  }
   if (const std::string name = std::exchange(selection.materialVariant, {}); !name.empty())
     wishes.push_back(partWish("--material-variant", name, {"/extensions/KHR_materials_variants/variants"},
                               [=](RenderOptions& o) { o.selection.materialVariant = name; }));

@@ -71,9 +71,9 @@ bool exceeds(const Scene& scene, const Triangle& t, const TextureRef& ref, const
     for (int axis = 0; axis < 2; ++axis) {
       const glm::dvec3 row(axis == 0 ? ref.transform.u : ref.transform.v);
       corners[size_t(axis)][i] = glm::dot(row, place);
-      const double size = glm::dot(glm::abs(row), glm::abs(place));
-      if (!std::isfinite(size)) return true;
-      reach[axis] = std::max(reach[axis], size);
+      const double sum = glm::dot(glm::abs(row), glm::abs(place));
+      if (!std::isfinite(sum)) return true;
+      reach[axis] = std::max(reach[axis], sum);
     }
   }
   const Texture& texture = scene.textures[ref.texture];

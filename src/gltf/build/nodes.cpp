@@ -140,6 +140,7 @@ std::vector<bool> chosenByUser(const Document& document, const std::vector<std::
   const auto& nodes = document.model.nodes;
   std::vector<bool> chosen(nodes.size(), false);
   std::vector<std::string> names;
+  names.reserve(nodes.size());
   for (const tinygltf::Node& node : nodes) names.push_back(node.name);
   for (const std::string& wanted : toHide) {
     bool found = false;

@@ -44,7 +44,7 @@ std::vector<uint8_t> imageBytes(Document& document, int index) {
 /// Names the file, if it is one, in what is thrown, also where its format cannot be decoded.
 ImageHeader headerOf(const std::vector<uint8_t>& bytes, const std::string& file) {
   try {
-    const ImageHeader header = readImageHeader(bytes);
+    ImageHeader header = readImageHeader(bytes);
     if (header.format == ImageFormat::Ktx2 && !whyNoKtx2().empty())
       throw std::runtime_error("KTX2 cannot be decoded: " + whyNoKtx2());
     return header;
