@@ -19,7 +19,7 @@ uint cameraCone(Path p) {
   if (frame.orthographic != 0.0) return packCone(vec2(pixel, 0.0));
   vec3 forward = frame.cameraForward;
   if (kMovingCamera) forward = turnedWith(cameraAt(p.time), forward);
-  // A pixel beside the middle is farther away and seen at an angle.
+  // A pixel at the border is farther away and seen at an angle.
   float cosine = max(dot(p.direction, forward), 0.0);
   return packCone(vec2(0.0, pixel * cosine * sqrt(cosine)));
 }
@@ -33,7 +33,7 @@ float coneWidth(Path p) {
 /// A cone holds this part of the lobe that drew its ray: the cones of 16 samples hold all of it.
 const float kConeShare = 1.0 / 16.0;
 
-/// The cone of a ray that goes on from where the path's has hit. pdf: by which the direction was drawn; 0: it follows
+/// The cone of a ray that leaves the place that the path's has hit. pdf: by which the direction was drawn; 0: it follows
 /// from that of the ray.
 uint coneBehind(Path p, float bent, float pdf) {
   float width = coneWidth(p);
@@ -42,7 +42,7 @@ uint coneBehind(Path p, float bent, float pdf) {
   return packCone(vec2(width, spread));
 }
 
-/// The vertices of the triangle that the path's ray has hit, beside each other as in local space.
+/// The vertices of the triangle that the path's ray has hit, in local space.
 Corners cornersHit(Path p) {
   Corners c;
   if (kMoving) c = movingTriangle(p.hitSlot, p.time).at;

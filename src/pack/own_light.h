@@ -32,7 +32,7 @@ struct FileLight {
 /// something to decide. A lamp of intensity 0 is none.
 bool mayShine(const Scene& scene);
 
-/// What the user says about lamps.
+/// The options that decide about lamps.
 struct LampReading {
   LampUnits units = LampUnits::Auto;
   bool besideSurroundings = false;  ///< surroundings that the user chose light the scene, too

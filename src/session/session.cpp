@@ -78,6 +78,8 @@ Renewal Session::set(const RenderOptions& options, Device& device, Statistics& s
   // Programs that hold the scene in their text are made for each scene.
   const bool repacks = renewal == Renewal::Pose && tracer_ && sameBesidePose(options_, options) &&
                        tracer_->variant.traversal != TraversalMethod::Literals;
+  // Before the load, which may fail: what is on the device is of other options, and takes its memory.
+  if (renewal != Renewal::None && !repacks) tracer_.reset();
   if (renewal == Renewal::Scene && isSet_) {
     document_.reset();
     tree_.reset();
@@ -104,7 +106,6 @@ Renewal Session::set(const RenderOptions& options, Device& device, Statistics& s
   if (repacks) {
     replaceScene(*tracer_, *device.context, *loaded_, options, stats);
   } else {
-    tracer_.reset();
     const bool hashes = alwaysHashes_ || keepsCheckpoint(options) || holdsLayers(options);
     tracer_ = makeTracer(*device.context, *loaded_, options, stats, {.hash = hashes},
                          std::exchange(device.programs, {}));

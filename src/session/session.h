@@ -50,10 +50,9 @@ class Session {
   Renewal set(const RenderOptions& options, Device& device, Statistics& stats,
               const SceneChange& change = {});
 
-  /// Of the options of set().
+  /// The scene of the latest options, and its tracer.
   LoadedScene& loaded() { return *loaded_; }
   bool isLoaded() const { return loaded_.has_value(); }
-  const Tracer& tracer() const { return *tracer_; }
   Tracer& tracer() { return *tracer_; }
   bool hasTracer() const { return tracer_.has_value(); }
 

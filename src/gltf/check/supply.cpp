@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-/// What an object's reading may look at.
+/// The document, for readings of an object.
 struct Context {
   const json& root;
   std::vector<uint32_t> uses;  ///< by buffer view: accessors
