@@ -91,6 +91,15 @@ class Pictures(Package):
                 self.assertNotIn("environment", {phase["name"] for phase in posed.statistics["phases"]})
                 self.assertEqual(posed.statistics["compile_ms"], 0)
 
+    def test_a_scene_whose_load_failed_draws_the_next_options(self):
+        later = self.folder / "later.pfm"
+        scene = fragtrace.Scene(SCENES / "plastics.gltf", **SMALL)
+        scene.render(hdri=SCENES / "sky.pfm")
+        with self.assertRaises(Exception):
+            scene.render(hdri=later)
+        later.write_bytes((SCENES / "sun-sky.pfm").read_bytes())
+        np.testing.assert_array_equal(scene.render(hdri=later), fragtrace.render(SCENES / "plastics.gltf", hdri=later, **SMALL))
+
     def test_shapes_and_facts(self):
         layers = fragtrace.render(SCENES / "coverage.gltf", aov=("albedo", "depth", "samples"), **SMALL)
         self.assertEqual({name: layer.shape for name, layer in layers.items()},
