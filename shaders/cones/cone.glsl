@@ -33,8 +33,8 @@ float coneWidth(Path p) {
 /// A cone holds this part of the lobe that drew its ray: the cones of 16 samples hold all of it.
 const float kConeShare = 1.0 / 16.0;
 
-/// The cone of a ray that leaves the place that the path's has hit. pdf: by which the direction was drawn; 0: it follows
-/// from that of the ray.
+/// The cone of a ray that leaves the path's hit. pdf: by which the direction was drawn; 0: it follows from that of the
+/// ray.
 uint coneBehind(Path p, float bent, float pdf) {
   float width = coneWidth(p);
   float spread = unpackCone(p.cone).y + bent * width;
