@@ -275,10 +275,23 @@ std::vector<glm::dvec3> withoutStrays(std::vector<glm::dvec3> points) {
 std::vector<glm::dvec3> farthest(std::vector<glm::dvec3> points) {
   constexpr size_t kFew = 4096;
   if (points.size() <= kFew) return points;
+  constexpr size_t kBlock = 64;  // points that follow each other, and are near each other in most meshes
+  std::vector<BoundsDouble> blocks((points.size() + kBlock - 1) / kBlock);
+  for (size_t i = 0; i < points.size(); ++i) blocks[i / kBlock].include(points[i]);
   std::vector<glm::dvec3> hull;
   for (const glm::dvec3& direction : directionsAllAround()) {
-    hull.push_back(*std::ranges::max_element(
-        points, {}, [&](const glm::dvec3& point) { return glm::dot(point, direction); }));
+    const auto along = [&](const glm::dvec3& point) { return glm::dot(point, direction); };
+    size_t best = 0;
+    for (size_t block = 0; block < blocks.size(); ++block) {
+      const BoundsDouble& box = blocks[block];
+      const glm::dvec3 corner =
+          glm::mix(box.minimum, box.maximum, glm::greaterThan(direction, glm::dvec3(0)));
+      // Rounding keeps the order of products and sums, so no point of the box is farther than its corner.
+      if (along(corner) <= along(points[best])) continue;
+      for (size_t i = block * kBlock; i < std::min((block + 1) * kBlock, points.size()); ++i)
+        if (along(points[i]) > along(points[best])) best = i;
+    }
+    hull.push_back(points[best]);
   }
   return hull;
 }

@@ -121,6 +121,17 @@ TEST(Fit, StraysAreAHundredthFarAway) {
   EXPECT_EQ(withoutStrays(few).size(), 99u);
 }
 
+TEST(Fit, TheFarthestPointsAreThoseOfASearchThroughAll) {
+  const std::vector<glm::dvec3> points = cloud(10'000, {3, 1, 0.2}, 5);
+  const std::vector<glm::dvec3> hull = farthest(points);
+  const std::vector<glm::dvec3> directions = directionsAllAround();
+  ASSERT_EQ(hull.size(), directions.size());
+  for (size_t i = 0; i < hull.size(); ++i) {
+    const auto along = [&](const glm::dvec3& point) { return glm::dot(point, directions[i]); };
+    EXPECT_EQ(hull[i], *std::ranges::max_element(points, {}, along));
+  }
+}
+
 TEST(Fit, FlatAndEmptyScenesHaveACamera) {
   const Camera camera = chooseCamera({}, {}, {}, {});
   EXPECT_EQ(fitted(camera, {}, 1.0).position, camera.position);
