@@ -320,6 +320,22 @@ void expectSame(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.warnings, b.warnings);
 }
 
+TEST(GltfAnimation, NodesPosedInTheModelStandAsThoseThatAreParsedAgain) {
+  GltfBuilder builder;
+  builder.addTriangle();
+  animate(builder, "translation", "VEC3", {0, 1}, {0, 0, 0, 1, 0.1f, 7});
+  animate(builder, "rotation", "VEC4", {0, 1}, {0, 0, 0, 1, 0.6f, 0, 0, 0.8f});
+  animate(builder, "scale", "VEC3", {0, 1}, {1, 1, 1, 0.3f, 2, 1e-3f});
+  GltfOptions options;
+  options.selection.animationTime = 0.37;
+  const Scene inModel = load(builder, options);
+  options.selection.set = {{"/nodes/0/translation", {5, 5, 5}}};  // the animation drives it
+  const Scene parsedAgain = load(builder, options);
+  EXPECT_EQ(parsedAgain.vertices.position, inModel.vertices.position);
+  EXPECT_EQ(parsedAgain.bounds.minimum, inModel.bounds.minimum);
+  EXPECT_NE(inModel.bounds.minimum, loadAt(builder, 0.0).bounds.minimum);
+}
+
 TEST(GltfAnimation, PosesOfAKeptDocumentNeedNoFile) {
   const TemporaryFolder folder;
   GltfBuilder builder = movingAndChanging();

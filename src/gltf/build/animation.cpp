@@ -2,6 +2,7 @@
 #include "gltf/build/animation.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
@@ -203,8 +204,33 @@ std::optional<size_t> weightsAt(const json& root, const std::string& target) {
   return most;
 }
 
+/// The numbers of a node that the loader reads at this member of its JSON; null: another member.
+std::vector<double>* numbersOfNode(tinygltf::Node& node, std::string_view member) {
+  if (member == "translation") return &node.translation;
+  if (member == "rotation") return &node.rotation;
+  if (member == "scale") return &node.scale;
+  return member == "weights" ? &node.weights : nullptr;
+}
+
+/// A member of a node, "/nodes/3/scale"; none: the pointer leads elsewhere.
+struct NodeMember {
+  size_t node;
+  std::string_view member;
+};
+
+std::optional<NodeMember> nodeMemberAt(std::string_view pointer) {
+  constexpr std::string_view kNodes = "/nodes/";
+  if (!pointer.starts_with(kNodes)) return std::nullopt;
+  NodeMember found{};
+  const char* const begin = pointer.data() + kNodes.size();
+  const auto [end, error] = std::from_chars(begin, pointer.data() + pointer.size(), found.node);
+  if (error != std::errc() || end == pointer.data() + pointer.size() || *end != '/') return std::nullopt;
+  found.member = pointer.substr(size_t(end + 1 - pointer.data()));
+  return found;
+}
+
 void applyChannel(Document& document, const Channel& channel, double seconds,
-                  const std::optional<OpenShutter>& shutter, json& root) {
+                  const std::optional<OpenShutter>& shutter, const json& root, json* changed) {
   document.diagnostics.need(channel.place);
   const std::optional<NumberRule> rule =
       channel.target.empty() ? std::nullopt : numberRuleIn(root, channel.target);
@@ -225,9 +251,14 @@ void applyChannel(Document& document, const Channel& channel, double seconds,
     document.diagnostics.warn(channel.place + "/sampler", "a quaternion of zeros is read as no rotation");
     values = {0.0, 0.0, 0.0, 1.0};
   }
-  if (decomposeMatrixAt(root, channel.target))
+  if (changed == nullptr) {
+    const std::optional<NodeMember> driven = nodeMemberAt(channel.target);
+    *numbersOfNode(document.model.nodes.at(driven->node), driven->member) = std::move(values);
+    return;
+  }
+  if (decomposeMatrixAt(*changed, channel.target))
     document.diagnostics.warn(place, "has a node with a matrix, which is taken apart to be animated");
-  writeNumbers(root, channel.target, *rule, values);
+  writeNumbers(*changed, channel.target, *rule, values);
 }
 
 }  // namespace
@@ -268,11 +299,20 @@ std::vector<double> valuesWhileOpen(const Keyframes& keys, double seconds, const
   return mirroredAt(keys, valuesAt(piece, at), valuesAt(piece, 2.0 * at - seconds));
 }
 
+bool drivesNodesAlone(const Animation& animation, const json& root) {
+  return std::ranges::all_of(animation.channels, [&](const Channel& channel) {
+    tinygltf::Node none;
+    const std::optional<NodeMember> driven = nodeMemberAt(channel.target);
+    return driven && numbersOfNode(none, driven->member) != nullptr &&
+           !elementOf(root, "nodes", json(driven->node)).contains("matrix");
+  });
+}
+
 void applyAnimation(Document& document, const Animation& animation, double seconds,
-                    const std::optional<OpenShutter>& shutter, json& root) {
+                    const std::optional<OpenShutter>& shutter, const json& root, json* changed) {
   for (const Channel& channel : animation.channels) {
     document.diagnostics.keepRest("the channel", [&] {
-      applyChannel(document, channel, seconds, shutter, root);
+      applyChannel(document, channel, seconds, shutter, changed != nullptr ? *changed : root, changed);
       return true;
     });
   }

@@ -32,10 +32,15 @@ std::vector<double> valuesAt(const Keyframes& keys, double seconds);
 /// the cut. So it does before the first key of all that is played and after the last one.
 std::vector<double> valuesWhileOpen(const Keyframes& keys, double seconds, const OpenShutter& shutter);
 
-/// Writes what the animation makes of the file at that time into the document: node transforms, morph
-/// weights, and all else that the loader reads as numbers (KHR_animation_pointer). What it cannot drive is
-/// warned about. Throws InputError.
+/// Returns true if an animation drives the transforms and weights of nodes alone, none of which has a matrix.
+bool drivesNodesAlone(const Animation& animation, const nlohmann::json& root);
+
+/// Writes what the animation makes of the file at that time: node transforms, morph weights, and all else
+/// that the loader reads as numbers (KHR_animation_pointer). They go into `changed`, a copy of the document's
+/// JSON that is to be parsed again; null, which drivesNodesAlone() allows: into the document's model. What it
+/// cannot drive is warned about. Throws InputError.
 void applyAnimation(Document& document, const Animation& animation, double seconds,
-                    const std::optional<OpenShutter>& shutter, nlohmann::json& root);
+                    const std::optional<OpenShutter>& shutter, const nlohmann::json& root,
+                    nlohmann::json* changed);
 
 }  // namespace fragtrace

@@ -180,7 +180,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
   std::shared_ptr<KeptDocument> read = kept != nullptr ? std::move(*kept) : nullptr;
   if (!read) read = std::make_shared<KeptDocument>(readDocument(path, options));
   const bool keeps = kept != nullptr && !read->animations.empty();
-  Document document = posed(keeps ? lend(*read) : std::move(*read), options);
+  Document document = posed(*read, keeps, options);
   Scene scene;
   scene.extensionsUsed = document.model.extensionsUsed;
   scene.refersToFiles = document.refersToFiles;

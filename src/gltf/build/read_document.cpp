@@ -314,22 +314,20 @@ tinygltf::Model parseModel(json& root, Buffers& buffers, const Diagnostics& diag
   return model;
 }
 
-/// Writes the animated values into the JSON. Where an animation is named without a time, the time is 0.
-void pose(const std::vector<Animation>& animations, const GltfOptions& options, json& root,
-          Document& document) {
-  const SceneSelection& selection = options.selection;
-  const std::vector<size_t> chosen = chosenAnimations(selection.animation, document.animationNames);
-  if (chosen.empty()) {
-    document.diagnostics.remark("", "has no animation that a time could be of");
-    return;
-  }
-  if (selection.animation.empty() && animations.size() > 1)
+/// The animations that the options play; says what is not played.
+std::vector<const Animation*> playedAnimations(const KeptDocument& read, const SceneSelection& selection,
+                                               Document& document) {
+  if (!selection.animationTime && selection.animation.empty()) return {};
+  std::vector<const Animation*> played;
+  for (const size_t index : chosenAnimations(selection.animation, document.animationNames))
+    played.push_back(&read.animations[index]);
+  if (played.empty()) document.diagnostics.remark("", "has no animation that a time could be of");
+  if (!played.empty() && selection.animation.empty() && read.animations.size() > 1)
     document.diagnostics.remark("/animations",
-                                "not played: " + std::to_string(animations.size() - 1) + " of " +
-                                    std::to_string(animations.size()) +
+                                "not played: " + std::to_string(read.animations.size() - 1) + " of " +
+                                    std::to_string(read.animations.size()) +
                                     " (--animation all plays all at once, --animation NAME another one)");
-  for (const size_t index : chosen)
-    applyAnimation(document, animations[index], selection.animationTime.value_or(0.0), options.shutter, root);
+  return played;
 }
 
 /// Parses the JSON again, which has changed, so that readers of the model need not know of that.
@@ -337,6 +335,17 @@ void parseAgain(json& root, Document& document) {
   Buffers buffers;
   for (tinygltf::Buffer& buffer : document.model.buffers) buffers.push_back(std::move(buffer.data));
   document.model = parseModel(root, buffers, document.diagnostics);
+}
+
+/// A copy for a pose, which takes buffers and pictures with it.
+Document lend(KeptDocument& kept) {
+  std::vector<tinygltf::Buffer> buffers = std::move(kept.document.model.buffers);
+  std::vector<ImageSource> images = std::move(kept.document.images);
+  Document lent = kept.document;
+  lent.model.buffers = std::move(buffers);
+  lent.images = std::move(images);
+  lent.keepsPictures = true;
+  return lent;
 }
 
 }  // namespace
@@ -376,23 +385,25 @@ KeptDocument readDocument(const std::filesystem::path& path, const GltfOptions& 
   return {std::move(document), std::move(root), std::move(animations)};
 }
 
-Document posed(KeptDocument read, const GltfOptions& options) {
+Document posed(KeptDocument& read, bool isKept, const GltfOptions& options) {
+  Document document = isKept ? lend(read) : std::move(read.document);
   const SceneSelection& selection = options.selection;
-  const bool isPosed = selection.animationTime || !selection.animation.empty();
-  writeNumbers(read.root, selection.set, read.document.diagnostics);
-  if (isPosed) pose(read.animations, options, read.root, read.document);
-  if (isPosed || !selection.set.empty()) parseAgain(read.root, read.document);
-  return std::move(read.document);
-}
-
-KeptDocument lend(KeptDocument& kept) {
-  std::vector<tinygltf::Buffer> buffers = std::move(kept.document.model.buffers);
-  std::vector<ImageSource> images = std::move(kept.document.images);
-  KeptDocument lent = kept;
-  lent.document.model.buffers = std::move(buffers);
-  lent.document.images = std::move(images);
-  lent.document.keepsPictures = true;
-  return lent;
+  const std::vector<const Animation*> played = playedAnimations(read, selection, document);
+  const bool changesText =
+      !selection.set.empty() || std::ranges::any_of(played, [&](const Animation* animation) {
+        return !drivesNodesAlone(*animation, read.root);
+      });
+  json changed;
+  if (changesText) changed = isKept ? read.root : std::move(read.root);
+  writeNumbers(changed, selection.set, document.diagnostics);
+  // Where an animation is named without a time, the time is 0.
+  const double seconds = selection.animationTime.value_or(0.0);
+  for (const Animation* animation : played)
+    applyAnimation(document, *animation, seconds, options.shutter, read.root,
+                   changesText ? &changed : nullptr);
+  if (changesText) parseAgain(changed, document);
+  if (!isKept) read.root = {};
+  return document;
 }
 
 void takeBack(Document& lent, KeptDocument& kept) {

@@ -20,11 +20,9 @@ struct KeptDocument {
 /// Reads and checks the document; pictures beside it are not read yet. Throws InputError.
 KeptDocument readDocument(const std::filesystem::path& path, const GltfOptions& options);
 
-/// The document in the pose of the options. Throws InputError and UsageError.
-Document posed(KeptDocument read, const GltfOptions& options);
-
-/// A copy for posed(). It takes buffers and pictures with it, since they are large: takeBack() returns them.
-KeptDocument lend(KeptDocument& kept);
+/// The document in the pose of the options: a copy for one that is kept for other poses, which lends buffers
+/// and pictures to it, since they are large, until takeBack(). Throws InputError and UsageError.
+Document posed(KeptDocument& read, bool isKept, const GltfOptions& options);
 void takeBack(Document& lent, KeptDocument& kept);
 
 }  // namespace fragtrace
