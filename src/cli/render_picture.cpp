@@ -58,9 +58,7 @@ Outcome drawAndWrite(const PictureJob& job, const std::vector<PictureLine>& boxe
   const RenderOptions& options = job.options;
   // --continue skips the pictures of a sequence that are there, so a partial one must not be.
   const int most = job.showsProgress ? 1 : 0;
-  PhaseTimer firstDraw("first draw");
-  DrawingPlan plan = planDrawing(job, stats);
-  stats.phases.push_back(firstDraw.end());
+  DrawingPlan plan = planDrawing(job, device, stats);
 
   // Step: draw.
   checkPictureWritable(options, job.loaded.region.size);

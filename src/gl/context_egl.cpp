@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <map>
+#include <mutex>
 #include <vector>
 
 #include "base/text.h"
@@ -50,6 +52,29 @@ struct EglFunctions {
   }
 };
 
+/// The contexts of each display. EGL ends a display for all of them at once.
+struct Displays {
+  std::mutex mutex;
+  std::map<EGLDisplay, int> contexts;
+
+  bool begin(const EglFunctions& egl, EGLDisplay display) {
+    const std::lock_guard lock(mutex);
+    if (!egl.initialize(display, nullptr, nullptr)) return false;
+    ++contexts[display];
+    return true;
+  }
+
+  void end(const EglFunctions& egl, EGLDisplay display) {
+    const std::lock_guard lock(mutex);
+    if (--contexts[display] == 0) egl.terminate(display);
+  }
+};
+
+Displays& displays() {
+  static Displays all;
+  return all;
+}
+
 class EglContext : public Context {
  public:
   EglContext(const EglFunctions& functions, EGLDisplay display, EGLContext context)
@@ -61,7 +86,7 @@ class EglContext : public Context {
     egl_.destroyContext(display_, context_);
     // Without its last display the driver is unloaded. After an error its end may wait for ever for a lock:
     // Mesa keeps one where it could not start a thread.
-    if (std::uncaught_exceptions() == 0) egl_.terminate(display_);
+    if (std::uncaught_exceptions() == 0) displays().end(egl_, display_);
   }
 
  private:
@@ -127,7 +152,7 @@ std::unique_ptr<Context> tryCandidate(const EglFunctions& egl, const Candidate& 
   };
   EGLDisplay display = egl.getPlatformDisplay(candidate.platform, candidate.native, nullptr);
   if (display == EGL_NO_DISPLAY) return fail("eglGetPlatformDisplay");
-  if (!egl.initialize(display, nullptr, nullptr)) return fail("eglInitialize");
+  if (!displays().begin(egl, display)) return fail("eglInitialize");
   EGLConfig config = EGL_NO_CONFIG_KHR;
   const char* extensions = egl.queryString(display, EGL_EXTENSIONS);
   if (!contains(extensions, "EGL_KHR_no_config_context")) {
@@ -139,7 +164,7 @@ std::unique_ptr<Context> tryCandidate(const EglFunctions& egl, const Candidate& 
   if (egl.bindApi(EGL_OPENGL_API)) context = createContext(egl, display, config);
   if (context == EGL_NO_CONTEXT) {
     fail("eglCreateContext");
-    egl.terminate(display);
+    displays().end(egl, display);
     return nullptr;
   }
   auto result = std::make_unique<EglContext>(egl, display, context);

@@ -44,6 +44,7 @@ void forgetDevice() {
   for (const auto& kept : state.scenes) {
     if (const auto scene = kept.lock()) scene->session.forgetTracer();
   }
+  state.device.filter.reset();
   state.device.driverLog.reset();
   state.device.context.reset();
 }
@@ -58,9 +59,7 @@ std::optional<DrawnPicture> draw(KeptScene& kept, const RenderOptions& asked, Dr
   if (!kept.isKept) kept.session.releaseGeometry();
   const PictureJob picture{options, kept.session.loaded(), kept.session.tracer(), false,
                            [&](double fraction) { job.fraction = fraction; }};
-  PhaseTimer firstDraw("first draw");
-  DrawingPlan plan = planDrawing(picture, stats);
-  stats.phases.push_back(firstDraw.end());
+  DrawingPlan plan = planDrawing(picture, device, stats);
   CheckpointKeeper keeper(options);
   std::optional<Image> image = drawSamples(picture, plan, device, keeper, 0, stats);
   if (!image || !finishPicture(*image, picture, plan, device, 0, stats)) return std::nullopt;

@@ -3,6 +3,11 @@
 
 #include <span>
 
+#include "base/errors.h"
+#include "base/thread_name.h"
+#include "base/timeline.h"
+#include "gl/context.h"
+#include "image/channels.h"
 #include "render/noisy_image.h"
 
 namespace fragtrace {
@@ -15,6 +20,16 @@ constexpr std::array kStrides{1, 2, 4, 8};
 /// since odd and even pixels never meet.
 constexpr std::array kStridesOfFew{1, 2, 4, 8, 1};
 constexpr glm::ivec2 kTexel{1};
+
+/// A black picture with all layers, large enough for each of the filter's programs to be drawn.
+Image blackPicture() {
+  constexpr int kSide = 20;  // more than a block of PicturePasses::sum()
+  Image picture{kSide, kSide, {"R", "G", "B", "variance.Y", "samples.Y"}, {}, {}};
+  picture.channels.insert(picture.channels.end(), kGuideChannels.begin(), kGuideChannels.end());
+  picture.channels.emplace_back(kObservedChannel);
+  picture.values.assign(size_t(kSide) * kSide * picture.channelCount(), 0.0f);
+  return picture;
+}
 
 }  // namespace
 
@@ -89,6 +104,61 @@ Image VarianceFilter::filtered(const Image& noisy, PicturePasses& passes) {
           {"R", "G", "B"},
           readPictureTexture<float>(denoised, GL_RGB, 3, GL_FLOAT, size, "reading the denoised picture"),
           {}};
+}
+
+FilterThread::FilterThread(const ShaderSource& source, const std::string& backend)
+    : thread_([this, source, backend] { run(source, backend); }) {}
+
+FilterThread::~FilterThread() {
+  {
+    const std::lock_guard lock(mutex_);
+    ends_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+Image FilterThread::filtered(const Image& noisy) {
+  Task task([&](VarianceFilter& filter, PicturePasses& passes, DebugLog& log) {
+    Image result = filter.filtered(noisy, passes);
+    messages_ = log.take();
+    return result;
+  });
+  std::future<Image> result = task.get_future();
+  {
+    const std::lock_guard lock(mutex_);
+    task_ = std::move(task);
+  }
+  changed_.notify_one();
+  return result.get();
+}
+
+void FilterThread::run(const ShaderSource& source, const std::string& backend) {
+  nameThread("filter");
+  try {
+    std::optional<TimelineSpan> span(std::in_place, "prepare the filter");
+    const double start = steadyMilliseconds();
+    std::string tried;
+    const auto context = backend == "osmesa" ? makeOsMesaContext(tried) : makeEglContext(tried);
+    if (!context) throw RenderError("no second context: " + tried);
+    DebugLog log;
+    VarianceFilter filter(source);
+    PicturePasses passes(source);
+    // Drivers finish programs when they are drawn.
+    filter.filtered(blackPicture(), passes);
+    span.reset();
+    made_.set_value(steadyMilliseconds() - start);
+    for (std::unique_lock lock(mutex_);;) {
+      changed_.wait(lock, [&] { return ends_ || task_; });
+      if (ends_) return;
+      Task task = std::move(*std::exchange(task_, std::nullopt));
+      lock.unlock();
+      task(filter, passes, log);
+      lock.lock();
+    }
+  } catch (...) {
+    made_.set_exception(std::current_exception());
+  }
 }
 
 }  // namespace fragtrace

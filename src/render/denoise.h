@@ -4,9 +4,18 @@
 #pragma once
 
 #include <array>
+#include <condition_variable>
 #include <functional>
+#include <future>
+#include <mutex>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
 
+#include "gl/debug_log.h"
 #include "image/image.h"
 #include "render/noisy_textures.h"
 #include "render/picture_passes.h"
@@ -53,6 +62,41 @@ class VarianceFilter {
   GlTexture variance_;
   GlTexture moved_;
   std::array<GlTexture, 2> turns_;
+};
+
+/// The filter in a thread and a context of its own: its programs are made while the picture is drawn, and
+/// serve all pictures that follow.
+class FilterThread {
+ public:
+  /// Begins, in a context of the same kind as `backend` (Context::backend). Throws std::system_error where
+  /// there is no thread.
+  FilterThread(const ShaderSource& source, const std::string& backend);
+  FilterThread(const FilterThread&) = delete;
+  FilterThread& operator=(const FilterThread&) = delete;
+  ~FilterThread();
+
+  /// Waits for the programs, and returns the milliseconds that they took. Throws RenderError where they
+  /// cannot be had.
+  double ready() { return ready_.get(); }
+
+  /// The same as VarianceFilter::filtered(), once ready() has returned. One call at a time.
+  Image filtered(const Image& noisy);
+
+  /// What the driver has said since the last call.
+  std::vector<std::string> takeMessages() { return std::exchange(messages_, {}); }
+
+ private:
+  using Task = std::packaged_task<Image(VarianceFilter&, PicturePasses&, DebugLog&)>;
+  void run(const ShaderSource& source, const std::string& backend);
+
+  std::promise<double> made_;
+  std::shared_future<double> ready_ = made_.get_future().share();
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool ends_ = false;         ///< under the mutex, as
+  std::optional<Task> task_;  ///< what waits for the thread
+  std::vector<std::string> messages_;
+  std::thread thread_;  ///< the last, which uses all others
 };
 
 }  // namespace fragtrace

@@ -12,6 +12,7 @@
 #include "gl/debug_log.h"
 #include "image/denoise/oidn_library.h"
 #include "options/option_row.h"
+#include "render/denoise.h"
 #include "session/setup.h"
 #include "session/tracer.h"
 
@@ -23,6 +24,7 @@ struct Device {
   std::optional<DebugLog> driverLog;     ///< messages of the context's driver
   std::optional<ProgramCache> programs;  ///< those that the scene before has left to the next
   std::optional<OidnLibrary> oidn;
+  std::unique_ptr<FilterThread> filter{};  ///< the variance filter, from the first picture that it filters on
 };
 
 /// Opens a context for `paths` camera paths in all. Throws ContextError.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <system_error>
 
 #include "base/errors.h"
 #include "base/timeline.h"
@@ -103,7 +104,27 @@ RenderOptions withGuides(const RenderOptions& options) {
   return drawn;
 }
 
-PictureFilter makeFilter(const RenderOptions& options, const std::optional<OidnLibrary>& oidn) {
+void startFilter(const RenderOptions& options, Device& device) {
+  const bool isWanted = options.output.denoise == Denoise::Variance && whyNotDenoised(options).empty();
+  if (!isWanted || device.oidn || device.filter) return;
+  try {
+    device.filter =
+        std::make_unique<FilterThread>(shaderSource(options.device.shaderFolder), device.context->backend);
+  } catch (const std::system_error&) {
+    // The system grants no thread: the filter is made here when it is needed.
+  }
+}
+
+PictureFilter makeFilter(const RenderOptions& options, const std::optional<OidnLibrary>& oidn,
+                         FilterThread* thread) {
+  if (!oidn && thread != nullptr) {
+    try {
+      return {std::string(kVarianceFilter), thread->ready(),
+              [thread](const Image& picture) { return thread->filtered(picture); }};
+    } catch (const RenderError& error) {
+      if (options.output.verbose) say(options, std::string("the filter has no thread: ") + error.what());
+    }
+  }
   if (!oidn) {
     const double start = steadyMilliseconds();
     const ShaderSource source = shaderSource(options.device.shaderFolder);
@@ -128,8 +149,9 @@ PictureFilter makeFilter(const RenderOptions& options, const std::optional<OidnL
 }
 
 std::optional<Image> filtered(const Image& picture, const RenderOptions& options,
-                              const std::optional<OidnLibrary>& oidn, DenoiseStatistics& stats) {
-  const PictureFilter filter = makeFilter(options, oidn);
+                              const std::optional<OidnLibrary>& oidn, DenoiseStatistics& stats,
+                              FilterThread* thread) {
+  const PictureFilter filter = makeFilter(options, oidn, thread);
   const double start = steadyMilliseconds();
   std::optional<Image> result =
       isOverWhite(picture) ? filter.apply(laidOverWhite(picture)) : filter.apply(picture);
@@ -163,8 +185,7 @@ void keepNoisy(Image& picture, const Image& noisy, const std::string& filter) {
   picture.attributes[kFilterAttribute] = filter;
 }
 
-void denoise(Image& picture, const RenderOptions& options, const std::optional<OidnLibrary>& oidn,
-             Statistics& stats) {
+void denoise(Image& picture, const RenderOptions& options, Device& device, Statistics& stats) {
   if (options.output.denoise == Denoise::None) return;
   stats.denoise.emplace().skipped = whyNotDenoised(options);
   if (!stats.denoise->skipped.empty()) {
@@ -172,9 +193,9 @@ void denoise(Image& picture, const RenderOptions& options, const std::optional<O
     return;
   }
   // A user who has interrupted the samples does not wait for more seconds.
-  const bool waits = !oidn || stats.complete;
+  const bool waits = !device.oidn || stats.complete;
   const std::optional<Image> denoised =
-      waits ? filtered(picture, options, oidn, *stats.denoise) : std::nullopt;
+      waits ? filtered(picture, options, device.oidn, *stats.denoise, device.filter.get()) : std::nullopt;
   if (!denoised) {
     stats.complete = false;
     stats.denoise->skipped = "interrupted";

@@ -8,6 +8,7 @@
 
 #include "image/denoise/oidn_library.h"
 #include "image/image.h"
+#include "session/session.h"
 #include "session/statistics.h"
 #include "shader/render_options.h"
 
@@ -34,19 +35,24 @@ struct PictureFilter {
   /// RenderError.
   std::function<std::optional<Image>(const Image&)> apply;
 };
-/// Makes the filter from options that openDenoiser() has settled; `oidn` is its result.
-PictureFilter makeFilter(const RenderOptions& options, const std::optional<OidnLibrary>& oidn);
+/// Makes the filter from options that openDenoiser() has settled; `oidn` is its result. Where `thread` is
+/// ready, the variance filter is its.
+PictureFilter makeFilter(const RenderOptions& options, const std::optional<OidnLibrary>& oidn,
+                         FilterThread* thread = nullptr);
+
+/// Begins to make the programs of the variance filter, if these options need them.
+void startFilter(const RenderOptions& options, Device& device);
 
 /// Replaces the noisy colours by the denoised ones. An .exr keeps the noisy ones as noisy.R, noisy.G and
 /// noisy.B. Layers that were not asked for are removed. `picture` was drawn with withGuides(options). It
 /// stays noisy if Open Image Denoise is interrupted, which the statistics then say.
-void denoise(Image& picture, const RenderOptions& options, const std::optional<OidnLibrary>& oidn,
-             Statistics& stats);
+void denoise(Image& picture, const RenderOptions& options, Device& device, Statistics& stats);
 
 /// The filter's colours for a picture with all layers that it needs; nothing if it was interrupted. Throws
 /// RenderError.
 std::optional<Image> filtered(const Image& picture, const RenderOptions& options,
-                              const std::optional<OidnLibrary>& oidn, DenoiseStatistics& stats);
+                              const std::optional<OidnLibrary>& oidn, DenoiseStatistics& stats,
+                              FilterThread* thread = nullptr);
 
 /// Adds to the .exr of a filtered picture: the noisy colours, and the filter's name.
 void keepNoisy(Image& picture, const Image& noisy, const std::string& filter);

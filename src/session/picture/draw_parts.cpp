@@ -8,6 +8,7 @@
 
 #include "base/errors.h"
 #include "base/text.h"
+#include "base/timeline.h"
 #include "image/channels.h"
 #include "image/cryptomatte.h"
 #include "render/adaptive.h"
@@ -123,7 +124,9 @@ void sayWhatWentWrong(const RenderOptions& options, const FilmTotals& film, cons
   }
 }
 
-DrawingPlan planDrawing(const PictureJob& job, Statistics& stats) {
+DrawingPlan planDrawing(const PictureJob& job, Device& device, Statistics& stats) {
+  PhaseTimer timer("first draw");
+  startFilter(job.options, device);
   lightGroupsOf(job.options, job.loaded.scene);  // a wrong name is found before anything is drawn
   for (const std::string& line : sharedGroups(job.options, job.loaded.scene)) say(job.options, line);
   std::vector<Region> parts = partsOf(job.options, job.loaded);
@@ -132,6 +135,7 @@ DrawingPlan planDrawing(const PictureJob& job, Statistics& stats) {
   std::vector<double> layerSeconds = measureAovs(job, film, view, stats);
   stats.parts = int(parts.size());
   stats.compileMs += useOrCompile(*job.tracer.renderer, job.tracer.variant, film, view);
+  stats.phases.push_back(timer.end());
   return {std::move(parts), std::move(film), std::move(layerSeconds)};
 }
 

@@ -8,6 +8,7 @@
 
 #include "render/film.h"
 #include "session/picture/picture_parts.h"
+#include "session/session.h"
 #include "session/tracer.h"
 
 namespace fragtrace {
@@ -29,9 +30,9 @@ struct DrawingPlan {
   std::vector<double> layerSeconds;  ///< time of one sample of each layer in all pixels
 };
 
-/// Compiles all programs, so that none fails later, and fills in their statistics. Throws UsageError,
-/// RenderError.
-DrawingPlan planDrawing(const PictureJob& job, Statistics& stats);
+/// Compiles all programs, so that none fails later, starts the filter's thread, and fills in statistics.
+/// Throws UsageError, RenderError.
+DrawingPlan planDrawing(const PictureJob& job, Device& device, Statistics& stats);
 
 class CheckpointKeeper;
 

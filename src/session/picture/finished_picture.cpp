@@ -2,6 +2,8 @@
 #include "session/picture/finished_picture.h"
 
 #include <algorithm>
+#include <iterator>
+#include <vector>
 
 #include "base/errors.h"
 #include "base/text.h"
@@ -90,7 +92,9 @@ void checkSamples(const RenderOptions& options, const Statistics& stats) {
 }
 
 void sayDriverLog(const RenderOptions& options, Device& device) {
-  for (const std::string& message : device.driverLog->take()) say(options, "driver: " + message);
+  std::vector<std::string> messages = device.driverLog->take();
+  if (device.filter) std::ranges::copy(device.filter->takeMessages(), std::back_inserter(messages));
+  for (const std::string& message : messages) say(options, "driver: " + message);
 }
 
 }  // namespace
@@ -124,7 +128,7 @@ bool finishPicture(Image& picture, const PictureJob& job, const DrawingPlan& pla
   if (findChannel(picture, "A") &&
       (has(variant.traits, Trait::Alpha) || variant.shadowCatcher || variant.transparentGlass))
     picture.attributes[kNoisyAlphaAttribute] = "1";
-  denoise(picture, options, device.oidn, stats);
+  denoise(picture, options, device, stats);
   sayDriverLog(options, device);
   if (interrupts() > most) return false;
   setProvenanceOf(picture, options, job.loaded, job.tracer, stats);
