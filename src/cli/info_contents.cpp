@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <system_error>
 
 #include "base/errors.h"
@@ -27,10 +28,9 @@ bool isFile(const EncodedImage& image) { return image.name != image.place && !im
 
 std::vector<const Material*> materialsOf(const Scene& scene) {
   std::vector<const Material*> once;
-  for (const Material& material : scene.materials) {
-    const auto isSame = [&](const Material* other) { return other->number == material.number; };
-    if (std::ranges::none_of(once, isSame)) once.push_back(&material);
-  }
+  std::set<decltype(Material::number)> numbers;
+  for (const Material& material : scene.materials)
+    if (numbers.insert(material.number).second) once.push_back(&material);
   return once;
 }
 

@@ -268,6 +268,31 @@ bool matches(std::string_view pattern, std::string_view pointer) {
 
 }  // namespace
 
+namespace {
+
+/// Adds the names of all extensions that are used somewhere in a value.
+void noteExtensions(const json& value, std::set<std::string, std::less<>>& names) {
+  if (value.is_array())
+    for (const json& element : value) noteExtensions(element, names);
+  if (!value.is_object()) return;
+  for (const auto& [name, member] : value.items()) {
+    if (name == "extensions" && member.is_object())
+      for (const auto& [extension, content] : member.items()) names.insert(extension);
+    noteExtensions(member, names);
+  }
+}
+
+/// The extension that a pattern leads into; empty: none.
+std::string_view extensionOf(std::string_view pattern) {
+  constexpr std::string_view kExtensions = "/extensions/";
+  const size_t at = pattern.find(kExtensions);
+  if (at == std::string_view::npos) return {};
+  const std::string_view name = pattern.substr(at + kExtensions.size());
+  return name.substr(0, name.find_first_of("/!"));
+}
+
+}  // namespace
+
 IsUsed applySchema(json& root, const SceneSelection& selection, Diagnostics& diagnostics) {
   if (!root.is_object()) diagnostics.refuse("", "is not glTF: the JSON is not an object");
   IsUsed isUsed = [&root, selection, used = std::make_shared<Owners>()](std::string_view place) {
@@ -275,7 +300,10 @@ IsUsed applySchema(json& root, const SceneSelection& selection, Diagnostics& dia
     return used->contains(ownerOf(place));
   };
   const SchemaContext context{diagnostics, isRequiredAt, isUsed};
-  for (const Rule& rule : rules()) applyRule(rule, root, context);
+  std::set<std::string, std::less<>> extensions{""};
+  noteExtensions(root, extensions);
+  for (const Rule& rule : rules())
+    if (extensions.contains(extensionOf(rule.pattern))) applyRule(rule, root, context);
   return isUsed;
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "base/split.h"
 
@@ -47,34 +48,49 @@ class Checker {
   /// Notes a fault at the place, and returns false.
   bool note(const std::string& reason) {
     fault_ = reason;
-    faultPlace_ = place_;
+    faultPlace_ = place();
     return false;
+  }
+
+  /// Of the value that is looked at: its JSON pointer.
+  std::string place() const {
+    std::string pointer;
+    for (const Step& step : steps_)
+      pointer += step.name.data() != nullptr ? pointerTo(step.name) : pointerTo(step.index);
+    return pointer;
   }
 
   void warn(const std::string& consequence) { context_.diagnostics.warn(faultPlace_, fault_ + consequence); }
 
-  bool visit(json& value, const std::string& name, std::string_view rest) {
-    const size_t length = place_.size();
-    place_.append("/").append(escapedForPointer(name));
+  /// A member or an element on the way from the root. Files have a hundred thousand values, and each rule
+  /// looks at them: pointers are made of steps where one is told.
+  struct Step {
+    std::string_view name;  ///< null: an element
+    size_t index = 0;
+  };
+
+  bool visit(json& value, Step step, std::string_view rest) {
+    steps_.push_back(step);
     const bool stays = rest.empty() ? check(value) : descend(value, rest);
-    place_.resize(length);
+    steps_.pop_back();
     return stays;
   }
 
   /// Returns false if the value cannot stay.
   bool descend(json& value, std::string_view pattern) {
     const size_t end = std::min(pattern.find('/', 1), pattern.size());
-    const std::string name(pattern.substr(1, end - 1));
+    const std::string_view name = pattern.substr(1, end - 1);
     const std::string_view rest = pattern.substr(end);
     const std::string_view here = pattern_.substr(0, pattern_.size() - rest.size());
     if (name == "*") return value.is_array() ? descendArray(value, rest, here) : descendMembers(value, rest);
     if (!value.is_object()) return true;
     const auto member = value.find(name);
-    if (member == value.end()) return !rest.empty() || !required_ || note(inQuotes(name) + " is missing");
-    if (visit(*member, name, rest)) return true;
+    if (member == value.end())
+      return !rest.empty() || !required_ || note(inQuotes(std::string(name)) + " is missing");
+    if (visit(*member, {name}, rest)) return true;
     const bool isNeeded = (rest.empty() && required_) || context_.isRequired(here) || isIndispensable(here);
     if (isNeeded) return false;
-    value.erase(name);
+    value.erase(member);
     warn("; it is taken as absent");
     return true;
   }
@@ -83,11 +99,11 @@ class Checker {
     const LostObject* object = lostObjectAt(here);
     const bool mayBeLost = object != nullptr && context_.diagnostics.hasLost();
     for (size_t i = 0; i < array.size(); ++i) {
-      if (mayBeLost && context_.diagnostics.isLost(place_ + pointerTo(i))) continue;
-      if (visit(array[i], std::to_string(i), rest)) continue;
-      const std::string place = place_ + pointerTo(i);
+      if (mayBeLost && context_.diagnostics.isLost(place() + pointerTo(i))) continue;
+      if (visit(array[i], {{}, i}, rest)) continue;
       if (object != nullptr) {
-        loseObject(root_, *object, place, {"", faultPlace_, fault_}, context_.isUsed, context_.diagnostics);
+        loseObject(root_, *object, place() + pointerTo(i), {"", faultPlace_, fault_}, context_.isUsed,
+                   context_.diagnostics);
       } else if (mayLoseElements(here)) {
         array.erase(i--);
         warn("; it is taken as absent");
@@ -106,7 +122,7 @@ class Checker {
   bool descendMembers(json& object, std::string_view rest) {
     if (!object.is_object()) return true;
     for (auto member = object.begin(); member != object.end();) {
-      const bool stays = visit(member.value(), member.key(), rest);
+      const bool stays = visit(member.value(), {member.key()}, rest);
       if (!stays) warn("; it is taken as absent");
       member = stays ? std::next(member) : object.erase(member);
     }
@@ -164,7 +180,7 @@ class Checker {
     if (!isKnown && (required_ || isIndispensable(pattern_))) return note(isNone);
     value = isKnown ? *word : words.front();
     if (value != given)
-      context_.diagnostics.warn(place_,
+      context_.diagnostics.warn(place(),
                                 (isKnown ? is : isNone + "; it is ") + "read as " + std::string(value));
     return true;
   }
@@ -176,7 +192,7 @@ class Checker {
     for (size_t i = 0; i < value.size(); ++i) {
       if (value[i].is_object()) continue;
       if (object == nullptr) return note("is not an array of objects");
-      const std::string place = place_ + pointerTo(i);
+      const std::string place = this->place() + pointerTo(i);
       const std::string is = value[i].is_null() ? "is null" : "is not an object";
       if (std::string_view(object->empty) == "{}") {
         context_.diagnostics.warn(place, is + ", and taken as one without members");
@@ -205,7 +221,7 @@ class Checker {
       isIndex = note("index " + value.dump() + " is past the " + std::to_string(targetSize_) +
                      " elements of " + rule_.target);
     }
-    if (!isIndex && context_.isUsed(place_)) context_.diagnostics.refuse(faultPlace_, fault_);
+    if (!isIndex && context_.isUsed(place())) context_.diagnostics.refuse(faultPlace_, fault_);
     return isIndex;
   }
 
@@ -215,7 +231,7 @@ class Checker {
   bool required_ = false;
   std::string_view pattern_;
   size_t targetSize_ = 0;
-  std::string place_;
+  std::vector<Step> steps_;
   std::string fault_;       ///< the reason why a value cannot stay
   std::string faultPlace_;  ///< its place
 };
