@@ -22,7 +22,7 @@
 #include "session/picture/denoising.h"
 #include "session/say.h"
 #include "version_text.h"
-#include "view/live/reference.h"
+#include "view/live/view_loader.h"
 #include "view/live/view_tracer.h"
 #include "view/window.h"
 

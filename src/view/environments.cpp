@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "view/dropped_file.h"
+#include "view/files.h"
 
 namespace fragtrace {
 

@@ -6,8 +6,7 @@
 #include <fstream>
 
 #include "image_test_folder.h"
-#include "view/files/file_question.h"
-#include "view/files/file_uri.h"
+#include "view/files.h"
 
 namespace fragtrace {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/picture/histogram.h"
+#include "view/pictures.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/picture/thumbnail.h"
+#include "view/pictures.h"
 
 #include <gtest/gtest.h>
 

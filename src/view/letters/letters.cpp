@@ -10,8 +10,6 @@
 #include <string>
 #include <system_error>
 
-#include "view/letters/fonts.h"
-
 namespace fragtrace {
 
 namespace {

@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "view/live/view_loader.h"
 
+#include <algorithm>
 #include <mutex>
 #include <thread>
+#include <utility>
 
+#include "base/errors.h"
 #include "base/thread_name.h"
 #include "gltf/edit/changed_file.h"
 #include "gltf/edit/factors.h"
+#include "image/channels.h"
+#include "scene/studio.h"
 #include "session/file_light.h"
 #include "session/say.h"
 #include "view/camera_controller.h"
 #include "view/environments.h"
+#include "view/pictures.h"
 
 namespace fragtrace {
 
@@ -105,5 +111,48 @@ std::optional<LoadResult> SceneLoader::take() {
 }
 
 bool SceneLoader::busy() const { return *threads_ > 0; }
+
+void ThumbnailMaker::make(const std::vector<std::filesystem::path>& files, uint64_t memoryLimit) {
+  ++*threads_;
+  std::thread([cancelled = cancelled_, threads = threads_, files, memoryLimit, &exchange = exchange_] {
+    nameThread("thumbnails");
+    for (const std::filesystem::path& file : files) {
+      EnvironmentThumbnail thumbnail{file, {}};
+      try {
+        if (*cancelled) break;
+        thumbnail.image =
+            thumbnailOf(file.empty() ? studioLight() : readLinearImage(file, memoryLimit).image);
+      } catch (const std::exception&) {
+        // A file that cannot be read is reported when it is chosen.
+      }
+      if (!*cancelled) exchange.deliver(std::move(thumbnail));
+    }
+    --*threads;
+  }).detach();
+}
+
+void ThumbnailMaker::cancel() { *cancelled_ = true; }
+
+Image readReference(const std::filesystem::path& path, uint64_t memoryLimit) {
+  LinearImage read = readLinearImage(path, memoryLimit);
+  if (read.wasEncoded)
+    throw InputError(path.string() +
+                     ": holds the colours of a display; to compare with, an .exr, .hdr or .pfm "
+                     "of linear radiance is needed");
+  const Image whole = wholeOf(std::move(read.image));
+  const auto color = findColorChannels(whole);
+  if (!color) throw InputError(path.string() + ": has no colour");
+  const auto alpha = std::ranges::find(whole.channels, "A");
+  Image picture{whole.width, whole.height, {"R", "G", "B"}, {}, {}};
+  if (alpha != whole.channels.end()) picture.channels.emplace_back("A");
+  const size_t count = whole.channelCount();
+  picture.values.reserve(whole.values.size() / count * picture.channelCount());
+  for (size_t first = 0; first < whole.values.size(); first += count) {
+    for (const size_t channel : *color) picture.values.push_back(whole.values[first + channel]);
+    if (alpha != whole.channels.end())
+      picture.values.push_back(whole.values[first + size_t(alpha - whole.channels.begin())]);
+  }
+  return picture;
+}
 
 }  // namespace fragtrace

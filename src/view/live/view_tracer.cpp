@@ -6,11 +6,16 @@
 
 #include "base/timeline.h"
 #include "base/vectors.h"
+#include "bvh/pick.h"
 #include "gl/driver_choice.h"
+#include "gltf/edit/changed_file.h"
+#include "gltf/edit/factors.h"
 #include "session/environment.h"
 #include "session/file_light.h"
 #include "session/outputs.h"
+#include "session/picture/picture_file.h"
 #include "view/set_by_eye.h"
+#include "view/shown_text.h"
 
 namespace fragtrace {
 
@@ -36,6 +41,32 @@ std::string whatFailed(const std::exception_ptr& error) {
   } catch (const std::exception& e) {
     return e.what();
   }
+}
+
+/// The option by which `render` lights the file that holds the numbers as it is shown; empty: none is needed.
+std::string lightToName(const RenderOptions& options, const LoadedScene& loaded) {
+  if (hasMap(options) || options.light.defaultLight == DefaultLight::None) return "";
+  RenderOptions saved = options;
+  takePose(saved.selection, {});
+  const bool shines = fileLightOf(saved, loaded.scene, nullptr, nullptr).own == OwnLight::Enough;
+  if (loaded.environment.kind == Surroundings::Map) return shines ? "--studio" : "";
+  return loaded.environment.kind == Surroundings::None && !shines ? "--no-default-light" : "";
+}
+
+/// Describes the hit in words, a line a fact: node, mesh, triangle, place, and the material's name.
+std::vector<std::string> pickLines(const Scene& scene, const Pick& pick) {
+  std::vector<std::string> lines;
+  lines.push_back("node " + pick.node);
+  if (!pick.mesh.empty())
+    lines.push_back("mesh " + pick.mesh + ", triangle " + std::to_string(pick.triangle));
+  lines.push_back(
+      formatted("at %.4g, %.4g, %.4g; %.4g m away", pick.point.x, pick.point.y, pick.point.z, pick.distance));
+  lines.push_back(formatted("normal %.3f, %.3f, %.3f", pick.normal.x, pick.normal.y, pick.normal.z));
+  if (pick.material >= scene.materials.size()) return lines;
+  const Material& material = scene.materials[pick.material];
+  lines.push_back("material " + std::to_string(pick.material) +
+                  (material.name.empty() ? "" : ": " + material.name));
+  return lines;
 }
 
 }  // namespace
@@ -345,6 +376,111 @@ void ViewTracer::setRequest(const TraceRequest& request) {
   sides_.resize(request.sides.size());
   for (size_t i = 0; i < sides_.size(); ++i) setSide(sides_[i], request_.sides[i]);
   noteAnswered();
+}
+
+// Numbers of the file that the viewer's user sets: their way into the scene that is drawn, and into a file.
+
+bool ViewTracer::setSurfaces(const TraceRequest& request) {
+  const SceneSelection& wanted = request.sides[0].selection;
+  const auto isText = [](const RenderOptions& side) {
+    return side.device.traversal == TraversalMethod::Literals;
+  };
+  // An animation may drive the same numbers, and lines are built again for another camera.
+  if (!sameMoment(wanted, loadedOptions_.selection) || wanted.animationTime ||
+      !loaded_->scene.strokes.empty() || std::ranges::any_of(request.sides, isText))
+    return false;
+  const auto traits = [&](const Scene& scene) { return traitsOf(scene, loaded_->environment); };
+  const TraitSet before = traits(loaded_->scene);
+  programs_->waitForCompiler();
+  if (!setByEye(loaded_->scene, fileMaterials_, fileLights_, wanted.set) || traits(loaded_->scene) != before)
+    return false;
+  takePose(loadedOptions_.selection, wanted);
+  programs_->showSurfaces(wanted);
+  return true;
+}
+
+void ViewTracer::saveModel(const std::filesystem::path& path) {
+  const std::vector<SetNumber>& set = request_.sides.front().selection.set;
+  try {
+    writeChanged(loadedOptions_.scene, path, set);
+    exchange_.deliver(SavedModel{set});
+    exchange_.deliver("wrote " + path.string());
+    if (const std::string light = lightToName(loadedOptions_, *loaded_); !light.empty())
+      exchange_.deliver("the emission that was set decides how that file is lit: render it with " + light +
+                        " to see it as here");
+  } catch (const std::exception& error) {
+    exchange_.deliver(std::string("not written: ") + error.what());
+  }
+}
+
+// The tracing thread's knowledge of a place of the picture, and of what was selected there.
+
+void ViewTracer::answer(const PickRequest& request) {
+  if (request.clear) return select({});
+  PickAnswer answer;
+  answer.request = request;
+  Selected chosen;
+  const Scene& scene = loaded_->scene;
+  const auto choose = [&](uint32_t node, NodeSet nodes) {
+    answer.node = node;
+    answer.bounds = boundsOfNodes(scene, nodes);
+    chosen = {std::move(nodes), answer.bounds};
+  };
+  const Side* side = request.side < sides_.size() ? &sides_[request.side] : nullptr;
+  if (request.node) {
+    choose(*request.node, nodesBelow(scene, *request.node));
+    const auto node = std::ranges::find(scene.nodes, *request.node, &SceneNode::index);
+    if (node != scene.nodes.end()) answer.lines = {"node " + node->name};
+    const bool hidden = node != scene.nodes.end() && node->hidden;
+    if (answer.bounds.empty()) answer.lines.emplace_back(hidden ? "it is hidden" : "it draws nothing");
+  } else {
+    if (!side || !side->program) return;
+    const Projection projection = projectionOf(side->view.camera, double(request_.size.x) / request_.size.y);
+    const glm::dvec2 place(2.0 * request.place.x - 1.0, 1.0 - 2.0 * request.place.y);
+    if (const std::optional<Pick> pick = pickAt(scene, loaded_->bvh, projection, place)) {
+      answer.hit = true;
+      answer.point = pick->point;
+      answer.lines = pickLines(scene, *pick);
+      if (pick->material < scene.materials.size()) answer.material = pick->material;
+      NodeSet nodes(size_t(pick->nodeIndex) + 1);
+      nodes[pick->nodeIndex] = true;
+      choose(pick->nodeIndex, std::move(nodes));
+    } else {
+      answer.lines = {"nothing is there"};
+    }
+  }
+  if (request.use == PickUse::Select) select(std::move(chosen));
+  exchange_.deliver(std::move(answer));
+}
+
+/// Its outline is drawn over the pictures from now on.
+void ViewTracer::select(Selected selected) {
+  if (selected_.nodes.empty() && selected.nodes.empty()) return;
+  selected_ = std::move(selected);
+  for (Side& side : sides_) {
+    if (side.program && !side.stale && side.samples > 0) publish(side);
+  }
+}
+
+std::vector<PictureLine> ViewTracer::linesOver(const Side& side) {
+  std::vector<PictureLine> lines = treeLines(side.options, *loaded_, side.view.camera, request_.size);
+  // Straight edges are curves in a panorama and a fisheye, which have no outline.
+  if (selected_.bounds.empty() || !isRectilinear(side.view.camera.type)) return lines;
+  const LocalSpace& space = loaded_->scene.space;
+  const Projection projection = projectionOf(side.view.camera, double(request_.size.x) / request_.size.y);
+  if (selected_.outlined != std::pair(projection, request_.size)) {
+    selected_.outline = outlineOfNodes(loaded_->scene, selected_.nodes, projection, request_.size);
+    selected_.outlined = {projection, request_.size};
+  }
+  std::vector<PictureLine> around = selected_.outline;
+  if (around.empty()) {
+    Bounds box;
+    box.include(glm::vec3(space.localOf(selected_.bounds.minimum)));
+    box.include(glm::vec3(space.localOf(selected_.bounds.maximum)));
+    around = boxEdges({&box, 1}, projection, space);
+  }
+  lines.insert(lines.end(), around.begin(), around.end());
+  return lines;
 }
 
 }  // namespace fragtrace

@@ -12,7 +12,6 @@
 #include "session/setup.h"
 #include "view/exchange.h"
 #include "view/file_watch.h"
-#include "view/live/thumbnails.h"
 #include "view/live/view_loader.h"
 #include "view/live/view_picture.h"
 #include "view/live/view_programs.h"

@@ -16,9 +16,9 @@
 #include <functional>
 #include <glm/common.hpp>
 
-#include "view/letters/fonts.h"
-#include "view/window/draw/theme.h"
+#include "view/letters/letters.h"
 #include "view/window/glfw_window.h"
+#include "view/window/widgets.h"
 
 namespace fragtrace {
 

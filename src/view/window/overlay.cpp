@@ -4,16 +4,16 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <string_view>
 
 #include "base/text.h"
-#include "view/presets.h"
-#include "view/progress.h"
+#include "view/pictures.h"
 #include "view/set_by_eye.h"
 #include "view/shown_text.h"
-#include "view/window/draw/text.h"
-#include "view/window/draw/theme.h"
-#include "view/window/panel_parts.h"
+#include "view/window/widgets.h"
 
 namespace fragtrace {
 
@@ -342,6 +342,99 @@ void drawSheet(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
   ImGui::End();
 }
 
+template <typename... Values>
+void row(const char* name, const char* format, Values... values) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextDisabled("%s", name);
+  ImGui::TableNextColumn();
+  ImGui::Text(format, values...);
+}
+
+/// Each step of a picture and the tracing thread's own work, in milliseconds. Software goes on with the steps
+/// after the trace while it is told more, so their own times are not known there.
+std::string passText(const PassTimes& times) {
+  std::string text;
+  double host = 0.0;
+  const auto add = [&](std::string_view name, double ms) {
+    text += (text.empty() ? "" : ", ") + std::string(name) + formatted(" %.1f", ms);
+  };
+  for (size_t pass = 0; pass < kPassNames.size(); ++pass) {
+    if (times.wall[pass] >= 0.05) add(kPassNames[pass], times.wall[pass]);
+    host += times.cpu[pass];
+  }
+  add("host", host);
+  return text + " ms";
+}
+
+void drawCosts(const ViewState& state, const ViewFacts& facts, size_t side, const WindowLayout& layout) {
+  const SideStatistics& s = facts.statistics[side];
+  row("frame", "%.1f ms, 95th %.1f ms", s.frameMs, s.frameP95Ms);
+  row("rays", "%.2f million/s", s.megaRaysPerSecond);
+  ImGui::PushTextWrapPos(layout.figuresMost.x - 2 * ImGui::GetStyle().WindowPadding.x);
+  row("steps", "%s", passText(s.passes).c_str());
+  ImGui::PopTextWrapPos();
+  if (s.filtered > 0.0) row("denoised", "%.0f %%, %.0f ms", 100.0 * s.filtered, s.filterMs);
+  if (!state.edit.split) row("paths", "%.2f million/s", s.megaPathsPerSecond);
+  const glm::ivec2 size = facts.pictureSize[side];
+  row("picture", "%d x %d%s", size.x, size.y, s.copied ? ", copied" : "");
+  if (state.edit.split || !state.scene) return;
+  const SceneDescription& d = state.scene->description;
+  if (d.spheres > 0)
+    row("scene", "%zu triangles, %zu spheres", d.triangles, d.spheres);
+  else
+    row("scene", "%zu triangles", d.triangles);
+  row("memory", "%.1f MB", double(s.deviceBytes) / 1e6);
+}
+
+/// In the split view only the compared values. Returns the lower end.
+float drawSide(const ViewState& state, ViewFacts& facts, size_t side, ImVec2 place,
+               const WindowLayout& layout) {
+  float end = place.y;
+  const SideStatistics& s = facts.statistics[side];
+  const std::string name = "figures" + std::to_string(side);
+  ImGui::SetNextWindowPos(place);
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {layout.figuresMost.x, layout.figuresMost.y});
+  ImGui::SetNextWindowBgAlpha(0.62f);
+  if (ImGui::Begin(name.c_str(), nullptr, kLabelFlags | ImGuiWindowFlags_NoInputs) &&
+      ImGui::BeginTable("rows", 2, ImGuiTableFlags_SizingFixedFit)) {
+    if (state.edit.split) row("side", "%s", side == 0 ? "A" : "B");
+    row("samples", "%d, %.1f s%s", s.samples, s.seconds, s.resting ? ", done" : "");
+    if (s.error < 0.0)
+      row("error", "not yet known");
+    else if (layout.figures == FigureDetail::Brief)
+      row("error", "%.2f %%", 100.0 * s.error);
+    else
+      row("error", "%.2f %% (goal %.2f %%)", 100.0 * s.error, 100.0 * state.edit.shared.sampling.noise);
+    if (layout.figures == FigureDetail::All) drawCosts(state, facts, side, layout);
+    ImGui::EndTable();
+    addWindowPlace(facts.places, name);
+    end = ImGui::GetWindowPos().y + ImGui::GetWindowSize().y;
+  }
+  ImGui::End();
+  return end;
+}
+
+constexpr float kLines = 3.0f;  // red, green, blue
+constexpr std::array<ImU32, 3> kValueColors{IM_COL32(255, 150, 150, 255), IM_COL32(150, 240, 150, 255),
+                                            IM_COL32(170, 190, 255, 255)};
+
+/// Three lines in the middle of a pixel, on a dark ground.
+void drawValue(ImDrawList& list, ImVec2 middle, const glm::dvec3& value) {
+  const float line = ImGui::GetFontSize();
+  std::array<std::string, 3> texts;
+  float width = 0.0f;
+  for (size_t c = 0; c < 3; ++c) {
+    texts[c] = formatted("%.3g", value[int(c)]);
+    width = std::max(width, ImGui::CalcTextSize(texts[c].c_str()).x);
+  }
+  const ImVec2 corner(std::round(middle.x - 0.5f * width), std::round(middle.y - 0.5f * kLines * line));
+  list.AddRectFilled({corner.x - 2.0f, corner.y}, {corner.x + width + 2.0f, corner.y + kLines * line},
+                     IM_COL32(0, 0, 0, 150));
+  for (size_t c = 0; c < 3; ++c)
+    list.AddText({corner.x, corner.y + float(c) * line}, kValueColors[c], texts[c].data());
+}
+
 }  // namespace
 
 void drawOverlay(ViewState& state, ViewFacts& facts, const WindowLayout& layout, double now) {
@@ -359,6 +452,65 @@ void drawOverlay(ViewState& state, ViewFacts& facts, const WindowLayout& layout,
   drawStageBar(state, facts, layout);
   if (state.sheet) drawSheet(state, facts, layout);
   if (facts.load.busy) drawLoading(facts, layout);
+}
+
+void drawFigures(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
+  if (layout.figures == FigureDetail::None) return;
+  // Below the names of the sides.
+  float top = layout.margin + (state.edit.split ? ImGui::GetFontSize() + 2.0f * layout.margin : 0.0f);
+  for (size_t side = 0; side < state.tracedCount(); ++side)
+    top = drawSide(state, facts, side, {layout.margin, top}, layout) + layout.margin;
+}
+
+std::optional<glm::dvec3> shownValue(const ViewFacts& facts, size_t side, bool difference,
+                                     const glm::dvec2& place) {
+  const auto value = radianceAt(facts.values[side], place);
+  if (!value || !difference) return value;
+  const auto other = radianceAt(facts.values[1], place);
+  return other ? std::optional(glm::abs(*value - *other)) : std::nullopt;
+}
+
+PixelArea wantedArea(const ViewState& state, const ViewFacts& facts, size_t side, glm::ivec2 whole) {
+  if (whole.x <= 0) return {};
+  if (facts.wantsHistogram && side == state.shownSide()) return {{0, 0}, whole};
+  const auto between = [&](const glm::dvec2& from, const glm::dvec2& to) {
+    const glm::ivec2 corner = pixelAt(whole, from);
+    return PixelArea{corner, pixelAt(whole, to) - corner + 1};
+  };
+  if (showsPixelValues(state)) {
+    const glm::dvec2 corner = magnifiedPlace(state, glm::dvec2(0.0));
+    return between(corner, corner + std::exp2(-state.magnifier.steps));
+  }
+  if (!facts.cursor || (state.overview && sideAt(state, *facts.cursor) != side)) return {};
+  const glm::dvec2 place = magnifiedPlace(state, *facts.cursor + 0.5 / glm::dvec2(state.size));
+  return between(place, place);
+}
+
+bool showsPixelValues(const ViewState& state) {
+  return std::exp2(state.magnifier.steps) >= double((kLines + 1.0f) * ImGui::GetFontSize());
+}
+
+void drawPixelValues(const ViewState& state, const ViewFacts& facts, const WindowLayout& layout) {
+  if (!showsPixelValues(state)) return;
+  const double factor = std::exp2(state.magnifier.steps);
+  const bool difference = state.compares() && state.comparison == CompareMode::Difference;
+  const glm::dvec2 size(layout.picture);
+  // The place is in parts of the picture, from its top left.
+  const glm::dvec2 corner = magnifiedPlace(state, glm::dvec2(0.0));
+  const glm::ivec2 first(corner * size);
+  const glm::ivec2 last((corner + 1.0 / factor) * size);
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.PushClipRect({0.0f, 0.0f}, {float(size.x), float(size.y)});
+  for (int y = first.y; y <= std::min(last.y, layout.picture.y - 1); ++y) {
+    for (int x = first.x; x <= std::min(last.x, layout.picture.x - 1); ++x) {
+      const glm::dvec2 place = (glm::dvec2(x, y) + 0.5) / size;
+      const glm::dvec2 shown = (place - corner) * factor;
+      const size_t side = difference ? 0 : sideAt(state, shown);
+      const auto value = shownValue(facts, side, difference, place);
+      if (value) drawValue(list, ImVec2(float(shown.x * size.x), float(shown.y * size.y)), *value);
+    }
+  }
+  list.PopClipRect();
 }
 
 }  // namespace fragtrace

@@ -7,17 +7,35 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "view/message_list.h"
-#include "view/picture/histogram.h"
-#include "view/picture/pixel_value.h"
+#include "view/pictures.h"
 #include "view/remembered.h"
 #include "view/view_state.h"
-#include "view/window/draw/places.h"
-#include "view/window/recent_files.h"
 #include "view/window_layout.h"
 
 namespace fragtrace {
+
+// The places of things in the window, for scripts that click on them (docs/viewer.md).
+
+/// Left, top, width and height by name, in pixels of the window.
+using Places = std::map<std::string, std::array<float, 4>>;
+
+/// Adds the window of Dear ImGui that is being made.
+void addWindowPlace(Places& places, const std::string& name);
+
+/// Adds the item of Dear ImGui that was made last, and returns what that returned.
+bool placed(Places& places, const std::string& name, bool result = true);
+
+// The files that were shown before, as a list to choose from.
+
+/// The recent files as they were when the list was opened: the disk is not asked in each frame.
+struct RecentFiles {
+  std::vector<std::filesystem::path> files;
+  std::vector<bool> gone;
+  int frame = -1;  ///< Dear ImGui's frame in which the list was drawn last
+};
 
 /// The histogram that was drawn last, and of what.
 struct ShownHistogram {

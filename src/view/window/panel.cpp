@@ -1,21 +1,527 @@
 // SPDX-License-Identifier: MIT
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
 #include <string>
 
 #include "base/text.h"
+#include "gltf/edit/factors.h"
+#include "image/display/tone_map.h"
 #include "options/same_picture.h"
-#include "view/presets.h"
-#include "view/window/draw/text.h"
-#include "view/window/draw/theme.h"
+#include "scene/parts.h"
+#include "scene/sky/blurred_map.h"
+#include "view/environments.h"
+#include "view/set_by_eye.h"
+#include "view/shown_text.h"
 #include "view/window/input.h"
-#include "view/window/panel_parts.h"
+#include "view/window/widgets.h"
 
 namespace fragtrace {
 
 namespace {
+
+// The choice among the file's scenes and material variants.
+
+bool hasParts(const ViewState& state) {
+  return state.scene->sceneNames.size() > 1 || !state.scene->materialVariants.empty();
+}
+
+void drawParts(const ViewState& state, ViewFacts& facts) {
+  const ViewedScene& scene = *state.scene;
+  const auto chooseFrom = [&](const char* name, const char* none, const std::vector<std::string>& names,
+                              std::string SceneSelection::*part) {
+    const std::string& current = scene.options.selection.*part;
+    const auto nameOf = [&](size_t i) { return i == 0 ? none : partText(i - 1, names[i - 1]); };
+    const std::optional<size_t> shown = current.empty() ? std::nullopt : findPart(current, names);
+    const auto chosen = choose(facts.places, name, names.size() + 1, shown ? *shown + 1 : 0, nameOf);
+    const std::string wanted = chosen.value_or(0) == 0 ? "" : std::to_string(*chosen - 1);
+    if (!chosen || wanted == current) return;
+    facts.commands.push_back({.command = Command::Load, .load = scene.options});
+    facts.commands.back().load->selection.*part = wanted;
+  };
+  if (scene.sceneNames.size() > 1)
+    chooseFrom("Scene", "the file's own choice", scene.sceneNames, &SceneSelection::scene);
+  if (!scene.materialVariants.empty())
+    chooseFrom("Variant", "none", scene.materialVariants, &SceneSelection::materialVariant);
+}
+
+// Sliders for the numbers of materials and lights that are set by eye.
+
+constexpr float kMostBrighter = 100.0f;  // than in the file
+
+/// Linear, from 0 to 1.
+bool editColor(const char* id, float* color) {
+  if (!ImGui::ColorEdit3(id, color, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoLabel)) return false;
+  // Any number may be typed.
+  for (int i = 0; i < 3; ++i) color[i] = std::clamp(color[i], 0.0f, 1.0f);
+  return true;
+}
+
+void drawFactor(ViewState& state, Places& places, const Factor& factor, const Material& file, Material now) {
+  label(places, factor.label);
+  const std::string id = std::string("##") + factor.member;
+  float* first = factor.at(now);
+  const ImGuiSliderFlags flags = factor.logarithmic ? kBoundedLogarithmic : kBounded;
+  const bool changed = factor.width > 1
+                           ? editColor(id.c_str(), first)
+                           : ImGui::SliderFloat(id.c_str(), first, factor.least, factor.most, "%.3f", flags);
+  if (changed) setNumber(state, numberOf(factor, now), numberOf(factor, file));
+}
+
+void drawLightSource(ViewState& state, Places& places, size_t index) {
+  const LightSource& file = state.scene->lights[index];
+  LightSource now = file;
+  setLight(now, index, state.edit.shared.selection.set);
+  const float most = file.intensity > 0.0 ? kMostBrighter * float(file.intensity) : kMostBrighter;
+  if (slider(places, {"Light intensity", 0.0f, most, "%.4g", kBoundedLogarithmic}, now.intensity)) {
+    now.intensity = shortest(float(now.intensity));
+    setNumber(state, intensityOf(now, index), intensityOf(file, index));
+  }
+  label(places, "Light colour");
+  glm::vec3 color(now.color);
+  if (editColor("##color", glm::value_ptr(color))) {
+    now.color = {shortest(color.x), shortest(color.y), shortest(color.z)};
+    setNumber(state, colorOf(now, index), colorOf(file, index));
+  }
+}
+
+/// A row that opens.
+bool beginPart(Places& places, const std::string& place, size_t index, const std::string& name) {
+  ImGui::PushID(int(index));
+  return placed(places, place + " " + std::to_string(index),
+                ImGui::TreeNodeEx("##part", 0, "%s", partText(index, name).c_str()));
+}
+
+void endPart(bool open) {
+  if (open) ImGui::TreePop();
+  ImGui::PopID();
+}
+
+void drawMaterial(ViewState& state, Places& places, size_t index) {
+  const Material& file = state.scene->materials[index];
+  const Material now = shownMaterial(state, index);
+  for (const Factor& factor : factors()) {
+    if (isOffered(factor, file)) drawFactor(state, places, factor, file, now);
+  }
+}
+
+void drawMaterials(ViewState& state, Places& places) {
+  for (size_t i = 0; i < state.scene->materials.size(); ++i) {
+    const bool open = beginPart(places, "material", i, state.scene->materials[i].name);
+    if (open) {
+      drawMaterial(state, places, i);
+      for (const std::string& line : materialLines(shownMaterial(state, i)))
+        ImGui::TextUnformatted(line.c_str());
+    }
+    endPart(open);
+  }
+}
+
+void drawLights(ViewState& state, Places& places) {
+  for (size_t i = 0; i < state.scene->lights.size(); ++i) {
+    const bool open = beginPart(places, "light", i, state.scene->lights[i].name);
+    if (open) drawLightSource(state, places, i);
+    endPart(open);
+  }
+}
+
+// The scene's nodes, which can be selected and hidden, and its materials.
+
+constexpr float kMostRows = 12.0f;
+constexpr int kDepthOpen = 2;  ///< rows above are open at first
+
+/// Returns the facts about a node that follow its name in brackets.
+std::string notesOf(const SceneNode& node) {
+  std::string notes;
+  if (node.light) notes += notes.empty() ? "light" : ", light";
+  if (node.camera) notes += notes.empty() ? "camera" : ", camera";
+  if (node.hiddenInFile) notes += notes.empty() ? "hidden in the file" : ", hidden in the file";
+  return notes.empty() ? "" : "  (" + notes + ")";
+}
+
+/// Draws a row: a box that shows or hides the node, and its name, which selects it. Returns true if the row
+/// is open.
+bool drawNode(ViewState& state, ViewFacts& facts, size_t i, bool parentShown) {
+  const std::vector<SceneNode>& nodes = state.scene->nodes;
+  const SceneNode& node = nodes[i];
+  const bool leaf = i + 1 == nodes.size() || nodes[i + 1].depth <= node.depth;
+  ImGui::PushID(int(i));
+  bool shown = !isHidden(state, i) && !node.hiddenInFile;
+  ImGui::BeginDisabled(node.hiddenInFile || !parentShown);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, 0.0f));
+  if (placed(facts.places, "show " + node.name, ImGui::Checkbox("##shown", &shown)))
+    hideNode(state, i, !shown);
+  ImGui::PopStyleVar();
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  const bool selected = state.selectedNode == node.index;
+  const bool open =
+      ImGui::TreeNodeEx("##node",
+                        ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_NoTreePushOnOpen |
+                            (leaf ? ImGuiTreeNodeFlags_Leaf : 0) |
+                            (node.depth < kDepthOpen ? ImGuiTreeNodeFlags_DefaultOpen : 0) |
+                            (selected ? ImGuiTreeNodeFlags_Selected : 0),
+                        "%s%s", shownText(node.name, kMostNameCharacters).c_str(), notesOf(node).c_str());
+  if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen())
+    facts.commands.push_back({Command::SelectNode, int(node.index)});
+  placed(facts.places, "node " + node.name, open);
+  ImGui::PopID();
+  return open;
+}
+
+void drawNodes(ViewState& state, ViewFacts& facts) {
+  const std::vector<SceneNode>& nodes = state.scene->nodes;
+  const float indent = ImGui::GetStyle().IndentSpacing;
+  int deepest = nodes.empty() ? 0 : nodes[0].depth;  // depth of the deepest open row
+  std::vector<bool> hiddenAt;                        // for each depth: true if the row above is hidden
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    const int depth = nodes[i].depth;
+    if (depth > deepest) continue;
+    hiddenAt.resize(size_t(depth));
+    const bool parentShown = std::ranges::none_of(hiddenAt, [](bool hidden) { return hidden; });
+    hiddenAt.push_back(isHidden(state, i));
+    const float in = indent * float(depth);
+    if (in > 0.0f) ImGui::Indent(in);
+    // Rows that are scrolled away take their room alone.
+    const float height = ImGui::GetTextLineHeight();
+    const ImVec2 row = ImGui::GetCursorScreenPos();
+    const bool seen = ImGui::IsRectVisible(row, ImVec2(row.x + 1.0f, row.y + height));
+    bool open = false;
+    if (seen) {
+      open = drawNode(state, facts, i, parentShown);
+    } else {
+      ImGui::PushID(int(i));
+      open = ImGui::GetStateStorage()->GetInt(ImGui::GetID("##node"), depth < kDepthOpen ? 1 : 0) != 0;
+      ImGui::PopID();
+      ImGui::Dummy(ImVec2(1.0f, height));
+    }
+    if (in > 0.0f) ImGui::Unindent(in);
+    deepest = open ? depth + 1 : depth;
+  }
+}
+
+/// Begins a list that is as high as its rows, up to a limit.
+bool beginList(const char* id, size_t rows, ImGuiWindowFlags flags = 0) {
+  const float line = ImGui::GetTextLineHeightWithSpacing();
+  return ImGui::BeginChild(id, ImVec2(0.0f, line * std::min(float(rows) + 0.5f, kMostRows)), false, flags);
+}
+
+void drawTree(ViewState& state, ViewFacts& facts) {
+  if (beginList("nodes", state.scene->nodes.size(), ImGuiWindowFlags_HorizontalScrollbar))
+    drawNodes(state, facts);
+  ImGui::EndChild();
+  const auto list = [&](const char* name, const char* title, size_t count, auto draw) {
+    const std::string id = std::string("##") + name;
+    const bool open =
+        ImGui::TreeNodeEx(id.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen, "%s (%d)", title, int(count));
+    if (!placed(facts.places, name, open)) return;
+    if (beginList(name, size_t(kMostRows))) draw(state, facts.places);
+    ImGui::EndChild();
+  };
+  list("materials", "Materials", state.scene->materials.size(), drawMaterials);
+  if (!state.scene->lights.empty()) list("lights", "Lights", state.scene->lights.size(), drawLights);
+}
+
+// Exposure, tone map, environment and background.
+
+constexpr float kMostColor = 1e4f;
+constexpr float kMostIntensity = 100.0f;  // the command line takes more
+constexpr float kMostFog = 10.0f;         // 1/m; as below, the command line takes more
+constexpr float kMostForward = 0.95f;
+constexpr float kMostFogHeight = 1000.0f;  // metres
+constexpr float kLowestSun = -18.0f;       // degrees; the command line takes less
+constexpr float kMostBlur = 30.0f;         // degrees; the command line takes more
+
+/// Draws a thumbnail twice as wide as high, or leaves room if there is none, or none yet.
+void drawThumbnail(const ViewFacts& facts, const EnvironmentChoice& choice, float height) {
+  const ImVec2 size(2.0f * height, height);
+  const bool map = choice.studio || !choice.file.empty();
+  const auto found = map ? facts.thumbnails.find(choice.file) : facts.thumbnails.end();
+  if (found == facts.thumbnails.end())
+    ImGui::Dummy(size);
+  else
+    // Dear ImGui's pointer is a texture's name to its part for OpenGL.
+    ImGui::Image(ImTextureID(intptr_t(found->second)), size);  // NOLINT(performance-no-int-to-ptr)
+}
+
+/// A list of what can light the scene.
+void chooseEnvironment(const ViewedScene& scene, ViewFacts& facts) {
+  Places& places = facts.places;
+  const std::vector<EnvironmentChoice> choices = environmentChoices(scene);
+  const size_t current = currentChoice(scene, choices);
+  if (!ImGui::BeginCombo("##environment", shownText(choices[current].name, kMostNameCharacters).c_str()))
+    return;
+  facts.wantsThumbnails = true;
+  const float height = 1.6f * ImGui::GetFontSize();
+  for (size_t i = 0; i < choices.size(); ++i) {
+    ImGui::PushID(int(i));
+    drawThumbnail(facts, choices[i], height);
+    ImGui::SameLine();
+    const std::string name = shownText(choices[i].name, kMostNameCharacters);
+    if (placed(places, "environment " + choices[i].name,
+               ImGui::Selectable(name.c_str(), i == current, 0, ImVec2(0.0f, height))))
+      facts.commands.push_back(
+          {.command = Command::Load, .load = withEnvironment(scene.options, choices[i])});
+    ImGui::PopID();
+  }
+  if (placed(places, "environment Open...", ImGui::Selectable("Open...")))
+    facts.commands.push_back({Command::Open, 1});
+  ImGui::EndCombo();
+}
+
+/// The sun of the sky, and its haze.
+void drawSky(ViewState& state, Places& places) {
+  SkyOptions& sky = state.edit.shared.light.sky;
+  SunPlace sun = sunOf(sky);
+  if (slider(places,
+             {"Sun height", kLowestSun, 90.0f, "%.1f degrees", kBounded,
+              "Degrees above the horizon (--sun-elevation). Shift and the right button drag the sun"},
+             sun.elevation))
+    placeSun(sky, sun);
+  double azimuth = std::remainder(sun.azimuth, 360.0);
+  if (slider(places,
+             {"Sun from", -180.0f, 180.0f, "%.0f degrees", kBounded,
+              "Degrees clockwise from north, which is -Z: 90 is east, +X (--sun-azimuth)"},
+             azimuth)) {
+    sun.azimuth = azimuth;
+    placeSun(sky, sun);
+  }
+  slider(places,
+         {"Haze", 1.0f, 10.0f, "%.1f", kBounded, "1 is air without haze, 3 a clear day (--sky-turbidity)"},
+         sky.turbidity);
+}
+
+/// Fog round the scene.
+void drawFog(ViewState& state, Places& places) {
+  FogOptions& fog = state.edit.shared.fog;
+  const std::string reason = whyNoFog(state);
+  ImGui::BeginDisabled(!reason.empty());
+  // The box of its colour stands on the same line.
+  const float box = fog.density > 0.0 ? ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x : 0.0f;
+  slider(places,
+         {"Fog", 0.0f, kMostFog, fog.density > 0.0 ? "%.3f / m" : "none", kBoundedLogarithmic,
+          "How dense the fog round the scene is: at 0.2 / m, light goes 5 m on average before it meets some "
+          "(--fog-density). --fog-distance says how far the fog reaches",
+          reason, box},
+         fog.density);
+  if (fog.density > 0.0) {
+    ImGui::SameLine();
+    glm::vec3 color = fog.color.value_or(glm::vec3(1.0f));
+    constexpr ImGuiColorEditFlags kColor = ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoInputs;
+    if (placed(places, "Fog colour", ImGui::ColorEdit3("##fogcolor", glm::value_ptr(color), kColor)))
+      fog.color = glm::clamp(color, glm::vec3(0.0f), glm::vec3(1.0f));
+    tip(places, "The part of the light that the fog scatters rather than swallows (--fog-color)");
+    slider(places,
+           {"Fog forward", -kMostForward, kMostForward, "%.2f", kBounded,
+            "Where the fog scatters light: above 0 rather forwards, as mist before a lamp; below 0 rather "
+            "back (--fog-anisotropy)"},
+           fog.anisotropy);
+    double height = fog.height.value_or(0.0);
+    if (slider(places,
+               {"Fog height", 0.0f, kMostFogHeight, height > 0.0 ? "%.2f m" : "no limit", kBoundedLogarithmic,
+                "Ground fog: every so many metres up, it is thinner by a factor of e. At 0 it is as dense "
+                "above as below (--fog-height)"},
+               height))
+      fog.height = height > 0.0 ? std::optional(height) : std::nullopt;
+  } else {
+    fog = FogOptions();
+  }
+  ImGui::EndDisabled();
+}
+
+void drawBackground(ViewState& state, Places& places) {
+  LightOptions& light = state.edit.shared.light;
+  label(places, "Background");
+  ImGui::Checkbox("##background", &light.background);
+  if (light.background && state.scene->surroundings != Surroundings::Map) {
+    ImGui::SameLine();
+    glm::vec3 color = light.backgroundColor.value_or(glm::vec3(0.0f));
+    constexpr ImGuiColorEditFlags kColor =
+        ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_NoInputs;
+    if (placed(places, "Background colour", ImGui::ColorEdit3("##color", glm::value_ptr(color), kColor)))
+      light.backgroundColor = glm::clamp(color, glm::vec3(0.0f), glm::vec3(kMostColor));
+  }
+}
+
+void drawLight(ViewState& state, ViewFacts& facts) {
+  Places& places = facts.places;
+  RenderOptions& o = state.edit.shared;
+  double exposure = o.output.exposure.value_or(0.0);
+  if (slider(places, {"Exposure", -8.0f, 8.0f, "%.1f EV"}, exposure)) o.output.exposure = exposure;
+  choose(places, "Tone map", toneMapNames(), o.output.toneMap);
+  label(places, "Environment");
+  chooseEnvironment(*state.scene, facts);
+  const bool map = state.scene->surroundings == Surroundings::Map;
+  double degrees = std::remainder(o.light.hdriRotationDegrees, 360.0);
+  // Typed values beyond the ends wrap around.
+  if (slider(places,
+             {"Rotation", -180.0f, 180.0f, "%.0f degrees", 0, nullptr, map ? "" : "no environment map"},
+             degrees))
+    o.light.hdriRotationDegrees = std::isfinite(degrees) ? std::remainder(degrees, 360.0) : 0.0;
+  const bool lit = has(state.scene->present, Trait::Environment);
+  slider(
+      places,
+      {"Intensity", 0.0f, kMostIntensity, "%.2f", kBoundedLogarithmic, nullptr, lit ? "" : "no environment"},
+      o.light.hdriIntensity);
+  if (o.light.sky.on) drawSky(state, places);
+  const LightOptions& loaded = state.scene->options.light;
+  if (!loaded.hdriFile.empty() || loaded.sky.on) {
+    // The map is blurred once, when the slider is let go.
+    double wanted = state.blur.value_or(loaded.backgroundBlur);
+    if (slider(places, {"Blur", 0.0f, kMostBlur, wanted > 0.0 ? "%.1f degrees" : "none"}, wanted))
+      state.blur = wanted;
+    if (ImGui::IsItemDeactivatedAfterEdit() && state.blur) {
+      facts.commands.push_back({.command = Command::Load, .load = state.scene->options});
+      facts.commands.back().load->light.backgroundBlur = *state.blur < kLeastBlur ? 0.0 : *state.blur;
+      state.blur.reset();
+    }
+  }
+  drawFog(state, places);
+  drawBackground(state, places);
+  const bool paths = has(state.side().stages, Stage::Gi);
+  ImGui::BeginDisabled(!paths);
+  commandBox(facts, "Shadow catcher", o.light.shadowCatcher && paths, Command::ToggleGround);
+  ImGui::EndDisabled();
+  dimAtEnd(paths ? keyOf(Command::ToggleGround) : "only path traced");
+}
+
+// The histogram of the radiance in the active side's picture.
+
+constexpr float kPlotHeight = 72.0f;  // pixels at 96 dots an inch
+constexpr std::array<ImU32, 3> kPlotColors{IM_COL32(220, 70, 70, 150), IM_COL32(70, 190, 80, 150),
+                                           IM_COL32(90, 120, 240, 150)};
+
+/// Computed again only for another picture or exposure.
+const Histogram& current(const ViewState& state, ViewFacts& facts) {
+  const size_t side = state.shownSide();
+  ShownHistogram& shown = facts.histogram;
+  const double exposure = state.edit.shared.output.exposure.value_or(0.0);
+  const PictureValues& values = facts.values[side];
+  facts.wantsHistogram = true;
+  const bool whole = values.whole.x > 0 && values.area.size == values.whole;
+  const bool known = shown.picture == values.picture && shown.side == side && shown.exposure == exposure;
+  if (whole && !known) shown = {histogramOf(values.image, exposure), values.picture, side, exposure};
+  return shown.histogram;
+}
+
+void plot(const Histogram& histogram, ImVec2 corner, ImVec2 size) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg));
+  const float width = size.x / float(kHistogramBins);
+  for (size_t channel = 0; channel < 3; ++channel) {
+    for (size_t bin = 0; bin < kHistogramBins; ++bin) {
+      const float share = histogram.shares[channel][bin] / std::max(histogram.highest, 1e-6f);
+      const float top = corner.y + size.y * (1.0f - std::min(share, 1.0f));
+      const float left = corner.x + width * float(bin);
+      list.AddRectFilled({left, top}, {left + width, corner.y + size.y}, kPlotColors[channel]);
+    }
+  }
+  // A radiance of 1, which is white without a tone map.
+  const float white = corner.x + size.x * float(-kLowestStop / (kHighestStop - kLowestStop));
+  list.AddLine({white, corner.y}, {white, corner.y + size.y}, ImGui::GetColorU32(ImGuiCol_Text));
+}
+
+void drawHistogram(const ViewState& state, ViewFacts& facts) {
+  const Histogram& histogram = current(state, facts);
+  const float scale = ImGui::GetFontSize() / 14.0f;
+  const ImVec2 size(ImGui::GetContentRegionAvail().x, kPlotHeight * scale);
+  plot(histogram, ImGui::GetCursorScreenPos(), size);
+  ImGui::Dummy(size);
+  placed(facts.places, "histogram");
+  tip(facts.places,
+      formatted("radiance from 2^%g to 2^%g with the exposure; the line is at 1", kLowestStop, kHighestStop));
+  ImGui::TextDisabled("mean %.3g   max %.3g   above 1: %.2g %%", histogram.mean, histogram.most,
+                      100.0 * histogram.above);
+}
+
+// The camera: projection, cameras of the scene, views with a name.
+
+constexpr double kLeastStop = 0.001;  // the range that the panel offers
+constexpr double kMostStop = 32.0;
+
+/// A line for a new name, then one a view: go there, or forget it.
+void drawBookmarks(ViewState& state, ViewFacts& facts) {
+  Places& places = facts.places;
+  const float button = ImGui::CalcTextSize("Keep view").x + 4 * ImGui::GetStyle().FramePadding.x;
+  ImGui::SetNextItemWidth(-button);
+  const bool typed =
+      placed(places, "Bookmark name",
+             ImGui::InputTextWithHint("##bookmark", "name of this view", state.bookmarkName.data(),
+                                      state.bookmarkName.size(), ImGuiInputTextFlags_EnterReturnsTrue));
+  ImGui::SameLine();
+  const auto& all = facts.remembered.bookmarks;
+  const auto found = all.find(std::filesystem::absolute(state.scene->options.scene).string());
+  const size_t count = found == all.end() ? 0 : found->second.size();
+  if (placed(places, "Keep view", ImGui::Button("Keep view", ImVec2(-1, 0))) || typed) {
+    const std::string name(state.bookmarkName.data());
+    facts.commands.push_back(
+        {.command = Command::AddBookmark, .text = name.empty() ? "View " + std::to_string(count + 1) : name});
+    state.bookmarkName = {};
+  }
+  for (size_t i = 0; i < count; ++i) {
+    ImGui::PushID(int(i));
+    if (placed(places, "forget view " + std::to_string(i), ImGui::SmallButton("x")))
+      facts.commands.push_back({Command::RemoveBookmark, int(i)});
+    ImGui::SameLine();
+    const std::string name = shownText(found->second[i].name, kMostNameCharacters) + "##view";
+    if (placed(places, "view " + std::to_string(i), ImGui::Selectable(name.c_str())))
+      facts.commands.push_back({Command::ShowBookmark, int(i)});
+    ImGui::PopID();
+  }
+}
+
+/// An f-number whose blur can be seen, whatever the size of the scene.
+double firstStop(const CameraPose& pose) {
+  constexpr double kRadius = 0.02;  // the radius in parts of the distance to the focal point
+  const double focalLength = focalLengthOf(glm::radians(pose.viewAngleDegrees));
+  const double distance = glm::distance(pose.position, pose.focalPoint);
+  return std::clamp(focalLength / (2.0 * kRadius * distance), kLeastStop, kMostStop);
+}
+
+/// Depth of field: sharp at the focal point, unless the command line says where.
+void drawLens(ViewState& state, Places& places) {
+  LensOptions& lens = state.edit.shared.camera.lens;
+  bool blurred = lens.fStop.has_value();
+  if (placed(places, "Depth of field", ImGui::Checkbox("Depth of field", &blurred)))
+    lens.fStop = blurred ? std::optional(firstStop(state.edit.pose)) : std::nullopt;
+  if (!lens.fStop) return;
+  slider(places, {"F-stop", float(kLeastStop), float(kMostStop), "f / %.3g", kBoundedLogarithmic},
+         *lens.fStop);
+  if (slider(places, {"Blades", 2, 12, lens.blades < 3 ? "round" : "%d"}, lens.blades) && lens.blades < 3)
+    lens.blades = 0;
+}
+
+void drawCamera(ViewState& state, ViewFacts& facts) {
+  Places& places = facts.places;
+  CameraType type = state.edit.pose.type;
+  choose(places, "Projection", kCameraTypeNames, type);
+  if (type != state.edit.pose.type) {
+    state.edit.pose = withProjection(state.edit.pose, type);
+    state.edit.posed = true;
+  }
+  const bool fisheye = type == CameraType::Fisheye;
+  if (fisheye || type == CameraType::Perspective) {
+    if (slider(places, {"View angle", 1.0f, fisheye ? 360.0f : 170.0f, "%.1f degrees"},
+               fisheye ? state.edit.pose.fisheyeDegrees : state.edit.pose.viewAngleDegrees))
+      state.edit.posed = true;
+  }
+  if (type == CameraType::Perspective) drawLens(state, places);
+  if (const std::vector<Camera>& cameras = state.scene->cameras; !cameras.empty()) {
+    const auto nameOf = [&](size_t i) { return partText(i, cameras[i].name); };
+    if (const auto chosen =
+            choose(places, "Scene camera", cameras.size(), size_t(state.edit.sceneCamera), nameOf))
+      facts.commands.push_back({Command::SceneCamera, int(*chosen)});
+  }
+  commandButton(facts, "Frame all", Command::FrameAll, 1);
+  stayOnLineFor("Reset view");
+  commandButton(facts, "Reset view", Command::ResetCamera);
+  stayOnLineFor("Copy");
+  commandButton(facts, "Copy", Command::CopyCommand);
+  stayOnLineFor("Paste");
+  commandButton(facts, "Paste", Command::PasteCommand);
+  drawBookmarks(state, facts);
+}
 
 constexpr int kMostBouncesShown = 64;
 

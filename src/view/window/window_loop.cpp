@@ -13,10 +13,9 @@
 #include "gl/gl.h"
 #include "gltf/edit/factors.h"
 #include "view/set_by_eye.h"
-#include "view/shown_names.h"
 #include "view/shown_text.h"
 #include "view/window/overlay.h"
-#include "view/window/panel_parts.h"
+#include "view/window/widgets.h"
 
 namespace fragtrace {
 

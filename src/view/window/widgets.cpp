@@ -1,18 +1,96 @@
 // SPDX-License-Identifier: MIT
-#include "view/window/panel_parts.h"
+#include "view/window/widgets.h"
+
+#include <imgui.h>
 
 #include <algorithm>
+#include <system_error>
 
-#include "view/window/draw/text.h"
+#include "view/window/overlay.h"
 
 namespace fragtrace {
 
 namespace {
 
+ImVec4 grey(float level, float opacity = 1.0f) { return {level, level, level, opacity}; }
+
+const ImVec4 kAccentLit{0.27f, 0.48f, 0.74f, 1.0f};
+
+void add(Places& places, const std::string& name, ImVec2 place, ImVec2 size) {
+  places[name] = {place.x, place.y, size.x, size.y};
+}
+
 constexpr float kLabelWidth = 0.42f;  // share of the row before its control
 constexpr float kTipWidth = 30.0f;    // widest tip, in heights of the font
 
+template <typename Slide>
+bool drawRow(Places& places, const Row& row, const Slide& slide) {
+  label(places, row.name);
+  if (row.spare > 0.0f) ImGui::SetNextItemWidth(-row.spare);
+  ImGui::BeginDisabled(!row.whyOff.empty());
+  const bool moved =
+      slide((std::string("##") + row.name).c_str(), row.whyOff.empty() ? row.format : row.whyOff.c_str());
+  ImGui::EndDisabled();
+  if (row.tip) tip(places, row.tip);
+  return moved;
+}
+
 }  // namespace
+
+ImGuiStyle themeStyle() {
+  ImGuiStyle style;
+  style.WindowRounding = 4.0f;
+  style.WindowBorderSize = 0.0f;
+  style.PopupBorderSize = 1.0f;
+  style.FrameRounding = 3.0f;
+  style.GrabRounding = 2.0f;
+  style.GrabMinSize = 6.0f;
+  style.ScrollbarSize = 12.0f;
+  style.ItemSpacing = {7.0f, 5.0f};
+  style.FramePadding = {6.0f, 3.0f};
+  style.DisabledAlpha = 0.5f;
+  ImGui::StyleColorsDark(&style);
+  const auto set = [&](ImGuiCol color, const ImVec4& value) { style.Colors[color] = value; };
+  set(ImGuiCol_Text, grey(0.94f));
+  set(ImGuiCol_TextDisabled, grey(0.66f));
+  set(ImGuiCol_WindowBg, grey(0.15f));
+  set(ImGuiCol_PopupBg, grey(0.11f));
+  set(ImGuiCol_Border, grey(0.30f));
+  set(ImGuiCol_FrameBg, grey(0.23f));
+  set(ImGuiCol_FrameBgHovered, grey(0.28f));
+  set(ImGuiCol_FrameBgActive, grey(0.31f));
+  set(ImGuiCol_TitleBg, grey(0.11f));
+  set(ImGuiCol_TitleBgActive, grey(0.11f));
+  set(ImGuiCol_CheckMark, grey(0.94f));
+  // Text is read across the grab.
+  set(ImGuiCol_SliderGrab, kAccent);
+  set(ImGuiCol_SliderGrabActive, kAccentLit);
+  set(ImGuiCol_Button, grey(0.28f));
+  set(ImGuiCol_ButtonHovered, grey(0.33f));
+  set(ImGuiCol_ButtonActive, kAccent);
+  set(ImGuiCol_Header, grey(0.20f));
+  set(ImGuiCol_HeaderHovered, grey(0.26f));
+  set(ImGuiCol_HeaderActive, kAccent);
+  set(ImGuiCol_Separator, grey(0.30f));
+  set(ImGuiCol_ScrollbarBg, grey(0.12f));
+  set(ImGuiCol_ScrollbarGrab, grey(0.32f));
+  set(ImGuiCol_ScrollbarGrabHovered, grey(0.40f));
+  set(ImGuiCol_ScrollbarGrabActive, grey(0.46f));
+  set(ImGuiCol_PlotHistogram, kAccent);
+  set(ImGuiCol_TextSelectedBg, kAccent);
+  set(ImGuiCol_TableRowBgAlt, grey(1.0f, 0.04f));
+  set(ImGuiCol_ModalWindowDimBg, grey(0.0f, 0.45f));
+  return style;
+}
+
+void addWindowPlace(Places& places, const std::string& name) {
+  add(places, name, ImGui::GetWindowPos(), ImGui::GetWindowSize());
+}
+
+bool placed(Places& places, const std::string& name, bool result) {
+  add(places, name, ImGui::GetItemRectMin(), ImGui::GetItemRectSize());
+  return result;
+}
 
 void dimAtEnd(const std::string& text) {
   const float start = ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(text.c_str()).x;
@@ -32,22 +110,6 @@ void label(Places& places, const char* text) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   places[text] = {at.x, at.y, ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight()};
 }
-
-namespace {
-
-template <typename Slide>
-bool drawRow(Places& places, const Row& row, const Slide& slide) {
-  label(places, row.name);
-  if (row.spare > 0.0f) ImGui::SetNextItemWidth(-row.spare);
-  ImGui::BeginDisabled(!row.whyOff.empty());
-  const bool moved =
-      slide((std::string("##") + row.name).c_str(), row.whyOff.empty() ? row.format : row.whyOff.c_str());
-  ImGui::EndDisabled();
-  if (row.tip) tip(places, row.tip);
-  return moved;
-}
-
-}  // namespace
 
 bool slider(Places& places, const Row& row, double& value) {
   return drawRow(places, row, [&](const char* id, const char* format) {
@@ -121,6 +183,30 @@ void commandButton(ViewFacts& facts, const char* text, Command command, int argu
 
 void commandBox(ViewFacts& facts, const char* text, bool on, Command command) {
   if (placed(facts.places, text, ImGui::Checkbox(text, &on))) facts.commands.push_back({command});
+}
+
+void drawRecentFiles(ViewFacts& facts) {
+  RecentFiles& seen = facts.recent;
+  const std::vector<std::filesystem::path>& files = facts.remembered.recent;
+  const int frame = ImGui::GetFrameCount();
+  if (frame > seen.frame + 1 || files != seen.files) {
+    seen.files = files;
+    seen.gone.clear();
+    for (const std::filesystem::path& file : files) {
+      std::error_code error;
+      seen.gone.push_back(!std::filesystem::exists(file, error));
+    }
+  }
+  seen.frame = frame;
+  for (size_t i = 0; i < files.size(); ++i) {
+    const std::string text =
+        shownText(files[i].filename().string(), kMostNameCharacters) + "##" + std::to_string(i);
+    ImGui::BeginDisabled(seen.gone[i]);
+    if (placed(facts.places, "recent " + std::to_string(i), ImGui::Selectable(text.c_str())))
+      facts.commands.push_back({.command = Command::OpenFile, .file = files[i]});
+    ImGui::EndDisabled();
+    tip(facts.places, shownText(files[i].string(), kMostLineCharacters) + (seen.gone[i] ? " is gone" : ""));
+  }
 }
 
 }  // namespace fragtrace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The panel: every stage, switch and setting, in the order of the tables they stand in; its parts, and what
-// they are made of.
+// What the window's controls are made of: colours, texts, rows.
 #pragma once
 
 #include <imgui.h>
@@ -11,9 +10,31 @@
 #include <string>
 #include <string_view>
 
+#include "view/shown_text.h"
 #include "view/window/overlay.h"
 
 namespace fragtrace {
+
+/// The look of controls. Sizes at 96 dots an inch, and colours: greys without a hue, so that they do not
+/// change how the picture's colours are seen, and one blue for what is on. White text on every one of them
+/// has a contrast of 4.5 or more (WCAG 2.1, 1.4.3).
+ImGuiStyle themeStyle();
+
+/// The colour of the line of progress, and of the chosen side.
+inline const ImVec4 kAccent{0.22f, 0.42f, 0.68f, 1.0f};
+
+// Text and labels in Dear ImGui's frame. Whatever is not a constant of ours is drawn by this alone.
+
+/// A window without a frame that is as large as what it says.
+inline constexpr ImGuiWindowFlags kLabelFlags =
+    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
+    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
+
+/// Draws at most `most` characters of the text (shownText).
+inline void drawText(std::string_view text, size_t most) {
+  const std::string shown = shownText(text, most);
+  ImGui::TextUnformatted(shown.data(), shown.data() + shown.size());
+}
 
 /// Typed values keep to the ends of their slider, too.
 inline constexpr ImGuiSliderFlags kBounded = ImGuiSliderFlags_AlwaysClamp;
@@ -72,29 +93,11 @@ void choose(Places& places, const char* name, std::span<const std::string_view> 
     choice = Choice(*chosen);
 }
 
-// Each draws its part, changes the state, and adds the commands of its widgets.
-void drawLight(ViewState& state, ViewFacts& facts);
-void drawCamera(ViewState& state, ViewFacts& facts);
-void drawTree(ViewState& state, ViewFacts& facts);
-void drawParts(const ViewState& state, ViewFacts& facts);
-
 /// Draws a line for each file that was shown before, grey where it is gone.
 void drawRecentFiles(ViewFacts& facts);
 
-/// Draws sliders for the material at that index of the scene's.
-void drawMaterial(ViewState& state, Places& places, size_t index);
-/// Draws rows of all materials, and of all lights, which open.
-void drawMaterials(ViewState& state, Places& places);
-void drawLights(ViewState& state, Places& places);
-
-/// Draws the histogram of the active side's picture.
-void drawHistogram(const ViewState& state, ViewFacts& facts);
-
-/// Returns true if the file has scenes or material variants to choose from.
-bool hasParts(const ViewState& state);
-
-/// Draws the whole panel into the frame that Dear ImGui is making; what is changed there changes the state.
-/// Adds the places of the panel and its controls.
+/// Draws the panel, with every stage, switch and setting, into the frame that Dear ImGui is making; what is
+/// changed there changes the state. Adds the places of the panel and its controls.
 void drawPanel(ViewState& state, ViewFacts& facts, const WindowLayout& layout);
 
 }  // namespace fragtrace

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Speaks to the session's bus by the functions of sd-bus that this takes. The library is opened when a dialog
 // is asked for first.
-#include "view/window/dialog/portal.h"
+#include "view/window/file_dialog.h"
 
 #include <cctype>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string_view>
 
 #include "base/errors.h"
 #include "gl/dynamic_library.h"
+#include "view/files.h"
 
 namespace fragtrace {
 
@@ -230,6 +232,8 @@ PortalAnswer readResponse(const BusLibrary& library, BusMessage response) {
   return {.there = true, .why = {}, .uri = code == 0 ? readUri(library, response) : ""};
 }
 
+constexpr double kPatienceSeconds = 1.5;  // before the user is told what is waited for
+
 }  // namespace
 
 PortalAnswer askPortal(const FileQuestion& question, const std::string& window,
@@ -258,6 +262,36 @@ PortalAnswer askPortal(const FileQuestion& question, const std::string& window,
   library->callMethod(to.bus, kPortal, path.c_str(), kRequest, "Close", &error, nullptr, "");
   library->freeError(&error);
   return {.there = true, .why = {}, .uri = {}};
+}
+
+void FileDialog::ask(FileQuestion question, const std::string& window, double now) {
+  question_ = std::move(question);
+  asked_ = now;
+  desktop_.start("portal", [question = question_, window](const std::atomic<bool>& givenUp) {
+    return askPortal(question, window, givenUp);
+  });
+}
+
+FileDialog::News FileDialog::take(double now) {
+  News news;
+  if (desktop_.busy() && now > asked_ + kPatienceSeconds) {
+    asked_ = std::numeric_limits<double>::infinity();
+    news.message = "waiting for the desktop's dialog; press the key again for another one";
+  }
+  const std::optional<PortalAnswer> answer = desktop_.take();
+  if (!answer) return news;
+  if (!answer->there) {
+    news.message = "the desktop shows no dialog for files" + (answer->why.empty() ? "" : ": " + answer->why);
+    news.message += question_.save
+                        ? "; the file gets a free name"
+                        : "; drop a file here, start with its name, or install xdg-desktop-portal-gtk";
+    if (question_.save) news.file = question_.folder / question_.name;
+  } else if (!answer->uri.empty()) {
+    const std::optional<std::filesystem::path> file = fileOfUri(answer->uri);
+    if (!file) news.message = answer->uri + " is not a file of this computer";
+    news.file = file.value_or(std::filesystem::path());
+  }
+  return news;
 }
 
 }  // namespace fragtrace

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
-// A question for a file, whoever asks it: the desktop's dialog, or a list in the window.
+// Files that the viewer opens and writes: their kinds, questions for them, and the meaning of dropped ones.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "shader/render_options.h"
 
 namespace fragtrace {
 
@@ -40,5 +46,31 @@ FileQuestion saveModelQuestion(const std::filesystem::path& model, bool refersTo
 
 /// Returns true if the filter lets the file pass.
 bool passes(const FileFilter& filter, const std::filesystem::path& file);
+
+// The meaning of files that are dropped on the window.
+
+enum class DroppedFile : uint8_t { Scene, Environment, Unknown };
+
+/// Returns the kind of a file by its extension, in upper or lower case: .gltf and .glb are scenes, .hdr, .exr
+/// and .pfm environments.
+DroppedFile kindOfDropped(const std::filesystem::path& path);
+
+/// Returns true if the file may be a picture to compare with: an .exr or .pfm.
+bool mayBeReference(const std::filesystem::path& path);
+
+/// The requests of files that are dropped together.
+struct Drop {
+  std::optional<RenderOptions> load;  ///< none: nothing of it can be loaded
+  std::vector<std::string> refused;   ///< a sentence for each file that is not taken
+};
+
+/// Puts them into the options of the scene that is shown, or being loaded: a scene with a camera of its own,
+/// an environment, or both. Of several of a kind the last is taken. `up` points up in a scene, as in
+/// SceneSelection.
+Drop takeDrop(const RenderOptions& shown, std::span<const std::filesystem::path> files, const glm::dvec3& up);
+
+/// The path of a file:// URI (RFC 8089), with its %XX decoded; nothing for another scheme, another host than
+/// this, or a URI that is malformed.
+std::optional<std::filesystem::path> fileOfUri(std::string_view uri);
 
 }  // namespace fragtrace
