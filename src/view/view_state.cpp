@@ -27,6 +27,22 @@ constexpr int kDeepestLevel = 31;
 constexpr double kLowestSun = -18.0;    // degrees; it is night
 constexpr double kMostExposure = 32.0;  // either way; far beyond, pictures are not finite
 
+/// Copies what the sides of the split view may differ in.
+void copySide(RenderOptions& to, const RenderOptions& from) {
+  const double noise = to.sampling.noise;  // is shared
+  to.stages = from.stages;
+  to.sampling = from.sampling;
+  to.sampling.noise = noise;
+  to.device = from.device;
+  to.output.debugView = from.output.debugView;
+  to.output.denoise = from.output.denoise;
+  to.camera.pixelFilter = from.camera.pixelFilter;
+  to.light.selection = from.light.selection;
+  to.light.reuse = from.light.reuse;
+  to.light.caustics = from.light.caustics;
+  to.light.transparentGlass = from.light.transparentGlass;
+}
+
 void setPose(ViewState& state, const CameraPose& pose) {
   state.edit.posed = state.edit.posed || !(pose == state.edit.pose);
   state.edit.pose = pose;
@@ -96,7 +112,7 @@ void playOrPause(ViewState& state) {
 /// Shows a debug view by its number. Numbers beyond the last one begin again at the first.
 void showDebugView(ViewState& state, int number) {
   const int count = int(kDebugViewRows.size());
-  state.side().debugView = DebugView((number + count) % count);
+  state.side().output.debugView = DebugView((number + count) % count);
   state.overview = false;
 }
 
@@ -304,17 +320,10 @@ std::string whyGrey(const ViewState& state, Stage stage) {
                      : std::string();
 }
 
-SideOptions sideOf(const RenderOptions& o) {
-  return {.stages = o.stages,
-          .sampling = o.sampling,
-          .device = o.device,
-          .debugView = o.output.debugView,
-          .denoise = o.output.denoise,
-          .pixelFilter = o.camera.pixelFilter,
-          .lightSelection = o.light.selection,
-          .lightReuse = o.light.reuse,
-          .caustics = o.light.caustics,
-          .transparentGlass = o.light.transparentGlass};
+RenderOptions sideOf(const RenderOptions& options) {
+  RenderOptions side;
+  copySide(side, options);
+  return side;
 }
 
 Edit editOf(const RenderOptions& options) {
@@ -325,20 +334,9 @@ Edit editOf(const RenderOptions& options) {
 }
 
 RenderOptions optionsOf(const Edit& edit, size_t side) {
-  const SideOptions& own = edit.sides.at(side);
-  RenderOptions o = edit.shared;
-  o.stages = own.stages;
-  o.sampling = own.sampling;
-  o.sampling.noise = edit.shared.sampling.noise;
-  o.device = own.device;
-  o.output.debugView = own.debugView;
-  o.output.denoise = own.denoise;
-  o.camera.pixelFilter = own.pixelFilter;
-  o.light.selection = own.lightSelection;
-  o.light.reuse = own.lightReuse;
-  o.light.caustics = own.caustics;
-  o.light.transparentGlass = own.transparentGlass;
-  return o;
+  RenderOptions options = edit.shared;
+  copySide(options, edit.sides.at(side));
+  return options;
 }
 
 void split(Edit& edit) {
@@ -374,7 +372,7 @@ Invocation invocationOf(const Control& control, Invocation about) {
 // NOLINTNEXTLINE(readability-function-size): the table of what commands do
 bool apply(ViewState& state, const Invocation& m) {
   if (!isUsable(state, m.command)) return false;
-  SideOptions& side = state.side();
+  RenderOptions& side = state.side();
   RenderOptions& shared = state.edit.shared;
   const double flown = state.flySpeed * m.seconds * m.argument;
   switch (m.command) {
@@ -439,10 +437,10 @@ bool apply(ViewState& state, const Invocation& m) {
       state.overview = false;
       break;
     case Command::ToggleDebugView:
-      showDebugView(state, side.debugView == DebugView(m.argument) ? 0 : m.argument);
+      showDebugView(state, side.output.debugView == DebugView(m.argument) ? 0 : m.argument);
       break;
     case Command::NextDebugView:
-      showDebugView(state, int(side.debugView) + m.argument);
+      showDebugView(state, int(side.output.debugView) + m.argument);
       break;
     case Command::ToggleTreeBoxes:
       state.edit.treeBoxes = !state.edit.treeBoxes;
@@ -461,7 +459,7 @@ bool apply(ViewState& state, const Invocation& m) {
       turnEnvironment(shared.light, kDegreesPerHeight * m.drag);
       break;
     case Command::ToggleDenoise:
-      side.denoise = side.denoise == Denoise::None ? filterOf(state) : Denoise::None;
+      side.output.denoise = side.output.denoise == Denoise::None ? filterOf(state) : Denoise::None;
       break;
     case Command::PlayAnimation:
       playOrPause(state);

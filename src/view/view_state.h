@@ -13,28 +13,11 @@
 
 namespace fragtrace {
 
-// The settings that undo restores.
-
-/// The options in which the sides of the split view may differ.
-struct SideOptions {
-  StageSet stages = stagesUpTo(Stage::Gi);
-  SamplingOptions sampling;  ///< all but the noise, which is shared
-  DeviceOptions device;
-  DebugView debugView = DebugView::None;
-  Denoise denoise = Denoise::None;
-  PixelFilter pixelFilter = PixelFilter::Box;
-  LightSelection lightSelection = LightSelection::Auto;
-  LightReuse lightReuse = LightReuse::None;
-  Caustics caustics = Caustics::Auto;
-  bool transparentGlass = false;
-
-  bool operator==(const SideOptions&) const = default;
-};
-
-/// All that the user sets in a scene: options, the sides that differ in some of them, and the camera.
+/// All that the user sets in a scene, which undo restores: options, the sides that differ in some of them,
+/// and the camera.
 struct Edit {
-  RenderOptions shared;               ///< those of SideOptions do not count
-  std::vector<SideOptions> sides{1};  ///< one, or two once the view was split
+  RenderOptions shared;                 ///< those of a side do not count
+  std::vector<RenderOptions> sides{1};  ///< one, or two once the view was split; each as sideOf() makes it
   CameraPose pose;
   bool posed = false;  ///< the camera is the pose; else what the options choose, to the last bit
   int sceneCamera = -1;
@@ -46,7 +29,8 @@ struct Edit {
   bool operator==(const Edit&) const = default;
 };
 
-SideOptions sideOf(const RenderOptions& options);
+/// The options in which the sides of the split view may differ; all others are as by default.
+RenderOptions sideOf(const RenderOptions& options);
 
 /// One side, which has these options.
 Edit editOf(const RenderOptions& options);
@@ -103,8 +87,8 @@ struct ViewState {
   bool fullscreen = false;
 
   /// The active side.
-  SideOptions& side() { return edit.sides[edit.active]; }
-  const SideOptions& side() const { return edit.sides[edit.active]; }
+  RenderOptions& side() { return edit.sides[edit.active]; }
+  const RenderOptions& side() const { return edit.sides[edit.active]; }
   RenderOptions options() const { return optionsOf(edit, edit.active); }
   /// Sides that are traced: 2 where the split view compares two of them, rather than one and a file; all
   /// stages in the overview.

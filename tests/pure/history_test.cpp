@@ -98,16 +98,16 @@ TEST(History, ASideKeepsWhatIsItsOwn) {
   apply(state, {Command::ToggleSplit});
   record(history, state);
   state.edit.active = 1;
-  state.side().denoise = Denoise::Variance;
+  state.side().output.denoise = Denoise::Variance;
   record(history, state);
   EXPECT_TRUE(undo(history, state));
-  EXPECT_EQ(state.edit.sides.at(1).denoise, Denoise::None);
+  EXPECT_EQ(state.edit.sides.at(1).output.denoise, Denoise::None);
   EXPECT_TRUE(undo(history, state));
   EXPECT_EQ(state.edit.sides.size(), 1u);
   EXPECT_TRUE(redo(history, state));
   EXPECT_TRUE(redo(history, state));
-  EXPECT_EQ(state.edit.sides.at(0).denoise, Denoise::None);
-  EXPECT_EQ(state.edit.sides.at(1).denoise, Denoise::Variance);
+  EXPECT_EQ(state.edit.sides.at(0).output.denoise, Denoise::None);
+  EXPECT_EQ(state.edit.sides.at(1).output.denoise, Denoise::Variance);
 }
 
 TEST(History, SceneLightAndTimeStay) {

@@ -35,7 +35,7 @@ std::vector<std::string> firstTexts(const ViewState& state, const ViewFacts& fac
   const std::string name = state.compares() ? (side == 0 ? "A: " : "B: ") : "";
   texts.push_back(name + samplesText(s.samples) + " per pixel");
   // It is the error of light, which a debug view does not show.
-  if (s.error >= 0.0 && state.side().debugView == DebugView::None) {
+  if (s.error >= 0.0 && state.side().output.debugView == DebugView::None) {
     const double noise = state.edit.shared.sampling.noise;
     texts.push_back(noise > 0.0 ? formatted("error %.2f %% of %.2f %%", 100.0 * s.error, 100.0 * noise)
                                 : formatted("error %.2f %%", 100.0 * s.error));

@@ -133,8 +133,8 @@ void drawSideNames(const ViewState& state, ViewFacts& facts, const WindowLayout&
   const float right = float(layout.picture.x);
   const float bar = float(state.shownBar()) * right;
   const auto draw = [&](size_t side, float from, float to) {
-    const SideOptions& options = state.edit.sides[side];
-    const DebugView view = options.debugView;
+    const RenderOptions& options = state.edit.sides[side];
+    const DebugView view = options.output.debugView;
     const bool file = side == 1 && !state.reference.empty();
     const std::string name = std::string(side == 0 ? "A  " : "B  ") +
                              (file ? shownText(state.reference.filename().string(), kMostNameCharacters)
@@ -153,7 +153,7 @@ void drawSideNames(const ViewState& state, ViewFacts& facts, const WindowLayout&
 
 /// A picture that shows something other than light says what.
 void drawViewName(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
-  const DebugView view = state.side().debugView;
+  const DebugView view = state.side().output.debugView;
   if (!state.scene || view == DebugView::None) return;
   const std::string name(rowOf(view).label);
   const float right = float(layout.picture.x);

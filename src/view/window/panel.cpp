@@ -542,7 +542,7 @@ void drawPresets(const ViewState& state, ViewFacts& facts) {
 
 /// Draws the stages that build on each other, or the switches.
 void drawStages(ViewState& state, Places& places, bool cumulative) {
-  SideOptions& side = state.side();
+  RenderOptions& side = state.side();
   for (const StageRow& row : stageRows()) {
     if (row.cumulative != cumulative) continue;
     const std::string reason = row.stage == Stage::Flat ? "always on" : whyGrey(state, row.stage);
@@ -556,7 +556,7 @@ void drawStages(ViewState& state, Places& places, bool cumulative) {
 }
 
 void drawSampling(ViewState& state, Places& places) {
-  SideOptions& side = state.side();
+  RenderOptions& side = state.side();
   int bounces = std::min(side.sampling.bounces, kMostBouncesShown);
   const bool unlimited = side.sampling.bounces >= kMostBouncesShown;
   if (slider(places, {"Bounces", 0, kMostBouncesShown, unlimited ? "unlimited" : "%d"}, bounces))
@@ -566,7 +566,7 @@ void drawSampling(ViewState& state, Places& places) {
   double percent = 100.0 * goal;
   if (slider(places, {"Noise to reach", 0.1f, 20.0f, "%.2f %%", kBoundedLogarithmic}, percent))
     goal = 0.01 * percent;
-  choose(places, "Pixel filter", kPixelFilterNames, side.pixelFilter);
+  choose(places, "Pixel filter", kPixelFilterNames, side.camera.pixelFilter);
   double& clamp = side.sampling.clampIndirect;
   slider(places, {"Clamp indirect", 0.0f, 100.0f, clamp > 0.0 ? "%.2f (biased)" : "off", kBoundedLogarithmic},
          clamp);
@@ -618,7 +618,7 @@ void drawCompare(ViewState& state, ViewFacts& facts) {
   commandBox(facts, "Split view", state.edit.split, Command::ToggleSplit);
   stayOnLineFor("[ ] Denoise");
   const std::string reason = whyWithoutNoise(state.options());
-  const bool denoises = state.side().denoise != Denoise::None && reason.empty();
+  const bool denoises = state.side().output.denoise != Denoise::None && reason.empty();
   ImGui::BeginDisabled(!reason.empty());
   commandBox(facts, "Denoise", denoises, Command::ToggleDenoise);
   ImGui::EndDisabled();
@@ -641,11 +641,11 @@ void drawCompare(ViewState& state, ViewFacts& facts) {
 
 void drawAdvanced(ViewState& state, ViewFacts& facts) {
   Places& places = facts.places;
-  SideOptions& side = state.side();
+  RenderOptions& side = state.side();
   const auto nameOf = [](size_t i) { return std::string(kDebugViewRows[i].label); };
-  if (const auto chosen = choose(places, "Show", kDebugViewRows.size(), size_t(side.debugView), nameOf,
+  if (const auto chosen = choose(places, "Show", kDebugViewRows.size(), size_t(side.output.debugView), nameOf,
                                  ImGuiComboFlags_HeightLargest))
-    side.debugView = DebugView(*chosen);
+    side.output.debugView = DebugView(*chosen);
   ImGui::Checkbox("Boxes of the tree", &state.edit.treeBoxes);
   dimAtEnd(keyOf(Command::ToggleTreeBoxes));
   slider(places, {"Level", 0, 31, "%d"}, state.edit.treeLevel);
