@@ -57,16 +57,6 @@ struct SceneSelection {
   bool operator==(const SceneSelection&) const = default;
 };
 
-/// Returns true if both show the same nodes at the same time of the same animation.
-inline bool sameMoment(const SceneSelection& a, const SceneSelection& b) {
-  return a.animation == b.animation && a.animationTime == b.animationTime && a.hiddenNodes == b.hiddenNodes;
-}
-
-/// Does the same, with the same numbers in place of the file's.
-inline bool samePose(const SceneSelection& a, const SceneSelection& b) {
-  return sameMoment(a, b) && a.set == b.set;
-}
-
 inline void takePose(SceneSelection& selection, const SceneSelection& from) {
   selection.animation = from.animation;
   selection.animationTime = from.animationTime;

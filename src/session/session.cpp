@@ -20,13 +20,12 @@ bool keepsTree(const RenderOptions& options, const Scene& scene) {
          scene.triangles.size() >= kLeastTriangles && scene.motion.segments == 0;
 }
 
-/// Points and lines get their width from the camera and the picture's size.
+}  // namespace
+
 bool seesStrokesAlike(const RenderOptions& a, const RenderOptions& b) {
   return a.camera.overrides == b.camera.overrides && a.camera.index == b.camera.index &&
          a.camera.resolution == b.camera.resolution;
 }
-
-}  // namespace
 
 void openContext(const RenderOptions& options, double paths, Device& device, Statistics& stats) {
   const bool quick = preferQuickCompilation(paths);

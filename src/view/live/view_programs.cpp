@@ -68,7 +68,7 @@ RenderOptions programPart(const RenderOptions& options) {
   if (part.output.debugView == DebugView::Samples || part.output.debugView == DebugView::Variance)
     part.output.debugView = DebugView::None;  // drawn by the picture's own
   part.sampling.clampIndirect = part.sampling.clampIndirect > 0.0 ? 1.0 : 0.0;
-  part.light.sky = {.on = part.light.sky.on};  // showSurroundings()
+  part.light.sky = {.on = part.light.sky.on};  // Renewed::Surroundings
   part.output.aovs.clear();
   part.output.lightGroups.clear();
   part.selection.camera.clear();
@@ -161,32 +161,25 @@ void ViewPrograms::keep(std::shared_ptr<ViewProgram> program) {
   }
 }
 
-/// The thread that compiles aside packs the scene.
-void ViewPrograms::refuseWhileCompiling() const {
+void ViewPrograms::show(Renewed renewed, const RenderOptions& options) {
+  // The thread that compiles aside packs the scene.
   if (compiling()) throw std::logic_error("the scene was changed while a program was made for it");
-}
-
-void ViewPrograms::showPose(const RenderOptions& options) {
-  refuseWhileCompiling();
-  std::erase_if(programs_, [](const auto& p) { return p.use_count() == 1 || !p->error.empty(); });
-  treeOptions_ = options;
-  for (const std::shared_ptr<ViewProgram>& program : programs_) {
-    takePose(program->options.selection, options.selection);
-    if (!sameTree(treeOptions_, program->options)) loaded_.bvh = buildTree(loaded_.scene, program->options);
-    treeOptions_ = program->options;
-    replace(*program, false);
-  }
-}
-
-void ViewPrograms::showSurfaces(const SceneSelection& selection) {
-  refuseWhileCompiling();
-  std::erase_if(programs_, [](const auto& p) {
-    return p.use_count() == 1 || !p->error.empty() ||
-           p->tracer.variant.traversal == TraversalMethod::Literals;
+  const bool posed = renewed == Renewed::Pose;
+  std::erase_if(programs_, [&](const auto& p) {
+    const bool isText = p->tracer.variant.traversal == TraversalMethod::Literals;
+    return p.use_count() == 1 || !p->error.empty() || (renewed == Renewed::Surfaces && isText);
   });
+  if (posed) treeOptions_ = options;
   for (const std::shared_ptr<ViewProgram>& program : programs_) {
-    takePose(program->options.selection, selection);
-    replace(*program, true);
+    if (renewed == Renewed::Surroundings) {
+      replaceSurroundings(program->tracer, loaded_);
+      continue;
+    }
+    takePose(program->options.selection, options.selection);
+    if (posed && !sameTree(treeOptions_, program->options))
+      loaded_.bvh = buildTree(loaded_.scene, program->options);
+    if (posed) treeOptions_ = program->options;
+    replace(*program, !posed);
   }
 }
 
@@ -207,12 +200,6 @@ void ViewPrograms::replace(ViewProgram& program, bool surfacesAlone) const {
   const bool keepsCones = !cones.empty() && places == program.tracer.textures.places &&
                           std::ranges::all_of(cones, [&](const auto& v) { return renderer.knows(v); });
   if (!keepsCones) program.asksForCones = program.hasCones = false;
-}
-
-void ViewPrograms::showSurroundings() {
-  refuseWhileCompiling();
-  std::erase_if(programs_, [](const auto& p) { return p.use_count() == 1 || !p->error.empty(); });
-  for (const std::shared_ptr<ViewProgram>& program : programs_) replaceSurroundings(program->tracer, loaded_);
 }
 
 std::shared_ptr<ViewProgram> ViewPrograms::makeAside(const RenderOptions& part) const {

@@ -26,6 +26,10 @@ struct ViewProgram {
   std::vector<std::string> driverLog;  ///< messages of the context that compiled it, if that was another one
 };
 
+/// What has changed in the scene: surroundings of the same kind, numbers of surfaces and lights, or all that
+/// an animation moves, and its tree.
+enum class Renewed : uint8_t { Surroundings, Surfaces, Pose };
+
 /// Lets programs be compiled while others draw.
 struct CompileAside {
   OutsideContext context;      ///< shares its objects with the one that draws
@@ -57,16 +61,11 @@ class ViewPrograms {
   void waitForCompiler();
   /// Makes all again when they are asked for again.
   void forget();
-  /// The scene and its tree are those of another time of its animation, loaded with these options: programs
-  /// that somebody holds draw it from now on, all others are made again when they are asked for again. Throws
-  /// as replaceScene(), and std::logic_error if the scene was changed before waitForCompiler().
-  void showPose(const RenderOptions& options);
-  /// Does the same if only numbers of surfaces and lights have changed, which the selection has: nothing else
-  /// is packed. A program whose text holds the whole scene is made again when it is asked for again.
-  void showSurfaces(const SceneSelection& selection);
-
-  /// Does the same for other surroundings of the same kind. Throws as replaceSurroundings().
-  void showSurroundings();
+  /// Programs that somebody holds draw the scene, loaded or changed with these options, from now on; all
+  /// others are made again when they are asked for again, as is one whose text holds a scene with other
+  /// surfaces. Throws as replaceScene(), and std::logic_error if the scene was changed before
+  /// waitForCompiler().
+  void show(Renewed renewed, const RenderOptions& options);
 
  private:
   std::shared_ptr<ViewProgram> make(const RenderOptions& part) const;
@@ -75,7 +74,6 @@ class ViewPrograms {
   void makeCones(const ViewProgram& program) const;
   void keep(std::shared_ptr<ViewProgram> program);
   void replace(ViewProgram& program, bool surfacesAlone) const;
-  void refuseWhileCompiling() const;
 
   const Context& context_;
   LoadedScene& loaded_;

@@ -43,6 +43,12 @@ std::string whatFailed(const std::exception_ptr& error) {
   }
 }
 
+/// A sky without its sun's azimuth, by which the environment is turned later.
+SkyOptions airOf(SkyOptions sky) {
+  placeSun(sky, {sunOf(sky).elevation, 0.0});
+  return sky;
+}
+
 /// The option by which `render` lights the file that holds the numbers as it is shown; empty: none is needed.
 std::string lightToName(const RenderOptions& options, const LoadedScene& loaded) {
   if (hasMap(options) || options.light.defaultLight == DefaultLight::None) return "";
@@ -206,13 +212,13 @@ void ViewTracer::takeLoaded() {
   programs_.reset();
   tree_.reset();
   selected_ = {};
-  posedCamera_ = result->options.camera.overrides;
-  posedCameraIndex_ = result->options.camera.index;
-  posedSize_ = result->scene->size;
   loaded_ = std::move(result->scene);
   document_ = std::move(result->document);
   loadedOptions_ = result->options;
-  loadedOptions_.selection.set.clear();
+  posed_ = loadedOptions_;
+  posed_.selection.set.clear();
+  posed_.light.sky = airOf(posed_.light.sky);
+  posed_.camera.resolution = loaded_->size;
   wasText_ = false;
   fileMaterials_ = loaded_->scene.materials;
   fileLights_ = loaded_->scene.lightSources;
@@ -253,7 +259,11 @@ void ViewTracer::takeLoaded() {
 void ViewTracer::watchFiles() {
   if (!start_.watch || !loaded_ || steadyMilliseconds() - watched_ < 1000.0 * kWatchSeconds) return;
   watched_ = steadyMilliseconds();
-  if (sceneFiles_.changed()) loader_.start(loadedOptions_);
+  if (sceneFiles_.changed()) {
+    RenderOptions again = posed_;
+    again.camera = loadedOptions_.camera;
+    loader_.start(again);
+  }
   if (shaderFiles_.changed()) rebuildPrograms();
 }
 
@@ -280,27 +290,33 @@ RenderOptions ViewTracer::asPosed(RenderOptions options) const {
   return options;
 }
 
-bool ViewTracer::isPosed(const TraceRequest& request) const {
+void ViewTracer::renew(const TraceRequest& request) {
   const RenderOptions& wanted = request.sides[0];
-  if (!samePose(wanted.selection, loadedOptions_.selection)) return false;
-  // Points and lines get their width from the camera.
-  return loaded_->scene.strokes.empty() || request.moving ||
-         (wanted.camera.overrides == posedCamera_ && wanted.camera.index == posedCameraIndex_ &&
-          request.size == posedSize_);
+  RenderOptions next = posed_;
+  if (next.light.sky.on && wanted.light.sky.on) next.light.sky = airOf(wanted.light.sky);
+  takePose(next.selection, wanted.selection);
+  Renewal renewal = renewalBetween(posed_, next);
+  const bool relit = renewal == Renewal::Scene;  // of whose options the sky alone may differ here
+  if (relit) {
+    relight(next.light.sky);
+    renewal = renewalBetween(posed_, next);
+  }
+  next.camera.overrides = wanted.camera.overrides;
+  next.camera.index = wanted.camera.index;
+  next.camera.resolution = request.size;
+  const bool otherStrokes =
+      !loaded_->scene.strokes.empty() && !request.moving && !seesStrokesAlike(posed_, next);
+  const bool posed = renewal == Renewal::Pose || otherStrokes;
+  if (posed && !setSurfaces(next, request.sides)) pose(next);
+  if (!relit && !posed) return;
+  for (Side& side : sides_) side.stale = true;
 }
 
-void ViewTracer::pose(const TraceRequest& request) {
-  const RenderOptions& wanted = request.sides[0];
-  const bool sameNodes = loadedOptions_.selection.hiddenNodes == wanted.selection.hiddenNodes;
-  takePose(loadedOptions_.selection, wanted.selection);
-  posedCamera_ = wanted.camera.overrides;
-  posedCameraIndex_ = wanted.camera.index;
-  posedSize_ = request.size;
-  RenderOptions options = asPosed(loadedOptions_);
+void ViewTracer::pose(const RenderOptions& wanted) {
+  const bool sameNodes = posed_.selection.hiddenNodes == wanted.selection.hiddenNodes;
+  posed_ = wanted;
+  RenderOptions options = asPosed(wanted);
   options.camera.sceneOrigin = loaded_->scene.space.origin;
-  options.camera.overrides = wanted.camera.overrides;
-  options.camera.index = wanted.camera.index;
-  options.camera.resolution = request.size;
   if (!sameNodes) reportWork("updating the scene");
   std::vector<std::string> repeated;
   const SaidHere silence(repeated);  // loading the scene has said it
@@ -316,7 +332,7 @@ void ViewTracer::pose(const TraceRequest& request) {
     *loaded_ = loadScene(options, stats, {}, FilmOf::Picture, before);
     if (!stats.treeRefitted && loaded_->scene.instances.empty())
       tree_ = refittable(loaded_->bvh, loaded_->scene);
-    programs_->showPose(options);
+    programs_->show(Renewed::Pose, options);
     exchange_.deliver(PosedScene{loaded_->scene.bounds, loaded_->environment.kind});
     selected_.outlined.reset();
     if (!selected_.nodes.empty()) selected_.bounds = boundsOfNodes(loaded_->scene, selected_.nodes);
@@ -328,32 +344,20 @@ void ViewTracer::pose(const TraceRequest& request) {
   if (!sameNodes) exchange_.set(&TraceStatus::note, {});
 }
 
-bool ViewTracer::relight(const TraceRequest& request) {
-  const auto airOf = [](SkyOptions sky) {
-    // The sky is made without the sun's azimuth; the environment is turned by it afterwards.
-    placeSun(sky, {sunOf(sky).elevation, 0.0});
-    return sky;
-  };
-  SkyOptions& shown = loadedOptions_.light.sky;
-  const SkyOptions& wanted = request.sides[0].light.sky;
-  if (!shown.on || !wanted.on || airOf(shown) == airOf(wanted)) return false;
-  if (whyDark(shown).empty() && !whyDark(wanted).empty()) exchange_.deliver(whyDark(wanted));
-  shown = wanted;
+void ViewTracer::relight(const SkyOptions& sky) {
+  if (whyDark(posed_.light.sky).empty() && !whyDark(sky).empty()) exchange_.deliver(whyDark(sky));
+  posed_.light.sky = sky;
   const auto shines = [&] {
     const std::optional<SunDisc>& sun = loaded_->environment.sun;
     return sun && luminance(sun->irradiance) > 0.0;
   };
   const bool shone = shines();
   std::vector<std::string> repeated;
-  const SaidHere silence(repeated);  // no messages: relight() has said them
+  const SaidHere silence(repeated);  // it is reported above
   programs_->waitForCompiler();
-  loaded_->environment = skyOf(loadedOptions_, repeated);
+  loaded_->environment = skyOf(posed_, repeated);
   // When the sun rises or sets, programs change: light paths begin at it (Trait::Caustics).
-  if (shines() == shone)
-    programs_->showSurroundings();
-  else
-    programs_->showPose(loadedOptions_);
-  return true;
+  programs_->show(shines() == shone ? Renewed::Surroundings : Renewed::Pose, posed_);
 }
 
 void ViewTracer::setRequest(const TraceRequest& request) {
@@ -365,13 +369,7 @@ void ViewTracer::setRequest(const TraceRequest& request) {
   };
   wasText_ = wasText_ || std::ranges::any_of(sides_, isText);
   for (RenderOptions& side : request_.sides) side = asPosed(side);
-  if (relight(request_)) {
-    for (Side& side : sides_) side.stale = true;
-  }
-  if (!isPosed(request_)) {
-    if (!setSurfaces(request_)) pose(request_);
-    for (Side& side : sides_) side.stale = true;
-  }
+  renew(request_);
   if (request.moving) keepMoving(resolution_, request.size);
   sides_.resize(request.sides.size());
   for (size_t i = 0; i < sides_.size(); ++i) setSide(sides_[i], request_.sides[i]);
@@ -380,22 +378,24 @@ void ViewTracer::setRequest(const TraceRequest& request) {
 
 // Numbers of the file that the viewer's user sets: their way into the scene that is drawn, and into a file.
 
-bool ViewTracer::setSurfaces(const TraceRequest& request) {
-  const SceneSelection& wanted = request.sides[0].selection;
+bool ViewTracer::setSurfaces(const RenderOptions& wanted, const std::vector<RenderOptions>& sides) {
   const auto isText = [](const RenderOptions& side) {
     return side.device.traversal == TraversalMethod::Literals;
   };
+  RenderOptions still = posed_;
+  still.selection.set = wanted.selection.set;
   // An animation may drive the same numbers, and lines are built again for another camera.
-  if (!sameMoment(wanted, loadedOptions_.selection) || wanted.animationTime ||
-      !loaded_->scene.strokes.empty() || std::ranges::any_of(request.sides, isText))
+  if (wanted.selection.animationTime || renewalBetween(still, wanted) == Renewal::Pose ||
+      !loaded_->scene.strokes.empty() || std::ranges::any_of(sides, isText))
     return false;
   const auto traits = [&](const Scene& scene) { return traitsOf(scene, loaded_->environment); };
   const TraitSet before = traits(loaded_->scene);
   programs_->waitForCompiler();
-  if (!setByEye(loaded_->scene, fileMaterials_, fileLights_, wanted.set) || traits(loaded_->scene) != before)
+  if (!setByEye(loaded_->scene, fileMaterials_, fileLights_, wanted.selection.set) ||
+      traits(loaded_->scene) != before)
     return false;
-  takePose(loadedOptions_.selection, wanted);
-  programs_->showSurfaces(wanted);
+  posed_ = still;
+  programs_->show(Renewed::Surfaces, posed_);
   return true;
 }
 
@@ -405,7 +405,7 @@ void ViewTracer::saveModel(const std::filesystem::path& path) {
     writeChanged(loadedOptions_.scene, path, set);
     exchange_.deliver(SavedModel{set});
     exchange_.deliver("wrote " + path.string());
-    if (const std::string light = lightToName(loadedOptions_, *loaded_); !light.empty())
+    if (const std::string light = lightToName(posed_, *loaded_); !light.empty())
       exchange_.deliver("the emission that was set decides how that file is lit: render it with " + light +
                         " to see it as here");
   } catch (const std::exception& error) {

@@ -8,8 +8,9 @@
 #include "base/errors.h"
 #include "bvh/silhouette.h"
 #include "gl/debug_log.h"
+#include "options/option_row.h"
 #include "options/view_options.h"
-#include "session/setup.h"
+#include "session/session.h"
 #include "view/exchange.h"
 #include "view/file_watch.h"
 #include "view/live/view_loader.h"
@@ -81,16 +82,15 @@ class ViewTracer {
   void setRequest(const TraceRequest& request);
   /// The options, with front-to-back in place of an automatic traversal if the scene is posed again.
   RenderOptions asPosed(RenderOptions options) const;
-  /// Returns true if the scene has the pose that the request wants.
-  bool isPosed(const TraceRequest& request) const;
+  /// Renews what the request needs otherwise of the scene: its sky, its pose, numbers of surfaces and lights.
+  void renew(const TraceRequest& request);
   /// Gives the scene that pose: the time of its animation, and lines as wide as that camera needs. Tells the
   /// window why if it cannot.
-  void pose(const TraceRequest& request);
-  /// The scene gets the numbers that the request sets for surfaces and lights. Returns false if more than
-  /// these may have to change: the scene is then to be posed.
-  bool setSurfaces(const TraceRequest& request);
-  /// Makes the sky that is asked for, where it is another one. Returns true if it was.
-  bool relight(const TraceRequest& request);
+  void pose(const RenderOptions& wanted);
+  /// The scene gets the numbers that are set for surfaces and lights. Returns false if more than these may
+  /// have to change: the scene is then to be posed.
+  bool setSurfaces(const RenderOptions& wanted, const std::vector<RenderOptions>& sides);
+  void relight(const SkyOptions& sky);
   /// The options with a filter that is available. Tells the window why if it is not the one asked for.
   RenderOptions withFilter(RenderOptions options);
   void setSide(Side& side, const RenderOptions& options);
@@ -157,12 +157,10 @@ class ViewTracer {
   std::unique_ptr<LoadedScene> loaded_;
   std::shared_ptr<KeptDocument> document_;  ///< the document that is posed
   RenderOptions loadedOptions_;             ///< options of the scene
-  std::vector<Material> fileMaterials_;     ///< those of the file, without what the user sets
+  RenderOptions posed_;  ///< the same with the pose, the sky, and the camera that gives lines their width
+  std::vector<Material> fileMaterials_;  ///< those of the file, without what the user sets
   std::vector<LightSource> fileLights_;
-  bool wasText_ = false;         ///< a program's text has held the whole scene
-  CameraOverrides posedCamera_;  ///< camera that gives lines their width
-  std::optional<int> posedCameraIndex_;
-  glm::ivec2 posedSize_{0};
+  bool wasText_ = false;                ///< a program's text has held the whole scene
   std::optional<RefittableTree> tree_;  ///< the latest tree of a moving scene
   std::unique_ptr<ViewPrograms> programs_;
   std::optional<OidnLibrary> oidn_;  ///< opened later where a pasted command asks for it
