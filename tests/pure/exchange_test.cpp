@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests the exchange between the viewer's two threads.
+// Tests the exchange between the viewer's two threads, and work in others.
 #include "view/exchange.h"
 
 #include <gtest/gtest.h>
@@ -7,12 +7,15 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <future>
 #include <iterator>
 #include <random>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include "view/background.h"
 
 namespace fragtrace {
 namespace {
@@ -181,6 +184,41 @@ TEST(Exchange, WakesTheWindowForResultsAndTheTracerForRequests) {
   EXPECT_TRUE(exchange.ending());
   exchange.wakeTracer();
   EXPECT_FALSE(exchange.wait(60.0).trace);
+}
+
+void awaitThread(const Background<int>& work) {
+  while (work.working()) std::this_thread::yield();
+}
+
+TEST(Background, GivesItsValueOnce) {
+  Background<int> work;
+  EXPECT_FALSE(work.take());
+  work.start("test", [](const BackgroundJob&) { return 7; });
+  EXPECT_TRUE(work.busy());
+  awaitThread(work);
+  EXPECT_EQ(work.take(), 7);
+  EXPECT_FALSE(work.take());
+  EXPECT_FALSE(work.busy());
+}
+
+TEST(Background, ReportsNothingOnceItIsCancelled) {
+  Background<int> work;
+  std::promise<bool> before;
+  std::promise<void> cancelled;
+  std::promise<bool> after;
+  work.start("test", [&](const BackgroundJob& job) {
+    before.set_value(job.report([] {}));
+    cancelled.get_future().wait();
+    after.set_value(job.report([] { ADD_FAILURE(); }));
+    return 7;
+  });
+  EXPECT_TRUE(before.get_future().get());
+  work.cancel();
+  EXPECT_TRUE(work.working());
+  cancelled.set_value();
+  EXPECT_FALSE(after.get_future().get());
+  awaitThread(work);
+  EXPECT_FALSE(work.take());
 }
 
 }  // namespace

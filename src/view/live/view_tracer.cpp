@@ -78,12 +78,7 @@ std::vector<std::string> pickLines(const Scene& scene, const Pick& pick) {
 }  // namespace
 
 ViewTracer::ViewTracer(const ViewOptions& start, std::optional<OidnLibrary> oidn, Exchange& exchange)
-    : start_(start),
-      exchange_(exchange),
-      loader_(exchange),
-      thumbnails_(exchange),
-      oidn_(std::move(oidn)),
-      clock_(start.waitsForPasses) {
+    : start_(start), exchange_(exchange), oidn_(std::move(oidn)), clock_(start.waitsForPasses) {
   passOnWhatIsSaid([&exchange](const std::string& text) { exchange.deliver(text); });
 }
 
@@ -112,8 +107,8 @@ void ViewTracer::run(const SharedContexts& shared) {
   } catch (...) {
     exchange_.deliver(std::current_exception());
   }
-  loader_.cancel();
-  thumbnails_.cancel();
+  loading_.cancel();
+  for (Background<bool>& one : thumbnails_) one.cancel();
   leaveContext();
 }
 
@@ -185,25 +180,42 @@ void ViewTracer::reportDriver() {
 void ViewTracer::carryOut(Requests requests) {
   if (requests.load && requests.load->options) {
     loadError_.clear();
-    loader_.start(*requests.load->options);
+    load(*requests.load->options);
   } else if (requests.load) {
-    loader_.cancel();
+    loading_.cancel();
     exchange_.set(&TraceStatus::load, {});
   }
   if (requests.trace && loaded_) setRequest(*requests.trace);
-  if (requests.thumbnails) thumbnails_.make(*requests.thumbnails, start_.render.limits.memoryBytes);
+  if (requests.thumbnails) {
+    thumbnails_.emplace_back().start("thumbnails",
+                                     [files = *requests.thumbnails, limit = start_.render.limits.memoryBytes,
+                                      &exchange = exchange_](const BackgroundJob& job) {
+                                       makeThumbnails(files, limit, exchange, job);
+                                       return true;
+                                     });
+  }
   if (requests.reference) takeReference(*requests.reference);
   for (SaveRequest& save : requests.saves) saves_.push_back(std::move(save));
   if (requests.model && loaded_) saveModel(*requests.model);
   if (requests.pick && loaded_) answer(*requests.pick);
 }
 
+/// A load before it is cancelled, and ends at its next step.
+void ViewTracer::load(const RenderOptions& options) {
+  loading_.start(
+      "load",
+      [options, &exchange = exchange_](const BackgroundJob& job) {
+        return loadViewed(options, exchange, job);
+      },
+      [&exchange = exchange_] { exchange.wakeTracer(); });
+}
+
 void ViewTracer::takeLoaded() {
-  std::optional<LoadResult> result = loader_.take();
+  std::optional<LoadResult> result = loading_.take();
   if (!result) return;
   exchange_.set(&TraceStatus::load, {});
   if (result->error) {
-    if (!loaded_) endIfHopeless(result->error, result->options.scene);
+    if (!loaded_) endIfHopeless(result->error, result->viewed.options.scene);
     loadError_ = whatFailed(result->error);
     exchange_.set(&TraceStatus::error, loadError_);
     return;
@@ -214,40 +226,19 @@ void ViewTracer::takeLoaded() {
   selected_ = {};
   loaded_ = std::move(result->scene);
   document_ = std::move(result->document);
-  loadedOptions_ = result->options;
+  loadedOptions_ = result->viewed.options;
   posed_ = loadedOptions_;
   posed_.selection.set.clear();
   posed_.light.sky = airOf(posed_.light.sky);
   posed_.camera.resolution = loaded_->size;
   wasText_ = false;
-  fileMaterials_ = loaded_->scene.materials;
-  fileLights_ = loaded_->scene.lightSources;
+  fileMaterials_ = result->viewed.materials;
+  fileLights_ = result->viewed.lights;
   loaded_->decoding = [this](size_t decoded, size_t count) { reportDecoded(decoded, count); };
   makePrograms();
   loadError_.clear();
   exchange_.set(&TraceStatus::error, {});
-  ViewedScene viewed;
-  viewed.options = result->options;
-  viewed.camera = loaded_->camera;
-  viewed.cameras = loaded_->scene.cameras;
-  viewed.bounds = loaded_->scene.bounds;
-  viewed.present = traitsOf(loaded_->scene, loaded_->environment);
-  viewed.description = result->stats.scene;
-  viewed.defaultLight = !result->ownLight;
-  viewed.light = loaded_->light;
-  if (const double exposure = exposureOf(result->options, loaded_->light); exposure != 0.0)
-    viewed.exposure = exposure;
-  viewed.refersToFiles = loaded_->scene.refersToFiles;
-  viewed.surroundings = loaded_->environment.kind;
-  viewed.environments = std::move(result->environments);
-  viewed.nodes = loaded_->scene.nodes;
-  viewed.materials = fileMaterials_;
-  viewed.lights = fileLights_;
-  viewed.sceneNames = loaded_->scene.sceneNames;
-  viewed.materialVariants = loaded_->scene.materialVariants;
-  viewed.animationNames = loaded_->scene.animationNames;
-  viewed.animationSeconds = loaded_->scene.animationSeconds;
-  exchange_.deliver(std::move(viewed));
+  exchange_.deliver(std::move(result->viewed));
   if (!start_.watch) return;
   std::vector<std::filesystem::path> files = inputsOf(loadedOptions_);
   for (const auto& file : inputsOf(loaded_->scene)) files.push_back(file);
@@ -262,7 +253,7 @@ void ViewTracer::watchFiles() {
   if (sceneFiles_.changed()) {
     RenderOptions again = posed_;
     again.camera = loadedOptions_.camera;
-    loader_.start(again);
+    load(again);
   }
   if (shaderFiles_.changed()) rebuildPrograms();
 }

@@ -2,7 +2,9 @@
 // The viewer's tracing thread: a context and renderers of its own, requests in, finished pictures out.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
+#include <deque>
 #include <memory>
 
 #include "base/errors.h"
@@ -45,7 +47,9 @@ class ViewTracer {
   /// Returns true if a file is being written.
   bool saving() const { return saving_; }
   /// Returns true if a thread still loads something, even if nobody waits for it any more.
-  bool loading() const { return loader_.busy() || thumbnails_.busy(); }
+  bool loading() const {
+    return loading_.working() || std::ranges::any_of(thumbnails_, &Background<bool>::working);
+  }
 
  private:
   struct Side {
@@ -76,6 +80,7 @@ class ViewTracer {
   void leaveContext();
   void recover(ContextLost error);
   void carryOut(Requests requests);
+  void load(const RenderOptions& options);
   void takeLoaded();
   void watchFiles();
   void rebuildPrograms();
@@ -150,8 +155,8 @@ class ViewTracer {
 
   ViewOptions start_;
   Exchange& exchange_;
-  SceneLoader loader_;
-  ThumbnailMaker thumbnails_;
+  Background<LoadResult> loading_;
+  std::deque<Background<bool>> thumbnails_;  ///< one for each request; true when they are made
   std::unique_ptr<Context> context_;
   std::unique_ptr<DebugLog> driverLog_;
   std::unique_ptr<LoadedScene> loaded_;

@@ -36,7 +36,7 @@ constexpr const char* kResponses =
 constexpr uint64_t kPatience =
     // Microseconds for a call: the portal answers at once whether it will show a dialog.
     2000000;
-constexpr uint64_t kLook = 50000;   // microseconds between two looks at whether the question is given up
+constexpr uint64_t kLook = 50000;   // microseconds between two looks at whether the question is cancelled
 constexpr uint32_t kCancelled = 1;  // a response of the portal; 0: chosen
 
 struct BusLibrary {
@@ -236,8 +236,7 @@ constexpr double kPatienceSeconds = 1.5;  // before the user is told what is wai
 
 }  // namespace
 
-PortalAnswer askPortal(const FileQuestion& question, const std::string& window,
-                       const std::atomic<bool>& givenUp) {
+PortalAnswer askPortal(const FileQuestion& question, const std::string& window, const BackgroundJob& job) {
   const BusLibrary* library = busLibrary();
   if (!library) return {};
   const Connection to(*library);
@@ -251,7 +250,7 @@ PortalAnswer askPortal(const FileQuestion& question, const std::string& window,
   std::string why;
   const std::string path = request(to, question, window, why);
   if (path.empty()) return {.there = false, .why = why, .uri = {}};
-  while (!givenUp) {
+  while (!job.cancelled()) {
     Held message(*library);
     const int processed = library->process(to.bus, &message.message);
     if (processed < 0) return {.there = false, .why = "the bus has ended", .uri = {}};
@@ -267,8 +266,8 @@ PortalAnswer askPortal(const FileQuestion& question, const std::string& window,
 void FileDialog::ask(FileQuestion question, const std::string& window, double now) {
   question_ = std::move(question);
   asked_ = now;
-  desktop_.start("portal", [question = question_, window](const std::atomic<bool>& givenUp) {
-    return askPortal(question, window, givenUp);
+  desktop_.start("portal", [question = question_, window](const BackgroundJob& job) {
+    return askPortal(question, window, job);
   });
 }
 

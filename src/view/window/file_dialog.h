@@ -2,7 +2,6 @@
 // The desktop's dialog for files, by its portal (XDG Desktop Portal: org.freedesktop.portal.FileChooser).
 #pragma once
 
-#include <atomic>
 #include <string>
 
 #include "view/background.h"
@@ -17,9 +16,8 @@ struct PortalAnswer {
 };
 
 /// Shows the dialog over a window ("x11:" and its number in hexadecimal; empty: over none) and waits until
-/// the user has answered, or `givenUp` is true: then the dialog is closed. Does not throw.
-PortalAnswer askPortal(const FileQuestion& question, const std::string& window,
-                       const std::atomic<bool>& givenUp);
+/// the user has answered, or the job is cancelled: then the dialog is closed. Does not throw.
+PortalAnswer askPortal(const FileQuestion& question, const std::string& window, const BackgroundJob& job);
 
 // Asks the user for a file by the desktop's dialog.
 
