@@ -15,7 +15,6 @@
 #include "base/timeline.h"
 #include "cli/commands.h"
 #include "cli/program.h"
-#include "options/command_text.h"
 #include "options/view_options.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
@@ -97,9 +96,9 @@ int runView(const ViewOptions& asked) {
     tracing.join();
   };
   countOneInterrupt();
-  library.run({options.render, options.statusFile, options.reference, begin, end,
-               [] { return interrupts() > 0; }, cameraText, commandText, withCommandText},
-              exchange);
+  library.run(
+      {options.render, options.statusFile, options.reference, begin, end, [] { return interrupts() > 0; }},
+      exchange);
   return interrupts() > 0 ? kInterruptedStatus : 0;
 }
 

@@ -95,6 +95,7 @@ struct ViewState {
   size_t tracedCount() const { return overview ? kMostSides : edit.split && reference.empty() ? 2 : 1; }
   /// Returns true if two pictures are compared, at a bar or otherwise.
   bool compares() const { return edit.split && !overview; }
+  bool showsDifference() const { return compares() && comparison == CompareMode::Difference; }
   /// The traced side whose progress and values are shown: the active one, or that of its last stage.
   size_t shownSide() const;
   /// The place of the bar: 1 if the left side alone is shown.

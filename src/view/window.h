@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <string>
 
 #include "gl/context.h"
 #include "view/exchange.h"
@@ -22,10 +21,6 @@ struct WindowStart {
   std::function<void()> ending;
   /// True from when the program is told to end.
   std::function<bool()> interrupted;
-  // Options as text of the command line, and back (options/camera_text.h, options/command_text.h).
-  std::function<std::string(const RenderOptions&)> cameraText;
-  std::function<std::string(const RenderOptions&)> commandText;
-  std::function<RenderOptions(const RenderOptions&, const std::string&)> withCommandText;
 };
 
 /// The functions of libfragtrace_window.so. Host and library are of one build, so C++ types may cross.

@@ -63,7 +63,7 @@ std::vector<std::string> moreTexts(const ViewState& state, const ViewFacts& fact
 /// The pixel under the cursor, of the picture at its full resolution, and what it holds.
 std::string pixelText(const ViewState& state, const ViewFacts& facts) {
   if (!facts.cursor) return "";
-  const bool difference = state.compares() && state.comparison == CompareMode::Difference;
+  const bool difference = state.showsDifference();
   const size_t side = difference ? 0 : sideAt(state, *facts.cursor);
   if (side >= kMostSides) return "";
   // The middle of the pixel, since places of whole pixels are rounded.

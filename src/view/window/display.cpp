@@ -168,7 +168,7 @@ void Display::forget(size_t side) {
   sides_[side].traced = 0;
 }
 
-void Display::map(Side& side, const DisplaySide& settings) {
+void Display::map(Side& side, const DisplaySettings& settings) {
   if (side.fresh && side.settings == settings) return;
   glBindFramebuffer(GL_FRAMEBUFFER, side.framebuffer.name());
   glViewport(0, 0, side.size.x, side.size.y);
@@ -191,13 +191,13 @@ void Display::prepare() {
   const GlTexture nothing = makeTexture(GL_TEXTURE_2D);
   glTextureStorage2D(nothing.name(), 1, GL_RGBA32F, kSize.x, kSize.y);
   show(sides_[0], nothing.name(), kSize, false);
-  draw({.framebuffer = {8, 8}, .picture = {8, 8}, .magnifier = {}}, {});
+  draw({}, {8, 8}, {8, 8});
   sides_[0].size = glm::ivec2(0);
   sides_[0].traced = 0;
   checkGl("preparing the display");
 }
 
-void Display::draw(const DisplayView& view, const std::array<DisplaySide, kMostSides>& sides) {
+void Display::draw(const ViewState& state, glm::ivec2 picture, glm::ivec2 window) {
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_DEPTH_TEST);
@@ -205,49 +205,46 @@ void Display::draw(const DisplayView& view, const std::array<DisplaySide, kMostS
   glBindSampler(1, 0);
   glBindVertexArray(vertexArray_.name());
   showWaiting();
+  const RenderOptions& o = state.edit.shared;
+  const DisplaySettings settings{o.output.exposure.value_or(0.0), o.output.toneMap,
+                                 o.light.background ? o.light.backgroundColor : std::nullopt};
   for (size_t i = 0; i < kMostSides; ++i) {
-    if (shows(i) && (i < 2 || view.cells)) map(sides_[i], sides[i]);
+    if (shows(i) && (i < 2 || state.overview)) map(sides_[i], settings);
   }
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  glViewport(0, 0, view.framebuffer.x, view.framebuffer.y);
+  glViewport(0, 0, window.x, window.y);
   glClearColor(0.08f, 0.08f, 0.08f, 1.0f);
   glClear(GL_COLOR_BUFFER_BIT);
-  if (shows(0)) drawPictures(view);
+  const glm::ivec2 size = state.overview ? picture / kCells : picture;
+  for (int i = 0; i < (state.overview ? int(kMostSides) : 1); ++i) {
+    const glm::ivec2 corner(i % kCells * size.x, window.y - (i / kCells + 1) * size.y);
+    const size_t left = size_t(i), right = state.overview ? left : shows(1) ? 1 : 0;
+    if (shows(left)) drawCell(state, left, right, corner, size);
+  }
   glBindVertexArray(0);
   glUseProgram(0);
 }
 
-void Display::drawPictures(const DisplayView& view) {
-  if (!view.cells) return drawCell(view, 0, shows(1) ? 1 : 0, {0, 0}, view.picture);
-  const glm::ivec2 size = view.picture / kCells;
-  for (int i = 0; i < int(kMostSides); ++i) {
-    if (shows(size_t(i)))
-      drawCell(view, size_t(i), size_t(i), glm::ivec2(i % kCells, i / kCells) * size, size);
-  }
-}
-
-/// Two pictures, or the same, at a place of the window from its top left.
-void Display::drawCell(const DisplayView& view, size_t left, size_t right, glm::ivec2 corner,
+void Display::drawCell(const ViewState& state, size_t left, size_t right, glm::ivec2 corner,
                        glm::ivec2 size) {
-  const bool difference = view.difference && left != right;
+  const bool difference = state.showsDifference() && left != right;
   for (const size_t unit : {0u, 1u}) {
     const Side& side = sides_[unit == 0 ? left : right];
     const GLuint shown = difference ? side.traced : side.displayed.name();
     // Pixels of a picture that fits, or is enlarged, are shown as they are.
-    const GLint filter = side.size == size || view.magnifier.steps > 0 ? GL_NEAREST : GL_LINEAR;
+    const GLint filter = side.size == size || state.magnifier.steps > 0 ? GL_NEAREST : GL_LINEAR;
     glTextureParameteri(shown, GL_TEXTURE_MIN_FILTER, filter);
     glTextureParameteri(shown, GL_TEXTURE_MAG_FILTER, filter);
     glBindTextureUnit(GLuint(unit), shown);
   }
-  const int bottom = view.framebuffer.y - corner.y - size.y;
-  glViewport(corner.x, bottom, size.x, size.y);
+  glViewport(corner.x, corner.y, size.x, size.y);
   glUseProgram(window_.name());
   glUniform2f(kPictureSize, float(size.x), float(size.y));
-  glUniform1f(kBar, float(std::round(view.bar * size.x)));
-  glUniform2f(kCorner, float(corner.x), float(bottom));
-  const glm::dvec2 center = view.magnifier.center;
-  glUniform3f(kPart, float(center.x), float(center.y), float(std::exp2(-view.magnifier.steps)));
-  glUniform1f(kDifference, difference ? float(std::exp2(view.differenceStops)) : 0.0f);
+  glUniform1f(kBar, float(std::round(state.shownBar() * size.x)));
+  glUniform2f(kCorner, float(corner.x), float(corner.y));
+  const glm::dvec2 center = state.magnifier.center;
+  glUniform3f(kPart, float(center.x), float(center.y), float(std::exp2(-state.magnifier.steps)));
+  glUniform1f(kDifference, difference ? float(std::exp2(state.differenceStops)) : 0.0f);
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 

@@ -39,23 +39,12 @@ class ValueReader {
   double begun_ = -1.0;
 };
 
-/// The display of a side's picture.
-struct DisplaySide {
+/// The way in which radiance is shown.
+struct DisplaySettings {
   double exposure = 0.0;
   ToneMap toneMap = ToneMap::Neutral;
   std::optional<glm::vec3> page{};  ///< the colour behind the surfaces, as toDisplayOver() takes it
-  bool operator==(const DisplaySide&) const = default;
-};
-
-/// The places of pictures in the window, and the part of them that is shown.
-struct DisplayView {
-  glm::ivec2 framebuffer{1};
-  glm::ivec2 picture{1};  ///< its area, at the top left
-  double bar = 1.0;       ///< a part of its width; 1: the left side alone
-  Magnifier magnifier;
-  bool cells = false;       ///< all sides in cells (kCells), rather than two
-  bool difference = false;  ///< shows the absolute difference of radiance times 2^differenceStops
-  double differenceStops = 0.0;
+  bool operator==(const DisplaySettings&) const = default;
 };
 
 class Display {
@@ -80,8 +69,8 @@ class Display {
   /// been shown.
   void prepare();
 
-  /// Fills the picture's area, and clears the rest.
-  void draw(const DisplayView& view, const std::array<DisplaySide, kMostSides>& sides);
+  /// Fills the picture's area of a window, and clears the rest.
+  void draw(const ViewState& state, glm::ivec2 picture, glm::ivec2 window);
 
  private:
   struct Side {
@@ -98,16 +87,16 @@ class Display {
     GlFramebuffer framebuffer;  ///< framebuffer of `displayed`
     glm::ivec2 size{0};
     bool asItIs = false;
-    bool fresh = false;    ///< `displayed` holds the traced picture
-    DisplaySide settings;  ///< the settings with which it was drawn
+    bool fresh = false;        ///< `displayed` holds the traced picture
+    DisplaySettings settings;  ///< the settings with which it was drawn
   };
   bool allReady() const;
   void showWaiting();
   static void show(Side& side, GLuint traced, glm::ivec2 size, bool asItIs);
   void giveBack(size_t side, SharedTexture& texture);
-  void map(Side& side, const DisplaySide& settings);
-  void drawPictures(const DisplayView& view);
-  void drawCell(const DisplayView& view, size_t left, size_t right, glm::ivec2 corner, glm::ivec2 size);
+  void map(Side& side, const DisplaySettings& settings);
+  /// Two pictures, or the same, at a place of the window from its bottom left.
+  void drawCell(const ViewState& state, size_t left, size_t right, glm::ivec2 corner, glm::ivec2 size);
 
   Exchange& exchange_;
   GlProgram mapping_;

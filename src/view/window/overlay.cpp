@@ -493,7 +493,7 @@ bool showsPixelValues(const ViewState& state) {
 void drawPixelValues(const ViewState& state, const ViewFacts& facts, const WindowLayout& layout) {
   if (!showsPixelValues(state)) return;
   const double factor = std::exp2(state.magnifier.steps);
-  const bool difference = state.compares() && state.comparison == CompareMode::Difference;
+  const bool difference = state.showsDifference();
   const glm::dvec2 size(layout.picture);
   // The place is in parts of the picture, from its top left.
   const glm::dvec2 corner = magnifiedPlace(state, glm::dvec2(0.0));

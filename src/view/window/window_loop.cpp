@@ -12,6 +12,7 @@
 #include "base/errors.h"
 #include "gl/gl.h"
 #include "gltf/edit/factors.h"
+#include "options/command_text.h"
 #include "view/set_by_eye.h"
 #include "view/shown_text.h"
 #include "view/window/overlay.h"
@@ -334,13 +335,7 @@ void Window::draw() {
   if (skipped_) return Interface::discard();
   drawn_ = now;
   ++report_.frames;
-  std::array<DisplaySide, kMostSides> sides;
-  const RenderOptions& o = state_.edit.shared;
-  sides.fill({o.output.exposure.value_or(0.0), o.output.toneMap,
-              o.light.background ? o.light.backgroundColor : std::nullopt});
-  display_.draw({size, layout.picture, state_.shownBar(), state_.magnifier, state_.overview,
-                 state_.compares() && state_.comparison == CompareMode::Difference, state_.differenceStops},
-                sides);
+  display_.draw(state_, layout.picture, size);
   readValues();
   facts_.focus = Interface::focus();
   facts_.mouse = Interface::mouse();
@@ -366,7 +361,7 @@ void Window::writeStatus() {
   const double now = glfwGetTime();
   statusWaits_ = statusTime_ >= 0.0 && now - statusTime_ < kStatusSeconds;
   if (statusWaits_) return;
-  report_.camera = state_.scene ? start_.cameraText(shownOptions()) : "";
+  report_.camera = state_.scene ? cameraText(shownOptions()) : "";
   std::string text = statusText(state_, facts_, report_);
   if (text == status_) return;
   status_ = std::move(text);

@@ -10,6 +10,7 @@
 #include "base/errors.h"
 #include "gl/gl.h"
 #include "image/image.h"
+#include "options/command_text.h"
 #include "options/option_row.h"
 #include "scene/up_axis.h"
 #include "view/files.h"
@@ -247,7 +248,7 @@ void Window::changeBookmarks(const Invocation& invocation) {
   remember([&](Remembered& remembered) {
     std::vector<Bookmark>& views = remembered.bookmarks[sceneFile()];
     if (invocation.command == Command::AddBookmark)
-      views.push_back({invocation.text, start_.cameraText(shownOptions())});
+      views.push_back({invocation.text, cameraText(shownOptions())});
     else if (size_t(invocation.argument) < views.size())
       views.erase(views.begin() + invocation.argument);
   });
@@ -259,7 +260,7 @@ void Window::copyCommand() {
   const bool layers =
       !o.output.aovs.empty() || !o.output.lightGroups.empty() || o.output.aovSamples || o.output.aovVariance;
   o.output.file = freePictureName(o.scene, layers ? ".exr" : ".png");
-  glfwSetClipboardString(window_.get(), start_.commandText(o).c_str());
+  glfwSetClipboardString(window_.get(), commandText(o).c_str());
   say("copied the command that renders this picture");
 }
 
@@ -273,7 +274,7 @@ void Window::pasteCommand() {
 /// Takes a command or options of a camera. False if that fails, after a message.
 bool Window::takeText(const std::string& text, const std::string& otherwise) {
   try {
-    const RenderOptions options = start_.withCommandText(renderOptionsOf(state_, state_.edit.active), text);
+    const RenderOptions options = withCommandText(renderOptionsOf(state_, state_.edit.active), text);
     if (options.scene.empty()) throw UsageError("it names no scene");
     if (sameScene(options, state_.scene->options)) {
       takeOptions(state_, options);
