@@ -19,7 +19,7 @@
 #include "session/picture/denoising.h"
 #include "view/camera_controller.h"
 #include "view/live/view_tracer.h"
-#include "view/set_by_eye.h"
+#include "view/view_state.h"
 
 namespace fragtrace {
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <set>
 #include <string>
 
 #include "image/format.h"
@@ -24,6 +25,8 @@ FileFilter fileFilter(std::string name, std::vector<std::string> extensions) {
 bool isOneOf(std::span<const char* const> extensions, const std::filesystem::path& path) {
   return std::ranges::find(extensions, extensionOf(path)) != extensions.end();
 }
+
+constexpr int kLooksAway = 4;  // a file is gone if this many looks in turn miss it
 
 }  // namespace
 
@@ -128,6 +131,111 @@ std::optional<std::filesystem::path> fileOfUri(std::string_view uri) {
     path += decoded;
   }
   return path;
+}
+
+std::vector<std::filesystem::path> environmentsNear(const RenderOptions& options) {
+  std::vector<std::filesystem::path> files;
+  std::set<std::filesystem::path> folders;
+  for (const std::filesystem::path& file : {options.scene, options.light.hdriFile}) {
+    std::error_code error;
+    const std::filesystem::path folder = file.parent_path().empty() ? "." : file.parent_path();
+    if (file.empty() || !folders.insert(std::filesystem::weakly_canonical(folder, error)).second) continue;
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+      if (kindOfDropped(entry->path()) == DroppedFile::Environment) files.push_back(entry->path());
+      if (files.size() >= kMostEnvironments) break;
+    }
+  }
+  std::ranges::sort(files, {}, [](const std::filesystem::path& file) { return file.filename(); });
+  return files;
+}
+
+std::vector<EnvironmentChoice> environmentChoices(const ViewedScene& scene) {
+  std::vector<EnvironmentChoice> choices;
+  if (scene.defaultLight) {
+    choices.push_back({.name = "None", .light = DefaultLight::None});
+    choices.push_back({.name = "White", .light = DefaultLight::White});
+  } else {
+    choices.push_back({.name = "The scene's own light"});
+  }
+  choices.push_back({.name = "Studio", .studio = true});
+  choices.push_back({.name = "Sky", .sky = true});
+  for (const std::filesystem::path& file : scene.environments)
+    choices.push_back({.name = file.filename().string(), .file = file});
+  const std::filesystem::path& shown = scene.options.light.hdriFile;
+  if (!shown.empty() && std::ranges::find(scene.environments, shown) == scene.environments.end())
+    choices.push_back({.name = shown.filename().string(), .file = shown});
+  return choices;
+}
+
+size_t currentChoice(const ViewedScene& scene, const std::vector<EnvironmentChoice>& choices) {
+  const RenderOptions& o = scene.options;
+  const bool sky = o.light.sky.on;
+  const bool studio =
+      o.light.studio || (scene.surroundings == Surroundings::Map && o.light.hdriFile.empty() && !sky);
+  const auto lights = [&](const EnvironmentChoice& choice) {
+    if (!o.light.hdriFile.empty() || studio || sky)
+      return choice.file == o.light.hdriFile && choice.studio == studio && choice.sky == sky;
+    return choice.file.empty() && !choice.studio && !choice.sky &&
+           (!scene.defaultLight || choice.light == o.light.defaultLight);
+  };
+  const auto found = std::ranges::find_if(choices, lights);
+  return found == choices.end() ? 0 : size_t(found - choices.begin());
+}
+
+RenderOptions withEnvironment(RenderOptions options, const EnvironmentChoice& choice) {
+  options.light.hdriFile = choice.file;
+  options.light.studio = choice.studio;
+  options.light.sky.on = choice.sky;
+  options.light.defaultLight = choice.light;
+  if (choice.file.empty() && !choice.sky) options.light.backgroundBlur = 0.0;
+  return options;
+}
+
+std::optional<FileWatch::Look> FileWatch::lookAt(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto time = std::filesystem::last_write_time(file, error);
+  if (error) return std::nullopt;
+  const auto size = std::filesystem::file_size(file, error);
+  if (error) return std::nullopt;
+  return Look{time, size};
+}
+
+FileWatch::FileWatch(const std::vector<std::filesystem::path>& files) {
+  for (const auto& file : files) files_[file] = lookAt(file);
+}
+
+bool FileWatch::changed() {
+  bool any = false;
+  for (auto& [file, before] : files_) {
+    const std::optional<Look> now = lookAt(file);
+    // Editors replace files, which are away for a moment.
+    int& away = away_[file];
+    away = now ? 0 : std::min(away + 1, kLooksAway + 1);
+    if (!now && (away != kLooksAway || !before)) continue;
+    if (now == before) continue;
+    any = true;
+    before = now;
+  }
+  return any;
+}
+
+std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder, std::string_view extension) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.path().extension() == extension && entry.is_regular_file(error)) files.push_back(entry.path());
+  }
+  return files;
+}
+
+std::vector<std::filesystem::path> filesUnder(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error)) {
+    if (entry.is_regular_file(error)) files.push_back(entry.path());
+  }
+  return files;
 }
 
 }  // namespace fragtrace

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "shader/render_options.h"
+#include "view/exchange.h"
 
 namespace fragtrace {
 
@@ -72,5 +74,56 @@ Drop takeDrop(const RenderOptions& shown, std::span<const std::filesystem::path>
 /// The path of a file:// URI (RFC 8089), with its %XX decoded; nothing for another scheme, another host than
 /// this, or a URI that is malformed.
 std::optional<std::filesystem::path> fileOfUri(std::string_view uri);
+
+// The lights of a scene that the viewer offers.
+
+/// Returns environment maps beside the scene and beside the one that lights it now, by name, at most
+/// kMostEnvironments.
+inline constexpr size_t kMostEnvironments = 200;
+std::vector<std::filesystem::path> environmentsNear(const RenderOptions& options);
+
+struct EnvironmentChoice {
+  std::string name;
+  std::filesystem::path file{};  ///< the environment map; empty: none
+  bool studio = false;
+  bool sky = false;
+  DefaultLight light = DefaultLight::Studio;  ///< used if the scene has no light of its own
+
+  bool operator==(const EnvironmentChoice&) const = default;
+};
+
+/// The scene's own light or what stands for it, the studio, and all files.
+std::vector<EnvironmentChoice> environmentChoices(const ViewedScene& scene);
+
+/// The index of the choice that lights the scene.
+size_t currentChoice(const ViewedScene& scene, const std::vector<EnvironmentChoice>& choices);
+
+/// The options with that light.
+RenderOptions withEnvironment(RenderOptions options, const EnvironmentChoice& choice);
+
+/// Files, and whether one has changed since it was looked at last: by their times and sizes, asked for now
+/// and then. One that is not there counts as unchanged until it is back.
+class FileWatch {
+ public:
+  FileWatch() = default;
+  explicit FileWatch(const std::vector<std::filesystem::path>& files);
+  bool changed();
+
+ private:
+  struct Look {
+    std::filesystem::file_time_type time;
+    std::uintmax_t size = 0;
+    bool operator==(const Look&) const = default;
+  };
+  static std::optional<Look> lookAt(const std::filesystem::path& file);
+  std::map<std::filesystem::path, std::optional<Look>> files_;
+  std::map<std::filesystem::path, int> away_;  ///< number of looks in turn that have missed it
+};
+
+/// Returns all files in a folder whose names end with `extension`, or nothing if there is no such folder.
+std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder, std::string_view extension);
+
+/// All files in a folder and in those in it. Empty where there is no such folder.
+std::vector<std::filesystem::path> filesUnder(const std::filesystem::path& folder);
 
 }  // namespace fragtrace

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "view/set_by_eye.h"
+#include "view/view_state.h"
 
 namespace fragtrace {
 

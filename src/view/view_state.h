@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "shader/render_options.h"
@@ -197,5 +198,31 @@ std::string whyGrey(const ViewState& state, Stage stage);
 
 /// Why there can be no fog in the picture of the active side; empty: there can.
 std::string whyNoFog(const ViewState& state);
+
+// Materials and lights with the numbers that the viewer's user sets.
+
+/// Returns true if both set the same place to the same, as floats.
+bool isSame(const SetNumber& a, const SetNumber& b);
+
+/// Sets the number in the list; if it is the file's, ends what was set there.
+void setNumberIn(std::vector<SetNumber>& set, SetNumber number, const SetNumber& inFile);
+
+/// Sets numbers of the scene's materials or lights. `inFile` are the file's at that place: they
+/// end what was set there.
+void setNumber(ViewState& state, SetNumber number, const SetNumber& inFile);
+
+/// Names the light of the scene that is shown, and the units of its lamps, where the program decided them or
+/// emission that is set could do so in the file that is saved.
+void nameLight(RenderOptions& options, const ViewedScene& scene);
+
+/// A material's values, a line each: those that the user sees first, and of the others those that are not the
+/// defaults.
+std::vector<std::string> materialLines(const Material& material);
+
+/// The material at that index of the scene's, with the numbers that are set.
+Material shownMaterial(const ViewState& state, size_t index);
+
+/// Returns the lines that describe a picked surface. Values of its material are as they are set now.
+std::vector<std::string> pickLines(const ViewState& state, const PickAnswer& answer);
 
 }  // namespace fragtrace

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "view/environments.h"
+#include "view/files.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
 #include "image_test_folder.h"
-#include "view/set_by_eye.h"
+#include "view/view_state.h"
 
 namespace fragtrace {
 namespace {

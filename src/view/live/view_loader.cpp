@@ -11,7 +11,7 @@
 #include "session/file_light.h"
 #include "session/say.h"
 #include "view/camera_controller.h"
-#include "view/environments.h"
+#include "view/files.h"
 #include "view/pictures.h"
 
 namespace fragtrace {

@@ -14,8 +14,8 @@
 #include "session/file_light.h"
 #include "session/outputs.h"
 #include "session/picture/picture_file.h"
-#include "view/set_by_eye.h"
 #include "view/shown_text.h"
+#include "view/view_state.h"
 
 namespace fragtrace {
 

@@ -14,7 +14,7 @@
 #include "options/view_options.h"
 #include "session/session.h"
 #include "view/exchange.h"
-#include "view/file_watch.h"
+#include "view/files.h"
 #include "view/live/view_loader.h"
 #include "view/live/view_picture.h"
 #include "view/live/view_programs.h"

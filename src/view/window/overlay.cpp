@@ -11,8 +11,8 @@
 
 #include "base/text.h"
 #include "view/pictures.h"
-#include "view/set_by_eye.h"
 #include "view/shown_text.h"
+#include "view/view_state.h"
 #include "view/window/widgets.h"
 
 namespace fragtrace {

@@ -11,9 +11,9 @@
 #include "options/same_picture.h"
 #include "scene/parts.h"
 #include "scene/sky/blurred_map.h"
-#include "view/environments.h"
-#include "view/set_by_eye.h"
+#include "view/files.h"
 #include "view/shown_text.h"
+#include "view/view_state.h"
 #include "view/window/input.h"
 #include "view/window/widgets.h"
 

@@ -8,8 +8,8 @@
 #include "base/summary.h"
 #include "image/files/whole_file.h"
 #include "options/option_row.h"
-#include "view/set_by_eye.h"
 #include "view/shown_text.h"
+#include "view/view_state.h"
 
 namespace fragtrace {
 

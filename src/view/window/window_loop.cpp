@@ -13,8 +13,8 @@
 #include "gl/gl.h"
 #include "gltf/edit/factors.h"
 #include "options/command_text.h"
-#include "view/set_by_eye.h"
 #include "view/shown_text.h"
+#include "view/view_state.h"
 #include "view/window/overlay.h"
 #include "view/window/widgets.h"
 

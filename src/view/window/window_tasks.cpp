@@ -14,8 +14,8 @@
 #include "options/option_row.h"
 #include "scene/up_axis.h"
 #include "view/files.h"
-#include "view/set_by_eye.h"
 #include "view/shown_text.h"
+#include "view/view_state.h"
 #include "view/window/view_window.h"
 
 namespace fragtrace {
