@@ -55,7 +55,7 @@ Results Exchange::take() {
   return {std::exchange(results_.queue, {}), std::exchange(results_.pictures, {}), results_.status};
 }
 
-void Exchange::giveBack(size_t side, const SharedTexture& texture, void* done) {
+void Exchange::release(size_t side, const SharedTexture& texture, void* done) {
   const std::lock_guard lock(mutex_);
   taken_[side][size_t(texture.slot)] = false;
   doneAt_[side][size_t(texture.slot)] = done;

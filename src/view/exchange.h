@@ -246,7 +246,7 @@ class Exchange {
   void request(const std::function<void(Requests&)>& change);
   Results take();
   /// The window shows a texture no longer, once the GLsync `done`, now the tracing thread's, is signalled.
-  void giveBack(size_t side, const SharedTexture& texture, void* done);
+  void release(size_t side, const SharedTexture& texture, void* done);
 
   // The tracing thread.
   /// Waits for requests or wakeTracer(), at most that long.

@@ -50,13 +50,22 @@ void restore(ViewState& state, const Edit& edit) {
   state.edit.posed = edit.posed || (selection.animationTime && state.scene->cameras.empty());
 }
 
-bool step(History& history, ViewState& state, std::deque<Edit>& from, std::deque<Edit>& to) {
-  record(history, state);
+/// Goes one step back (-1) or forward (1); false: there is none.
+bool step(History& history, ViewState& state, int direction) {
+  std::deque<Edit>& from = direction < 0 ? history.past : history.future;
+  std::deque<Edit>& to = direction < 0 ? history.future : history.past;
   if (from.empty()) return false;
   to.push_back(std::exchange(*history.now, from.back()));
   from.pop_back();
   restore(state, *history.now);
   return true;
+}
+
+/// Does so as the user asks for it.
+bool stepAsked(History& history, ViewState& state, int direction) {
+  record(history, state);
+  history.step = direction;
+  return step(history, state, direction);
 }
 
 }  // namespace
@@ -75,25 +84,13 @@ void record(History& history, const ViewState& state) {
   history.future.clear();
 }
 
-bool undo(History& history, ViewState& state) {
-  history.step = -1;
-  return step(history, state, history.past, history.future);
-}
+bool undo(History& history, ViewState& state) { return stepAsked(history, state, -1); }
 
-bool redo(History& history, ViewState& state) {
-  history.step = 1;
-  return step(history, state, history.future, history.past);
-}
+bool redo(History& history, ViewState& state) { return stepAsked(history, state, 1); }
 
 void revert(History& history, ViewState& state) {
   if (!std::exchange(history.waits, false)) return;
-  const int undone = std::exchange(history.step, 0);
-  if (undone == 0) return;
-  std::deque<Edit>& from = undone < 0 ? history.future : history.past;
-  std::deque<Edit>& to = undone < 0 ? history.past : history.future;
-  to.push_back(std::exchange(*history.now, from.back()));
-  from.pop_back();
-  restore(state, *history.now);
+  if (const int undone = std::exchange(history.step, 0)) step(history, state, -undone);
 }
 
 void ignoreChange(History& history, const ViewState& state) {

@@ -19,9 +19,9 @@ constexpr float kStatusHeight = 24.0f;
 constexpr float kLeastPicture = 300.0f;   // beside the panel; where less is left, the panel covers it
 constexpr float kLeastRoom = 180.0f;      // least room beside a panel over the picture
 constexpr float kLeastForPanel = 560.0f;  // least width of the picture
-constexpr float kNewsShare = 0.3f;        // share of the picture's height,
-constexpr float kLeastNews = 60.0f;       // or this, up to half of it
-constexpr float kNewsWidth = 400.0f;      // or half of the picture's
+constexpr float kMessagesShare = 0.3f;    // share of the picture's height,
+constexpr float kLeastMessages = 60.0f;   // or this, up to half of it
+constexpr float kMessagesWidth = 400.0f;  // or half of the picture's
 constexpr glm::vec2 kAllFigures{258.0f, 190.0f};
 constexpr glm::vec2 kBriefFigures{180.0f, 56.0f};
 constexpr float kSideRow = 20.0f;    // says which side it is
@@ -54,7 +54,7 @@ WindowLayout layoutOf(glm::vec2 window, float scale, const LayoutWishes& wishes)
   const float width = std::max(std::min(wanted, whole.x - 2 * kMargin), 1.0f);
   const float room = over ? whole.x - width - 3 * kMargin : whole.x - 2 * kMargin;
   const bool beside = room >= kLeastRoom || !over;
-  const float lower = std::min(std::max(kNewsShare * whole.y, kLeastNews), 0.5f * whole.y);
+  const float lower = std::min(std::max(kMessagesShare * whole.y, kLeastMessages), 0.5f * whole.y);
   const float upper = whole.y - lower - 2 * kMargin;
   const float panelHeight = std::max(beside ? whole.y - 2 * kMargin : upper, 1.0f);
   layout.panel =
@@ -65,8 +65,9 @@ WindowLayout layoutOf(glm::vec2 window, float scale, const LayoutWishes& wishes)
                    : fits(brief, figures)     ? FigureDetail::Brief
                                               : FigureDetail::None;
   layout.figuresMost = scale * glm::max(figures, glm::vec2(1.0f));
-  const float news = std::min(std::max(kNewsWidth, 0.5f * whole.x), beside ? room : whole.x - 2 * kMargin);
-  layout.newsMost = scale * glm::max(glm::vec2(news, lower - kMargin), glm::vec2(1.0f));
+  const float messages =
+      std::min(std::max(kMessagesWidth, 0.5f * whole.x), beside ? room : whole.x - 2 * kMargin);
+  layout.messagesMost = scale * glm::max(glm::vec2(messages, lower - kMargin), glm::vec2(1.0f));
   return layout;
 }
 

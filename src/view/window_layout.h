@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The places where picture, panel, stages, status bar, figures and news have room in a window, so that none
-// covers another.
+// The places where picture, panel, stages, status bar, figures and messages have room in a window, so that
+// none covers another.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +29,8 @@ struct WindowLayout {
   bool docked = false;  ///< there is a panel beside the picture; else, if any, it is over it at the top right
   glm::vec2 panel{0.0f};  ///< its width, and the most of its height
   FigureDetail figures = FigureDetail::All;
-  glm::vec2 figuresMost{0.0f};  ///< largest size of one side's figures, at the picture's top left
-  glm::vec2 newsMost{0.0f};     ///< largest size of news, at the picture's bottom left
+  glm::vec2 figuresMost{0.0f};   ///< largest size of one side's figures, at the picture's top left
+  glm::vec2 messagesMost{0.0f};  ///< largest size of messages, at the picture's bottom left
 };
 
 WindowLayout layoutOf(glm::vec2 window, float scale, const LayoutWishes& wishes);

@@ -115,7 +115,7 @@ TEST(Exchange, ASlotThatIsDrawnToBelongsToNobodyElse) {
     // One that waits for its fence gives way to a newer one, and then the one that is shown.
     while (held.size() > (turn % 2 == 0 ? 1u : 2u)) {
       const auto gone = held.begin() + (held.size() > 2 ? 1 : 0);
-      exchange.giveBack(1, {*gone}, &fences[size_t(*gone)]);
+      exchange.release(1, {*gone}, &fences[size_t(*gone)]);
       held.erase(gone);
     }
   }
@@ -141,7 +141,7 @@ TEST(Exchange, NothingIsLostBetweenTwoThreads) {
     wasDone = isDone;
     exchange.request(&Requests::trace, {++asked, {RenderOptions{}}, {1, 1}, false});
     Results results = exchange.take();
-    for (const TracedPicture& picture : results.pictures) exchange.giveBack(0, picture.shared, nullptr);
+    for (const TracedPicture& picture : results.pictures) exchange.release(0, picture.shared, nullptr);
     std::ranges::move(results.queue, std::back_inserter(messages));
   }
   tracer.join();

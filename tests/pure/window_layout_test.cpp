@@ -24,15 +24,15 @@ TEST(WindowLayout, NothingCoversAnything) {
           const float panelLeft = over ? picture.x - l.margin - l.panel.x : picture.x;
           const float figures = l.figures == FigureDetail::None ? 0.0f : l.margin + l.figuresMost.x;
           EXPECT_LE(figures, panelLeft + 0.1f);
-          const float newsTop = picture.y - l.margin - l.newsMost.y;
-          const bool newsBeside = l.margin + l.newsMost.x <= panelLeft + 0.1f;
+          const float messagesTop = picture.y - l.margin - l.messagesMost.y;
+          const bool messagesBeside = l.margin + l.messagesMost.x <= panelLeft + 0.1f;
           if (over && l.panel.y > l.scale) {
-            EXPECT_TRUE(newsBeside || l.margin + l.panel.y <= newsTop + 0.1f);
+            EXPECT_TRUE(messagesBeside || l.margin + l.panel.y <= messagesTop + 0.1f);
           }
           const float sides = split ? 2.0f : 1.0f;
           if (l.figures != FigureDetail::None) {
             const float names = split ? 31.0f * scale : 0.0f;
-            EXPECT_LE(names + sides * (l.margin + l.figuresMost.y), newsTop + 0.1f);
+            EXPECT_LE(names + sides * (l.margin + l.figuresMost.y), messagesTop + 0.1f);
           }
         }
       }
@@ -73,7 +73,7 @@ TEST(WindowLayout, LengthsGrowWithTheScale) {
   const WindowLayout one = layoutOf({1280, 720}, 1.0f, {.panel = true});
   const WindowLayout two = layoutOf({2560, 1440}, 2.0f, {.panel = true});
   EXPECT_EQ(two.panel, 2.0f * one.panel);
-  EXPECT_EQ(two.newsMost, 2.0f * one.newsMost);
+  EXPECT_EQ(two.messagesMost, 2.0f * one.messagesMost);
   EXPECT_EQ(two.figures, one.figures);
 }
 

@@ -170,7 +170,7 @@ class Parts(Case):
             # The load may not have begun yet.
             words = viewer.wait(lambda option=option: next((w for w in [copied_command(self, viewer)] if option[0] in w), None), 20, option[0])
             self.assertEqual(words[words.index(option[0]) + 1], option[1])
-            viewer.click("close news")
+            viewer.click("close messages")
             if name == "Variant":
                 viewer.key("ctrl+z")
                 viewer.rest(lambda s: s["variant"] == "", "none is undone")
@@ -349,7 +349,7 @@ class Selection(Case):
             self.assertAlmostEqual(focal[axis], 0.5 * (box[axis] + box[axis + 3]), places=5)
         viewer.key("shift+f")
         viewer.rest(lambda s: s["camera"] != framed["camera"], "all of it")
-        viewer.click("close news")
+        viewer.click("close messages")
         viewer.rest(lambda s: s["selected"] is None, "nothing is selected")
         time.sleep(0.3)
         viewer.key("Return")

@@ -48,11 +48,11 @@ class Compiles(Case):
     def test_the_box_of_a_message_that_grew_fits_it(self):
         viewer = self.start()
         says = "(this is a preview in Blinn-Phong)"
-        viewer.until(lambda s: s["state"] == "compiling" and s["pictures"] > 0 and "news" in s["places"], "a preview")
+        viewer.until(lambda s: s["state"] == "compiling" and s["pictures"] > 0 and "messages" in s["places"], "a preview")
         time.sleep(0.5)
         status = viewer.status()
         if status["state"] == "compiling":
-            self.assertGreater(status["places"]["news"][2], 6 * len(says), "pixels")
+            self.assertGreater(status["places"]["messages"][2], 6 * len(says), "pixels")
         viewer.close()
 
     def test_the_old_picture_moves_until_another_stage_is_compiled(self):

@@ -145,8 +145,8 @@ class Messages(Case):
         written = viewer.press_for_file("F12", ".png")
         viewer.until(lambda s: f"wrote {written.resolve()}" in s["messages"], "the file with its folder")
         self.assertFalse([m for m in viewer.status()["messages"] if m.startswith("writing")])
-        viewer.click("close news")
-        viewer.until(lambda s: "news" not in s["places"], "closed")
+        viewer.click("close messages")
+        viewer.until(lambda s: "messages" not in s["places"], "closed")
         self.ends_well(viewer, viewer.close())
 
     def test_files_dropped_together_are_all_taken(self):
@@ -192,15 +192,15 @@ class Overlaps(Case):
     def everything(self, viewer, size, sides, one=("figures0",)):
         if not viewer.status()["panel"]:
             viewer.key("Tab")
-        self.panel_width = self.check(viewer, size, ("panel", "news", "status"))["panel"][2]
+        self.panel_width = self.check(viewer, size, ("panel", "messages", "status"))["panel"][2]
         viewer.key("Tab")
-        self.check(viewer, size, (*one, "news", "status"))
+        self.check(viewer, size, (*one, "messages", "status"))
         viewer.key("c")
-        self.check(viewer, size, ("news", *sides))
+        self.check(viewer, size, ("messages", *sides))
         viewer.key("c")
 
     def check(self, viewer, size, names):
-        kinds = ("panel", "figures0", "figures1", "news", "stages", "status")
+        kinds = ("panel", "figures0", "figures1", "messages", "stages", "status")
 
         def apart(a, b):
             return a[0] + a[2] <= b[0] or b[0] + b[2] <= a[0] or a[1] + a[3] <= b[1] or b[1] + b[3] <= a[1]

@@ -104,11 +104,11 @@ class Materials(Case):
         viewer.rest(lambda s: s["set"], "again")
         self.is_asked_for(viewer)
         # So does opening another file.
-        asks = lambda s: "news" in s["places"] and "open again" in s["messages"][-1]
+        asks = lambda s: "messages" in s["places"] and "open again" in s["messages"][-1]
         viewer.key("ctrl+o")
         self.assertEqual(viewer.until(asks, "asked")["dialog"], "")
-        viewer.click("close news")
-        viewer.until(lambda s: "news" not in s["places"], "no question is seen")
+        viewer.click("close messages")
+        viewer.until(lambda s: "messages" not in s["places"], "no question is seen")
         drop(self.screen, viewer.id, SCENES / "furnace.gltf")
         self.assertEqual(viewer.until(asks, "asked")["scene"], str(self.scene))
         viewer.key("ctrl+o")
@@ -117,8 +117,8 @@ class Materials(Case):
         written = self.folder / "scene-1.gltf"
         viewer.until(lambda s: f"wrote {written}" in s["messages"], "the model")
         self.assertEqual(written.read_bytes(), file.read_bytes())
-        viewer.click("close news")
-        viewer.until(lambda s: "news" not in s["places"], "no question is seen")
+        viewer.click("close messages")
+        viewer.until(lambda s: "messages" not in s["places"], "no question is seen")
         self.ends_well(viewer, viewer.close())
 
     @unittest.skipIf(WHY_NOT, WHY_NOT)

@@ -122,8 +122,8 @@ class Camera(Case):
         self.same(pixels_of(shown), pixels_of(rendered))
         self.assertTrue(pixels_of(shown) != pixels_of(self.render("plastics", *SIZE, "--spp", 4)))
 
-        viewer.click("close news")  # the news cover half of so small a picture
-        viewer.until(lambda s: "news" not in s["places"], "closed")
+        viewer.click("close messages")  # the messages cover half of so small a picture
+        viewer.until(lambda s: "messages" not in s["places"], "closed")
         viewer.at(80, 80)
         viewer.xdotool("click", 1)
         picked = viewer.until(lambda s: s["pick"], "what is under the cursor")["pick"]

@@ -185,7 +185,7 @@ class Viewer:
 
     def drag(self, start, end, button=1, steps=8):
         """Drags once no message covers the start; in a small window, they would take the button."""
-        self.until(lambda s: not covers(s.get("places", {}).get("news"), start), "a start without messages")
+        self.until(lambda s: not covers(s.get("places", {}).get("messages"), start), "a start without messages")
         self.at(*start)
         self.xdotool("mousedown", button)
         for i in range(1, steps + 1):

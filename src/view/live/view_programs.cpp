@@ -127,15 +127,15 @@ void ViewPrograms::startAside(std::function<std::shared_ptr<ViewProgram>()> make
   });
 }
 
-bool ViewPrograms::takeNews() {
+bool ViewPrograms::takeCompiled() {
   if (compiling() && coming_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
     waitForCompiler();
-  return std::exchange(news_, false);
+  return std::exchange(compiled_, false);
 }
 
 void ViewPrograms::waitForCompiler() {
   if (!compiling()) return;
-  news_ = true;
+  compiled_ = true;
   const std::shared_ptr<ViewProgram> program = coming_.get();
   compileAll(*program, loaded_.view);
   if (program->asksForCones) program->hasCones = program->error.empty();

@@ -55,7 +55,7 @@ class ViewPrograms {
   /// drawing. Does nothing while another program compiles.
   void addCones(const std::shared_ptr<ViewProgram>& program);
   /// Returns true if a program that was compiled aside has come since the last call.
-  bool takeNews();
+  bool takeCompiled();
   bool compiling() const { return coming_.valid(); }
   /// Waits for what is compiled aside, which reads the scene: it comes before every change of the scene.
   void waitForCompiler();
@@ -81,7 +81,7 @@ class ViewPrograms {
   std::list<std::shared_ptr<ViewProgram>> programs_;  ///< the latest used first
   std::optional<CompileAside> aside_;
   std::future<std::shared_ptr<ViewProgram>> coming_;
-  bool news_ = false;
+  bool compiled_ = false;
   std::jthread compiler_;  ///< ends before what it uses
 };
 

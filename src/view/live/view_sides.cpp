@@ -53,15 +53,6 @@ size_t bytesPerPixel(const SideMemory& memory) {
   return kFilm + kShown + (memory.guides ? kFiltered : 0);
 }
 
-/// R, G and B alone.
-Image colorsOf(const Image& image) {
-  Image colors{image.width, image.height, {"R", "G", "B"}, {}, {}};
-  colors.values.reserve(size_t(image.width) * size_t(image.height) * 3);
-  for (size_t i = 0; i < image.values.size(); i += image.channelCount())
-    colors.values.insert(colors.values.end(), {image.values[i], image.values[i + 1], image.values[i + 2]});
-  return colors;
-}
-
 }  // namespace
 
 RenderOptions ViewTracer::withFilter(RenderOptions options) {
@@ -187,7 +178,7 @@ bool ViewTracer::awaitsProgram() const {
 }
 
 void ViewTracer::takeCompiled() {
-  if (!programs_ || !programs_->takeNews()) return;
+  if (!programs_ || !programs_->takeCompiled()) return;
   for (Side& side : sides_) {
     if (side.awaited) setSide(side, RenderOptions(*side.awaited));
   }
@@ -359,7 +350,8 @@ bool ViewTracer::show(Side& side, bool past, const std::function<bool()>& goOn) 
   ShownTexture& into = shownOf(side, slot);
   if (showsColors(side.options)) {
     const Image picture = shownPicture(side.options, side.film->read(), {!side.options.light.background});
-    maker_->show(side.options.output.debugView == DebugView::Visits ? colorsOf(picture) : picture, into);
+    const bool counts = side.options.output.debugView == DebugView::Visits;  // in a channel of their own
+    maker_->show(counts ? onlyChannels(picture, {"R", "G", "B"}) : picture, into);
     side.shownIn = slot;
     return true;
   }

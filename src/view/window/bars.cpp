@@ -22,7 +22,7 @@ constexpr float kGap = 18.0f;
 std::string activity(const ViewState& state, const ViewFacts& facts) {
   if (facts.load.busy) return "loading";
   if (!state.scene) return "no scene";
-  // The news have all of it.
+  // The messages have all of it.
   if (!facts.note.empty()) return facts.note.substr(0, facts.note.find_first_of(",("));
   return progressText(facts.statistics[state.shownSide()], state.options());
 }

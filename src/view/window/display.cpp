@@ -88,8 +88,8 @@ bool Display::waits() const {
   return std::ranges::any_of(sides_, [](const Side& side) { return side.waiting.slot >= 0; });
 }
 
-void Display::giveBack(size_t side, SharedTexture& texture) {
-  if (texture.slot >= 0) exchange_.giveBack(side, texture, makeFence());
+void Display::release(size_t side, SharedTexture& texture) {
+  if (texture.slot >= 0) exchange_.release(side, texture, makeFence());
   texture = {};
 }
 
@@ -119,7 +119,7 @@ bool Display::allReady() const {
       sides_, [](const Side& side) { return side.waiting.slot < 0 || isSignalled(side.waiting.ready); });
 }
 
-bool Display::hasNews() const {
+bool Display::hasNewPicture() const {
   return (waits() && allReady()) ||
          std::ranges::any_of(sides_, [](const Side& side) { return side.size.x > 0 && !side.fresh; });
 }
@@ -130,7 +130,7 @@ void Display::showWaiting() {
   for (size_t number = 0; number < kMostSides; ++number) {
     Side& side = sides_[number];
     if (side.waiting.slot < 0) continue;
-    giveBack(number, side.shared);
+    release(number, side.shared);
     side.shared = std::exchange(side.waiting, {});
     show(side, side.shared.texture, side.waitingSize, side.waitingAsItIs);
   }
@@ -138,7 +138,7 @@ void Display::showWaiting() {
 
 void Display::take(const TracedPicture& picture) {
   Side& side = sides_.at(picture.side);
-  giveBack(picture.side, side.waiting);
+  release(picture.side, side.waiting);
   if (picture.shared.slot >= 0) {
     side.waiting = picture.shared;
     side.waitingSize = picture.size;
@@ -157,13 +157,13 @@ void Display::take(const TracedPicture& picture) {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   glTextureSubImage2D(side.copied.name(), 0, 0, 0, size.x, size.y, alpha ? GL_RGBA : GL_RGB, GL_FLOAT,
                       image.values.data());
-  giveBack(picture.side, side.shared);
+  release(picture.side, side.shared);
   show(side, side.copied.name(), size, picture.asItIs);
   checkGl("uploading a picture");
 }
 
 void Display::forget(size_t side) {
-  giveBack(side, sides_.at(side).waiting);
+  release(side, sides_.at(side).waiting);
   sides_[side].size = glm::ivec2(0);
   sides_[side].traced = 0;
 }

@@ -59,7 +59,7 @@ class Display {
   /// Returns true if the tracing thread still draws a picture that was taken.
   bool waits() const;
   /// Returns true if the next draw() shows another picture than the one before.
-  bool hasNews() const;
+  bool hasNewPicture() const;
   /// Keeps these values of a side's picture, and says when to be asked again, as ValueReader does.
   double keepValues(size_t side, PictureValues& values, const PixelArea& area, double now);
   /// Pixels of the picture that is shown.
@@ -93,7 +93,7 @@ class Display {
   bool allReady() const;
   void showWaiting();
   static void show(Side& side, GLuint traced, glm::ivec2 size, bool asItIs);
-  void giveBack(size_t side, SharedTexture& texture);
+  void release(size_t side, SharedTexture& texture);
   void map(Side& side, const DisplaySettings& settings);
   /// Two pictures, or the same, at a place of the window from its bottom left.
   void drawCell(const ViewState& state, size_t left, size_t right, glm::ivec2 corner, glm::ivec2 size);

@@ -271,26 +271,27 @@ void FileDialog::ask(FileQuestion question, const std::string& window, double no
   });
 }
 
-FileDialog::News FileDialog::take(double now) {
-  News news;
+FileDialog::Answer FileDialog::take(double now) {
+  Answer answer;
   if (desktop_.busy() && now > asked_ + kPatienceSeconds) {
     asked_ = std::numeric_limits<double>::infinity();
-    news.message = "waiting for the desktop's dialog; press the key again for another one";
+    answer.message = "waiting for the desktop's dialog; press the key again for another one";
   }
-  const std::optional<PortalAnswer> answer = desktop_.take();
-  if (!answer) return news;
-  if (!answer->there) {
-    news.message = "the desktop shows no dialog for files" + (answer->why.empty() ? "" : ": " + answer->why);
-    news.message += question_.save
-                        ? "; the file gets a free name"
-                        : "; drop a file here, start with its name, or install xdg-desktop-portal-gtk";
-    if (question_.save) news.file = question_.folder / question_.name;
-  } else if (!answer->uri.empty()) {
-    const std::optional<std::filesystem::path> file = fileOfUri(answer->uri);
-    if (!file) news.message = answer->uri + " is not a file of this computer";
-    news.file = file.value_or(std::filesystem::path());
+  const std::optional<PortalAnswer> portal = desktop_.take();
+  if (!portal) return answer;
+  if (!portal->there) {
+    answer.message =
+        "the desktop shows no dialog for files" + (portal->why.empty() ? "" : ": " + portal->why);
+    answer.message += question_.save
+                          ? "; the file gets a free name"
+                          : "; drop a file here, start with its name, or install xdg-desktop-portal-gtk";
+    if (question_.save) answer.file = question_.folder / question_.name;
+  } else if (!portal->uri.empty()) {
+    const std::optional<std::filesystem::path> file = fileOfUri(portal->uri);
+    if (!file) answer.message = portal->uri + " is not a file of this computer";
+    answer.file = file.value_or(std::filesystem::path());
   }
-  return news;
+  return answer;
 }
 
 }  // namespace fragtrace

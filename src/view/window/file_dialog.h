@@ -29,13 +29,13 @@ class FileDialog {
   /// The latest question.
   const FileQuestion& question() const { return question_; }
 
-  struct News {
+  struct Answer {
     std::filesystem::path file;  ///< the chosen file; empty: none
     std::string message;         ///< text for the user; empty: none
   };
-  /// Returns the dialog's news since the last call. Without a dialog, a file is saved under the question's
+  /// Returns the dialog's answer since the last call. Without a dialog, a file is saved under the question's
   /// name.
-  News take(double now);
+  Answer take(double now);
 
  private:
   FileQuestion question_;

@@ -169,14 +169,14 @@ bool closeButton(Places& places, const std::string& name) {
   return pressed;
 }
 
-struct NewsLine {
+struct MessageLine {
   std::string text;
   float opacity = 1.0f;
 };
 
-/// The latest news, the newest above.
-std::vector<NewsLine> newsLines(const ViewState& state, const ViewFacts& facts, double now) {
-  std::vector<NewsLine> lines;
+/// The latest messages, the newest above.
+std::vector<MessageLine> messageLines(const ViewState& state, const ViewFacts& facts, double now) {
+  std::vector<MessageLine> lines;
   if (!facts.note.empty()) lines.push_back({facts.note});
   for (size_t i = facts.messages.size(); i-- > 0;) {
     const float opacity = float(opacityOf(facts.messages[i], now));
@@ -186,47 +186,48 @@ std::vector<NewsLine> newsLines(const ViewState& state, const ViewFacts& facts, 
   if (facts.pick) {
     for (const std::string& line : pickLines(state, *facts.pick)) lines.push_back({line});
   }
-  for (NewsLine& line : lines) line.text = shownText(line.text, kMostLineCharacters);
+  for (MessageLine& line : lines) line.text = shownText(line.text, kMostLineCharacters);
   return lines;
 }
 
 /// The box of these lines, which begin at `left` and are wrapped at `right`. Dear ImGui would fit a box only
 /// in the next frame, for which a driver that compiles may let us wait.
-ImVec2 newsSize(const std::vector<NewsLine>& lines, float left, float right) {
+ImVec2 messagesSize(const std::vector<MessageLine>& lines, float left, float right) {
   const ImGuiStyle& style = ImGui::GetStyle();
   ImVec2 size(0.0f, -style.ItemSpacing.y);
-  for (const NewsLine& line : lines) {
+  for (const MessageLine& line : lines) {
     const ImVec2 text = ImGui::CalcTextSize(line.text.c_str(), nullptr, false, std::max(right - left, 1.0f));
     size = {std::max(size.x, text.x), size.y + text.y + style.ItemSpacing.y};
   }
   return {left + size.x + style.WindowPadding.x, size.y + 2 * style.WindowPadding.y};
 }
 
-/// The latest news at the bottom left.
-void drawNews(const ViewState& state, ViewFacts& facts, const WindowLayout& layout, double now) {
-  const std::vector<NewsLine> lines = newsLines(state, facts, now);
+/// The latest messages at the bottom left.
+void drawMessages(const ViewState& state, ViewFacts& facts, const WindowLayout& layout, double now) {
+  const std::vector<MessageLine> lines = messageLines(state, facts, now);
   if (lines.empty()) return;
   const bool closes = facts.pick || !std::isinf(secondsToFade(facts.messages, now));
   const ImGuiStyle& style = ImGui::GetStyle();
   const float button = ImGui::CalcTextSize("x").x + 2 * style.FramePadding.x + style.ItemSpacing.x;
-  const float right = layout.newsMost.x - style.WindowPadding.x - style.ScrollbarSize;
-  const ImVec2 size = newsSize(lines, style.WindowPadding.x + (closes ? button : 0.0f), right);
+  const float right = layout.messagesMost.x - style.WindowPadding.x - style.ScrollbarSize;
+  const ImVec2 size = messagesSize(lines, style.WindowPadding.x + (closes ? button : 0.0f), right);
   ImGui::SetNextWindowPos({layout.margin, float(layout.picture.y) - layout.margin}, ImGuiCond_Always,
                           {0.0f, 1.0f});
-  ImGui::SetNextWindowSize({std::min(size.x, layout.newsMost.x), std::min(size.y, layout.newsMost.y)});
+  ImGui::SetNextWindowSize(
+      {std::min(size.x, layout.messagesMost.x), std::min(size.y, layout.messagesMost.y)});
   ImGui::SetNextWindowBgAlpha(0.78f);
-  if (ImGui::Begin("news", nullptr, kPageFlags)) {
-    const bool close = closes && closeButton(facts.places, "news");
+  if (ImGui::Begin("messages", nullptr, kPageFlags)) {
+    const bool close = closes && closeButton(facts.places, "messages");
     ImGui::BeginGroup();
     ImGui::PushTextWrapPos(right);
-    for (const NewsLine& line : lines) {
+    for (const MessageLine& line : lines) {
       ImGui::PushStyleVar(ImGuiStyleVar_Alpha, line.opacity);
       ImGui::TextUnformatted(line.text.c_str());
       ImGui::PopStyleVar();
     }
     ImGui::PopTextWrapPos();
     ImGui::EndGroup();
-    addWindowPlace(facts.places, "news");
+    addWindowPlace(facts.places, "messages");
     if (close) {
       closeMessages(facts.messages);
       if (facts.pick) facts.commands.push_back({Command::Deselect});
@@ -445,7 +446,7 @@ void drawOverlay(ViewState& state, ViewFacts& facts, const WindowLayout& layout,
   if (state.overview) drawStageNames(state, facts, layout);
   if (!state.compares() && !state.overview) drawViewName(state, facts, layout);
   if (state.figures && state.scene && !state.overview) drawFigures(state, facts, layout);
-  drawNews(state, facts, layout, now);
+  drawMessages(state, facts, layout, now);
   if (!state.scene && !facts.load.busy) drawWelcome(facts, layout);
   if (!facts.error.empty() && !facts.errorClosed) drawError(facts, layout);
   drawStatusBar(state, facts, layout);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Text over the picture: figures, what was clicked on, news, errors, progress, the sheet of keys.
+// Text over the picture: figures, what was clicked on, messages, errors, progress, the sheet of keys.
 #pragma once
 
 #include <array>

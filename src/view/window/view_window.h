@@ -19,7 +19,7 @@
 
 namespace fragtrace {
 
-inline constexpr int kSettleFrames = 3;  ///< Dear ImGui comes to rest this many frames after an event
+inline constexpr int kFramesAfterEvent = 3;  ///< Dear ImGui comes to rest this many frames after an event
 
 class Window {
  public:
@@ -54,7 +54,7 @@ class Window {
   void readValues();
   void draw();
   void writeStatus();
-  void say(const std::string& message);
+  void notify(const std::string& message);
   bool iconified() const;
 
   // window_tasks.cpp

@@ -85,7 +85,7 @@ Window::Window(const WindowStart& start, Exchange& exchange)
       input_(window_.get()),
       interface_(window_.get()),
       display_(exchange),
-      frames_(kSettleFrames) {
+      frames_(kFramesAfterEvent) {
   wanted_ = start.options;
   state_.edit = editOf(start.options);
   state_.edit.treeBoxes = start.options.output.treeLevel.has_value();
@@ -95,14 +95,14 @@ Window::Window(const WindowStart& start, Exchange& exchange)
   try {
     facts_.remembered = readRemembered(rememberedFile());
   } catch (const std::exception& error) {
-    say(std::string("what the viewer remembers cannot be read: ") + error.what());
+    notify(std::string("what the viewer remembers cannot be read: ") + error.what());
   }
   if (start.options.device.backend == Backend::Auto) {
     try {
       sharing_ = openSharing(window_.get());
       compiling_ = openSharing(window_.get());
     } catch (const std::exception& error) {
-      say(std::string("pictures are copied, as drivers share none: ") + error.what());
+      notify(std::string("pictures are copied, as drivers share none: ") + error.what());
     }
   }
   open();
@@ -148,7 +148,7 @@ void Window::run() {
 bool Window::iconified() const { return glfwGetWindowAttrib(window_.get(), GLFW_ICONIFIED) != 0; }
 
 void Window::wait() {
-  if (Interface::waiting()) frames_ = std::max(frames_, kSettleFrames);
+  if (Interface::waiting()) frames_ = std::max(frames_, kFramesAfterEvent);
   double seconds = kLongestSleep;
   const double now = glfwGetTime();
   const auto atMost = [&](double limit) { seconds = std::clamp(limit, 0.0, seconds); };
@@ -165,12 +165,12 @@ void Window::wait() {
   else
     glfwPollEvents();
   if (input_.waiting() || Interface::waiting() || input_.active() || askedMoving_)
-    frames_ = std::max(frames_, kSettleFrames);
+    frames_ = std::max(frames_, kFramesAfterEvent);
 }
 
-void Window::say(const std::string& message) {
+void Window::notify(const std::string& message) {
   addMessage(facts_.messages, message, glfwGetTime());
-  frames_ = std::max(frames_, kSettleFrames);
+  frames_ = std::max(frames_, kFramesAfterEvent);
 }
 
 void Window::take() {
@@ -178,12 +178,12 @@ void Window::take() {
   throwFailure(results);
   for (Result& result : results.queue) std::visit([this](auto& one) { take(std::move(one)); }, result);
   takePictures(std::move(results.pictures));
-  if (const std::string errors = takeGlfwErrors(); !errors.empty()) say("window: " + errors);
+  if (const std::string errors = takeGlfwErrors(); !errors.empty()) notify("window: " + errors);
   takeStatus(results.status);
   takeFile();
 }
 
-void Window::take(const std::string& message) { say(withControls(message)); }
+void Window::take(const std::string& message) { notify(withControls(message)); }
 
 void Window::take(const PosedScene& posed) {
   if (!state_.scene) return;
@@ -236,7 +236,7 @@ void Window::take(ViewedScene scene) {
   facts_.pick.reset();
   state_.selected = {};
   state_.selectedNode.reset();
-  frames_ = kSettleFrames;
+  frames_ = kFramesAfterEvent;
 }
 
 void Window::takeStatus(const TraceStatus& status) {
@@ -268,7 +268,7 @@ void Window::forgetBrokenEnvironment() {
   const std::string file = wanted_.light.hdriFile.string();
   if (file.empty() || facts_.error.find(file) == std::string::npos) return;
   wanted_.light.hdriFile.clear();
-  say(std::filesystem::path(file).filename().string() + " is left out from now on");
+  notify(std::filesystem::path(file).filename().string() + " is left out from now on");
 }
 
 void Window::ask() {
@@ -331,7 +331,7 @@ void Window::draw() {
   for (const Invocation& invocation : std::exchange(facts_.commands, {})) execute(invocation);
   askForThumbnails();
   // Software would draw the same picture again, with the processors that trace the next one.
-  skipped_ = askedMoving_ && !display_.hasNews() && now - drawn_ < kSameSeconds;
+  skipped_ = askedMoving_ && !display_.hasNewPicture() && now - drawn_ < kSameSeconds;
   if (skipped_) return Interface::discard();
   drawn_ = now;
   ++report_.frames;
@@ -344,7 +344,7 @@ void Window::draw() {
   glfwSwapBuffers(window_.get());
   for (const std::string& message : driverLog_.take()) {
     report_.glErrors.push_back(message);
-    say("driver: " + message);
+    notify("driver: " + message);
   }
   --frames_;
 }

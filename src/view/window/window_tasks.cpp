@@ -48,10 +48,10 @@ void Window::execute(const Invocation& invocation) {
     case Command::PasteCommand:
       return pasteCommand();
     case Command::Undo:
-      if (!undo(history_, state_)) return say("there is nothing to undo");
+      if (!undo(history_, state_)) return notify("there is nothing to undo");
       return loadStep();
     case Command::Redo:
-      if (!redo(history_, state_)) return say("there is nothing to redo");
+      if (!redo(history_, state_)) return notify("there is nothing to redo");
       return loadStep();
     case Command::ResetAll:
       if (const RenderOptions wanted = resetAll(state_, start_.options);
@@ -114,7 +114,7 @@ void Window::close() {
   // The press that has come here counts, too.
   if (input_.presses() != std::exchange(quitAskedAt_, input_.presses()) + 1 ||
       !isSeen(facts_.messages, kQuitQuestion, glfwGetTime()))
-    return say(kQuitQuestion);
+    return notify(kQuitQuestion);
   glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
 }
 
@@ -135,7 +135,7 @@ void Window::pick(const Invocation& invocation) {
   if (invocation.command == Command::Measure && facts_.pick && facts_.pick->hit) use = PickUse::Measure;
   if (invocation.command == Command::Level) {
     if (!facts_.pick || !facts_.pick->end)
-      return say("click on a point and Shift+click on another one first");
+      return notify("click on a point and Shift+click on another one first");
     use = PickUse::Level;
   }
   if (use == PickUse::Select) ++picksAsked_;
@@ -147,13 +147,13 @@ void Window::pick(const Invocation& invocation) {
 
 /// Turns the file, so that the plane through the point and the two that were measured between is level.
 void Window::level(const PickAnswer& answer) {
-  if (!answer.hit) return say("nothing is there");
+  if (!answer.hit) return notify("nothing is there");
   if (!facts_.pick || !facts_.pick->end) return;
   RenderOptions options = renderOptionsOf(state_, state_.edit.active);
   const std::optional<glm::dvec3> up =
       levelUp({facts_.pick->point, *facts_.pick->end, answer.point}, options.selection.up);
   if (!up)
-    return say("the three points lie on a line: none of the planes through them is the one that is meant");
+    return notify("the three points lie on a line: none of the planes through them is the one that is meant");
   // The camera goes with what it looks at, and stands upright.
   CameraPose pose = state_.edit.pose;
   pose.focalPoint = turnToY(*up) * (pose.focalPoint * turnToY(options.selection.up));
@@ -166,7 +166,7 @@ void Window::level(const PickAnswer& answer) {
   options.selection.up = *up;
   load(options);
   pasted_ = options;
-  say("the model is turned as --up " + rowOf("--up").words(options).front() + " turns it");
+  notify("the model is turned as --up " + rowOf("--up").words(options).front() + " turns it");
 }
 
 /// Loads a scene for pictures of the size that is shown.
@@ -213,7 +213,7 @@ bool Window::mayDiscard(const std::string& action) {
   const std::vector<SetNumber>& set = state_.edit.shared.selection.set;
   const bool isSaved = set.empty() || set == saved_ || set == start_.options.selection.set;
   if (isSaved || isSeen(facts_.messages, question, glfwGetTime())) return true;
-  say(question);
+  notify(question);
   return false;
 }
 
@@ -232,7 +232,7 @@ void Window::toggleFullscreen() {
   } else {
     GLFWmonitor* monitor = glfwGetPrimaryMonitor();
     const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
-    if (!mode) return say("there is no screen to fill");
+    if (!mode) return notify("there is no screen to fill");
     glfwGetWindowPos(window, &windowed_.x, &windowed_.y);
     glfwGetWindowSize(window, &windowed_.z, &windowed_.w);
     glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
@@ -261,14 +261,14 @@ void Window::copyCommand() {
       !o.output.aovs.empty() || !o.output.lightGroups.empty() || o.output.aovSamples || o.output.aovVariance;
   o.output.file = freePictureName(o.scene, layers ? ".exr" : ".png");
   glfwSetClipboardString(window_.get(), commandText(o).c_str());
-  say("copied the command that renders this picture");
+  notify("copied the command that renders this picture");
 }
 
 void Window::pasteCommand() {
   const char* text = glfwGetClipboardString(window_.get());
   // A clipboard without text is no failure of the window.
   if (!text) takeGlfwErrors();
-  if (takeText(text ? text : "", "cannot paste: ")) say("pasted");
+  if (takeText(text ? text : "", "cannot paste: ")) notify("pasted");
 }
 
 /// Takes a command or options of a camera. False if that fails, after a message.
@@ -284,7 +284,7 @@ bool Window::takeText(const std::string& text, const std::string& otherwise) {
     }
     return true;
   } catch (const std::exception& error) {
-    say(otherwise + error.what());
+    notify(otherwise + error.what());
     return false;
   }
 }
@@ -297,7 +297,7 @@ void Window::takePictures(std::vector<TracedPicture> pictures) {
       takeReference(picture);
     } else if (side == 1 && !state_.reference.empty()) {
       // This picture was on its way when the reference took its place.
-      if (picture.shared.slot >= 0) exchange_.giveBack(side, picture.shared, nullptr);
+      if (picture.shared.slot >= 0) exchange_.release(side, picture.shared, nullptr);
       continue;
     }
     display_.take(picture);
@@ -356,9 +356,9 @@ void Window::takeReference(const TracedPicture& picture) {
   ignoreChange(history_, state_);
 }
 
-/// Escape may have taken the request back. News say for a while that nothing is there.
+/// Escape may have taken the request back. Messages say for a while that nothing is there.
 void Window::take(PickAnswer answer) {
-  frames_ = kSettleFrames;
+  frames_ = kFramesAfterEvent;
   const bool awaited = answer.request.number > picksAnswered_;
   picksAnswered_ = std::max(picksAnswered_, answer.request.number);
   if (answer.request.use == PickUse::Level) return level(answer);
@@ -369,7 +369,7 @@ void Window::take(PickAnswer answer) {
     return;
   }
   if (answer.request.use == PickUse::Measure) {
-    if (!answer.hit) return say("nothing is there");
+    if (!answer.hit) return notify("nothing is there");
     if (facts_.pick) facts_.pick->end = answer.point;
     return;
   }
@@ -380,7 +380,7 @@ void Window::take(PickAnswer answer) {
   if (answer.node) {
     facts_.pick = std::move(answer);
   } else {
-    for (const std::string& line : answer.lines) say(line);
+    for (const std::string& line : answer.lines) notify(line);
   }
 }
 
@@ -391,8 +391,8 @@ void Window::compareSizes() {
   newReference_ = false;
   if (size == state_.size) return;
   const auto text = [](glm::ivec2 s) { return std::to_string(s.x) + " x " + std::to_string(s.y); };
-  say(state_.reference.filename().string() + " has " + text(size) + " pixels, the picture " +
-      text(state_.size) + ": it is scaled to compare");
+  notify(state_.reference.filename().string() + " has " + text(size) + " pixels, the picture " +
+         text(state_.size) + ": it is scaled to compare");
 }
 
 // Files that the window opens and writes: dropped, chosen in a dialog, shown before.
@@ -412,14 +412,14 @@ void Window::openFiles(const std::vector<std::filesystem::path>& files, bool isA
   }
   if (toLoad.empty()) return;
   const Drop drop = takeDrop(wanted_, toLoad, start_.options.selection.up);
-  for (const std::string& sentence : drop.refused) say(sentence);
+  for (const std::string& sentence : drop.refused) notify(sentence);
   if (!drop.load) return;
   const bool hasScene =
       std::ranges::any_of(toLoad, [](const auto& file) { return kindOfDropped(file) == DroppedFile::Scene; });
   if (hasScene && !isAsked && !mayDiscard("open")) return;
   if (hasScene || state_.scene || facts_.load.busy) return load(*drop.load);
   wanted_ = *drop.load;
-  say(wanted_.light.hdriFile.filename().string() + " will light the model that is dropped next");
+  notify(wanted_.light.hdriFile.filename().string() + " will light the model that is dropped next");
 }
 
 void Window::save(const std::filesystem::path& name) {
@@ -428,7 +428,7 @@ void Window::save(const std::filesystem::path& name) {
   const bool seen = isDisplayFormat(name);
   const bool both = state_.compares() && seen;
   const char* side = !state_.compares() || both ? "" : state_.edit.active == 0 ? " of side A" : " of side B";
-  if (!facts_.resting) say("writing " + name.string() + side + " as soon as all of the picture is drawn");
+  if (!facts_.resting) notify("writing " + name.string() + side + " as soon as all of the picture is drawn");
   SaveRequest request;
   request.path = name;
   request.side = state_.shownSide();
@@ -448,7 +448,7 @@ void Window::askForFile(const Invocation& invocation) {
   const std::filesystem::path here = std::filesystem::current_path(error);
   FileQuestion question;
   if (invocation.command == Command::SaveModel) {
-    if (o.selection.set.empty()) return say("no number of a material or a light has been set");
+    if (o.selection.set.empty()) return notify("no number of a material or a light has been set");
     const std::filesystem::path scene = here / o.scene;
     question =
         saveModelQuestion(freePictureName(scene.parent_path(), scene, scene.extension().string().c_str()),
@@ -469,18 +469,18 @@ void Window::askForFile(const Invocation& invocation) {
 }
 
 void Window::takeFile() {
-  const FileDialog::News news = dialog_.take(glfwGetTime());
+  const FileDialog::Answer answer = dialog_.take(glfwGetTime());
   facts_.dialog = dialog_.open();
-  if (!news.message.empty()) say(news.message);
-  if (news.file.empty()) return;
-  frames_ = std::max(frames_, kSettleFrames);
-  if (asked_ == Command::Open) return openFiles({news.file}, true);
+  if (!answer.message.empty()) notify(answer.message);
+  if (answer.file.empty()) return;
+  frames_ = std::max(frames_, kFramesAfterEvent);
+  if (asked_ == Command::Open) return openFiles({answer.file}, true);
   if (!state_.scene) return;
-  std::filesystem::path file = news.file;
+  std::filesystem::path file = answer.file;
   const FileFilter& filter = dialog_.question().filters.front();
   if (file.extension().empty()) file += filter.extensions.front();
   if (!passes(filter, file))
-    return say("not written: " + file.extension().string() + " is not among " + filter.name);
+    return notify("not written: " + file.extension().string() + " is not among " + filter.name);
   ask();
   if (asked_ == Command::SaveModel) {
     std::error_code none;
@@ -499,7 +499,7 @@ void Window::remember(const std::function<void(Remembered&)>& change) {
     change(facts_.remembered);
     writeRemembered(file, facts_.remembered);
   } catch (const std::exception& error) {
-    say(std::string("not remembered: ") + error.what());
+    notify(std::string("not remembered: ") + error.what());
   }
 }
 
