@@ -31,23 +31,21 @@ Json sideJson(const RenderOptions& options, const ViewFacts& facts, size_t side)
   for (const StageRow& row : stageRows()) {
     if (has(options.stages, row.stage)) stages.push_back(row.name);
   }
-  Json json;
-  json["samples"] = s.samples;
-  json["error"] = s.error;
-  json["seconds"] = s.seconds;
-  json["frame_ms"] = s.frameMs;
-  json["frame_p95_ms"] = s.frameP95Ms;
-  json["mrays_per_s"] = s.megaRaysPerSecond;
-  json["mpaths_per_s"] = s.megaPathsPerSecond;
-  json["resting"] = s.resting;
-  json["filtered"] = s.filtered;
-  json["filter_ms"] = s.filterMs;
-  json["copied"] = s.copied;
-  json["variant"] = s.variant;
-  json["width"] = facts.pictureSize[side].x;
-  json["height"] = facts.pictureSize[side].y;
-  json["stages"] = stages;
-  return json;
+  return {{"samples", s.samples},
+          {"error", s.error},
+          {"seconds", s.seconds},
+          {"frame_ms", s.frameMs},
+          {"frame_p95_ms", s.frameP95Ms},
+          {"mrays_per_s", s.megaRaysPerSecond},
+          {"mpaths_per_s", s.megaPathsPerSecond},
+          {"resting", s.resting},
+          {"filtered", s.filtered},
+          {"filter_ms", s.filterMs},
+          {"copied", s.copied},
+          {"variant", s.variant},
+          {"width", facts.pictureSize[side].x},
+          {"height", facts.pictureSize[side].y},
+          {"stages", stages}};
 }
 
 const char* stateName(const ViewState& state, const ViewFacts& facts, const WindowReport& report) {
