@@ -223,6 +223,8 @@ void takeScene(RenderOptions& side, const RenderOptions& from) {
   side.light.backgroundBlur = from.light.backgroundBlur;
   side.light.defaultLight = from.light.defaultLight;
   side.light.lampUnits = from.light.lampUnits;
+  side.device.instancing = from.device.instancing;
+  side.limits = from.limits;
 }
 
 void showScene(ViewState& state, ViewedScene scene) {
@@ -280,12 +282,9 @@ void takeOptions(ViewState& state, const RenderOptions& options) {
 }
 
 bool sameScene(const RenderOptions& a, const RenderOptions& b) {
-  return a.scene == b.scene && a.selection == b.selection && a.light.hdriFile == b.light.hdriFile &&
-         a.light.studio == b.light.studio && a.light.studioLook == b.light.studioLook &&
-         a.light.ground == b.light.ground && a.light.sky.on == b.light.sky.on &&
-         a.light.backgroundBlur == b.light.backgroundBlur && a.light.defaultLight == b.light.defaultLight &&
-         a.light.lampUnits == b.light.lampUnits && a.device.instancing == b.device.instancing &&
-         a.limits == b.limits;
+  RenderOptions same = b;
+  takeScene(same, a);
+  return same == b;
 }
 
 bool sameNodes(const RenderOptions& a, const RenderOptions& b) {

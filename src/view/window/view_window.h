@@ -50,7 +50,7 @@ class Window {
   std::vector<ChangedNumber> numbersSavedIn(const ViewedScene& scene) const;
   void takeStatus(const TraceStatus& status);
   void forgetBrokenEnvironment();
-  void ask();
+  void request();
   void readValues();
   void draw();
   void writeStatus();
@@ -63,7 +63,7 @@ class Window {
   void pick(const Invocation& invocation);
   void level(const PickAnswer& answer);
   void compareSizes();
-  void askForThumbnails();
+  void requestThumbnails();
   void execute(const Invocation& invocation);
   void close();
   void deselect();
@@ -99,11 +99,11 @@ class Window {
   Interface interface_;
   Display display_;
   FileDialog dialog_;
-  Command asked_ = Command::Open;      ///< why it asks: Open, SaveAs, SaveModel
+  Command dialogFor_ = Command::Open;  ///< why it asks: Open, SaveAs, SaveModel
   std::filesystem::path savedFolder_;  ///< folder of the latest picture written; empty: none was
   std::vector<SetNumber> saved_;       ///< numbers that the latest model was written with
   std::map<std::filesystem::path, GlTexture> thumbnails_;
-  std::set<std::filesystem::path> askedThumbnails_;
+  std::set<std::filesystem::path> requestedThumbnails_;
   ViewState state_;
   ViewFacts facts_;
   History history_;
@@ -123,11 +123,11 @@ class Window {
   double changed_ = -1.0;  ///< time of the latest change of the traced picture
   double again_ = 1e30;    ///< time to look again for a picture or its values
   double fades_ = 1e30;    ///< time to draw a message paler
-  std::vector<RenderOptions> askedSides_;
-  glm::ivec2 askedSize_{0};
+  std::vector<RenderOptions> requestedSides_;
+  glm::ivec2 requestedSize_{0};
   bool savesShown_ = false;  ///< a model is written over the file that is shown
-  bool askedMoving_ = false;
-  uint64_t picksAsked_ = 0;
+  bool requestedMoving_ = false;
+  uint64_t picksRequested_ = 0;
   uint64_t picksAnswered_ = 0;   ///< picks that are answered or taken back
   int quitAskedAt_ = -2;         ///< Input::presses() when Escape last asked
   std::deque<double> arrivals_;  ///< times of the first side's pictures in the last second

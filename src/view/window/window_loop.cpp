@@ -135,7 +135,7 @@ void Window::run() {
     play(state_, glfwGetTime());
     const bool held = input_.active() || Interface::holding();
     if (!held && !state_.playback.playing && state_.scene) record(history_, state_);
-    ask();
+    request();
     writeStatus();
     const double ms = 1000.0 * (glfwGetTime() - begin);
     keepTime(report_.times.loopMs, ms);
@@ -153,7 +153,7 @@ void Window::wait() {
   const double now = glfwGetTime();
   const auto atMost = [&](double limit) { seconds = std::clamp(limit, 0.0, seconds); };
   if (input_.active() || state_.playback.playing) atMost(kFrameSeconds);
-  if (askedMoving_) atMost(changed_ + kMovingSeconds - now);
+  if (requestedMoving_) atMost(changed_ + kMovingSeconds - now);
   if (now >= again_) frames_ = std::max(frames_, 1);
   if (!skipped_) atMost(again_ - now);
   if (now >= fades_) frames_ = std::max(frames_, 2);  // the box of messages fits them one frame later
@@ -164,7 +164,7 @@ void Window::wait() {
     glfwWaitEventsTimeout(seconds);
   else
     glfwPollEvents();
-  if (input_.waiting() || Interface::waiting() || input_.active() || askedMoving_)
+  if (input_.waiting() || Interface::waiting() || input_.active() || requestedMoving_)
     frames_ = std::max(frames_, kFramesAfterEvent);
 }
 
@@ -231,8 +231,8 @@ void Window::take(ViewedScene scene) {
   if (another) {
     remember([&](Remembered& r) { addRecent(r, wanted_.scene); });
   }
-  askedSides_.clear();
-  picksAnswered_ = picksAsked_;
+  requestedSides_.clear();
+  picksAnswered_ = picksRequested_;
   facts_.pick.reset();
   state_.selected = {};
   state_.selectedNode.reset();
@@ -271,28 +271,28 @@ void Window::forgetBrokenEnvironment() {
   notify(std::filesystem::path(file).filename().string() + " is left out from now on");
 }
 
-void Window::ask() {
+void Window::request() {
   if (!state_.scene || state_.size.x <= 0 || state_.size.y <= 0) return;
   std::vector<RenderOptions> sides = tracedSides(state_);
-  bool turned = askedSides_.empty() || state_.size != askedSize_;
-  for (size_t i = 0; !turned && i < std::min(sides.size(), askedSides_.size()); ++i)
-    turned = !drawsTheSame(sides[i], askedSides_[i]);
-  const bool other = turned || sides.size() != askedSides_.size();
+  bool turned = requestedSides_.empty() || state_.size != requestedSize_;
+  for (size_t i = 0; !turned && i < std::min(sides.size(), requestedSides_.size()); ++i)
+    turned = !drawsTheSame(sides[i], requestedSides_[i]);
+  const bool other = turned || sides.size() != requestedSides_.size();
   // A side that comes back showed another view long ago.
-  if (!askedSides_.empty()) {
-    for (size_t i = askedSides_.size(); i < sides.size(); ++i) display_.forget(i);
+  if (!requestedSides_.empty()) {
+    for (size_t i = requestedSides_.size(); i < sides.size(); ++i) display_.forget(i);
   }
-  const bool more = !other && sides != askedSides_;
+  const bool more = !other && sides != requestedSides_;
   const double now = glfwGetTime();
   // A side that comes or goes moves nothing: the others keep their samples.
   if (turned) changed_ = now;
   const bool moving = changed_ >= 0.0 && now - changed_ < kMovingSeconds;
-  if (!other && !more && moving == askedMoving_) return;
+  if (!other && !more && moving == requestedMoving_) return;
   exchange_.request(&Requests::trace, {++report_.asked, sides, state_.size, moving});
   if (other) unanswered_.emplace_back(report_.asked, now);
-  askedSides_ = std::move(sides);
-  askedSize_ = state_.size;
-  askedMoving_ = moving;
+  requestedSides_ = std::move(sides);
+  requestedSize_ = state_.size;
+  requestedMoving_ = moving;
   // A movement that goes on is drawn again and again.
   if (moving) frames_ = std::max(frames_, 1);
 }
@@ -329,9 +329,9 @@ void Window::draw() {
   fades_ = now + secondsToFade(facts_.messages, now);
   if (panel) drawPanel(state_, facts_, layout);
   for (const Invocation& invocation : std::exchange(facts_.commands, {})) execute(invocation);
-  askForThumbnails();
+  requestThumbnails();
   // Software would draw the same picture again, with the processors that trace the next one.
-  skipped_ = askedMoving_ && !display_.hasNewPicture() && now - drawn_ < kSameSeconds;
+  skipped_ = requestedMoving_ && !display_.hasNewPicture() && now - drawn_ < kSameSeconds;
   if (skipped_) return Interface::discard();
   drawn_ = now;
   ++report_.frames;

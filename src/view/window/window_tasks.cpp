@@ -31,7 +31,7 @@ constexpr const char* kQuitQuestion = "press Escape again to quit";
 void Window::execute(const Invocation& invocation) {
   if (apply(state_, invocation) || (!state_.scene && needsScene(invocation.command))) return;
   // Files and picks are of the present view, which may have changed in this turn of the loop.
-  ask();
+  request();
   switch (invocation.command) {
     case Command::CenterOn:
     case Command::Inspect:
@@ -40,7 +40,7 @@ void Window::execute(const Invocation& invocation) {
       return pick(invocation);
     case Command::SelectNode:
       return exchange_.request(&Requests::pick,
-                               {.node = uint32_t(invocation.argument), .number = ++picksAsked_});
+                               {.node = uint32_t(invocation.argument), .number = ++picksRequested_});
     case Command::Deselect:
       return deselect();
     case Command::CopyCommand:
@@ -109,7 +109,7 @@ void Window::close() {
     return;
   }
   if (facts_.load.busy) return cancelLoad();
-  if (state_.scene && (facts_.pick || picksAnswered_ < picksAsked_)) return deselect();
+  if (state_.scene && (facts_.pick || picksAnswered_ < picksRequested_)) return deselect();
   if (state_.fullscreen) return toggleFullscreen();
   // The press that has come here counts, too.
   if (input_.presses() != std::exchange(quitAskedAt_, input_.presses()) + 1 ||
@@ -119,7 +119,7 @@ void Window::close() {
 }
 
 void Window::deselect() {
-  picksAnswered_ = picksAsked_;
+  picksAnswered_ = picksRequested_;
   facts_.pick.reset();
   state_.selected = {};
   state_.selectedNode.reset();
@@ -138,11 +138,11 @@ void Window::pick(const Invocation& invocation) {
       return notify("click on a point and Shift+click on another one first");
     use = PickUse::Level;
   }
-  if (use == PickUse::Select) ++picksAsked_;
+  if (use == PickUse::Select) ++picksRequested_;
   exchange_.request(&Requests::pick, {.side = sideAt(state_, invocation.place),
                                       .place = magnifiedPlace(state_, invocation.place),
                                       .use = use,
-                                      .number = picksAsked_});
+                                      .number = picksRequested_});
 }
 
 /// Turns the file, so that the plane through the point and the two that were measured between is level.
@@ -314,7 +314,7 @@ void Window::takePictures(std::vector<TracedPicture> pictures) {
     frames_ = std::max(frames_, 1);
   }
   while (!arrivals_.empty() && arrivals_.front() < now - 1.0) arrivals_.pop_front();
-  const bool moves = askedMoving_ && arrivals_.size() > 1;
+  const bool moves = requestedMoving_ && arrivals_.size() > 1;
   facts_.picturesPerSecond =
       moves ? double(arrivals_.size() - 1) / (arrivals_.back() - arrivals_.front()) : 0.0;
   compareSizes();
@@ -336,12 +336,12 @@ void Window::take(const EnvironmentThumbnail& thumbnail) {
 }
 
 /// Asks once for each environment of the list.
-void Window::askForThumbnails() {
+void Window::requestThumbnails() {
   if (!std::exchange(facts_.wantsThumbnails, false) || !state_.scene) return;
   std::vector<std::filesystem::path> wanted = state_.scene->environments;
   wanted.emplace_back();
   if (!state_.scene->options.light.hdriFile.empty()) wanted.push_back(state_.scene->options.light.hdriFile);
-  std::erase_if(wanted, [&](const auto& file) { return !askedThumbnails_.insert(file).second; });
+  std::erase_if(wanted, [&](const auto& file) { return !requestedThumbnails_.insert(file).second; });
   if (!wanted.empty()) exchange_.request(&Requests::thumbnails, std::move(wanted));
 }
 
@@ -464,7 +464,7 @@ void Window::askForFile(const Invocation& invocation) {
     question = openQuestion((here / beside).parent_path(), environment);
     if (beside.empty()) question.folder = here;
   }
-  asked_ = invocation.command;
+  dialogFor_ = invocation.command;
   dialog_.ask(std::move(question), portalName(window_.get()), glfwGetTime());
 }
 
@@ -474,15 +474,15 @@ void Window::takeFile() {
   if (!answer.message.empty()) notify(answer.message);
   if (answer.file.empty()) return;
   frames_ = std::max(frames_, kFramesAfterEvent);
-  if (asked_ == Command::Open) return openFiles({answer.file}, true);
+  if (dialogFor_ == Command::Open) return openFiles({answer.file}, true);
   if (!state_.scene) return;
   std::filesystem::path file = answer.file;
   const FileFilter& filter = dialog_.question().filters.front();
   if (file.extension().empty()) file += filter.extensions.front();
   if (!passes(filter, file))
     return notify("not written: " + file.extension().string() + " is not among " + filter.name);
-  ask();
-  if (asked_ == Command::SaveModel) {
+  request();
+  if (dialogFor_ == Command::SaveModel) {
     std::error_code none;
     savesShown_ = std::filesystem::equivalent(file, state_.scene->options.scene, none);
     return exchange_.request(&Requests::model, file);
