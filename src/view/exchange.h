@@ -22,6 +22,7 @@
 #include "shader/render_options.h"
 #include "shader/traits.h"
 #include "shader/variant.h"
+#include "view/pictures.h"
 
 namespace fragtrace {
 
@@ -143,11 +144,8 @@ struct LoadStatus {
 struct SaveRequest {
   std::filesystem::path path;
   size_t side = 0;
-  std::optional<CompareMode> both{};  ///< Bar or Difference, of both sides as they are shown; none: one side
-  double bar = 0.5;                   ///< a part of the width
-  double differenceStops = 0.0;
-  double exposure = 0.0;
-  ToneMap toneMap = ToneMap::Neutral;
+  bool both = false;  ///< both sides as they are shown, rather than one
+  Composition composition{};
 };
 
 /// The use of the answer to a pick.

@@ -2,6 +2,8 @@
 #include "view/key_table.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "shader/aov.h"
 #include "shader/stage.h"
@@ -148,46 +150,32 @@ std::vector<Control> makeControls() {
 }
 
 std::string codeName(const Control& control) {
+  using Name = std::pair<int, const char*>;
+  constexpr std::array kKeys{
+      Name{key::kSpace, "Space"},       Name{key::kEscape, "Escape"}, Name{key::kEnter, "Enter"},
+      Name{key::kTab, "Tab"},           Name{key::kUp, "Up"},         Name{key::kPageUp, "Page Up"},
+      Name{key::kPageDown, "Page Down"}};
+  constexpr std::array kButtons{"Left", "Right", "Middle"};
+  const int code = control.code;
   switch (control.gesture) {
     case Gesture::Wheel:
       return "Wheel";
     case Gesture::HoldWheel:
       return "Wheel while flying";
-    case Gesture::Press:
-    case Gesture::Hold:
-      break;
-    default: {
-      const char* button = control.code == mouse::kLeft     ? "Left"
-                           : control.code == mouse::kMiddle ? "Middle"
-                                                            : "Right";
-      const char* gesture = control.gesture == Gesture::Drag          ? " drag"
-                            : control.gesture == Gesture::DoubleClick ? " double click"
-                                                                      : " click";
-      return std::string(button) + gesture;
-    }
-  }
-  switch (control.code) {
-    case key::kSpace:
-      return "Space";
-    case key::kEscape:
-      return "Escape";
-    case key::kEnter:
-      return "Enter";
-    case key::kTab:
-      return "Tab";
-    case key::kUp:
-      return "Up";
-    case key::kPageUp:
-      return "Page Up";
-    case key::kPageDown:
-      return "Page Down";
+    case Gesture::Drag:
+      return kButtons.at(size_t(code)) + std::string(" drag");
+    case Gesture::Click:
+      return kButtons.at(size_t(code)) + std::string(" click");
+    case Gesture::DoubleClick:
+      return kButtons.at(size_t(code)) + std::string(" double click");
     default:
       break;
   }
-  std::string name;
-  if (control.code >= key::kF1 && control.code <= key::kF12)
-    return name.append("F").append(std::to_string(control.code - key::kF1 + 1));
-  return name.append(1, char(control.code));
+  const auto* found = std::ranges::find(kKeys, code, &Name::first);
+  if (found != kKeys.end()) return found->second;
+  if (code >= key::kF1 && code <= key::kF12)
+    return std::string("F").append(std::to_string(code - key::kF1 + 1));
+  return {char(code)};
 }
 
 }  // namespace

@@ -66,17 +66,14 @@ void frame(ViewState& state, bool selection) {
 }
 
 CameraPose standardView(const CameraPose& pose, StandardViewOf view) {
-  switch (view) {
-    case StandardViewOf::Front:
-      return lookAlong(pose, {0, 0, -1}, {0, 1, 0});
-    case StandardViewOf::Right:
-      return lookAlong(pose, {-1, 0, 0}, {0, 1, 0});
-    case StandardViewOf::Top:
-      return lookAlong(pose, {0, -1, 0}, {0, 0, -1});
-    case StandardViewOf::Isometric:
-      break;
-  }
-  return lookAlong(pose, glm::normalize(glm::dvec3(-1, -1, -1)), {0, 1, 0});
+  struct View {
+    glm::dvec3 direction, up;
+  };
+  static const std::array kViews{View{{0, 0, -1}, {0, 1, 0}}, View{{-1, 0, 0}, {0, 1, 0}},
+                                 View{{0, -1, 0}, {0, 0, -1}},
+                                 View{glm::normalize(glm::dvec3(-1, -1, -1)), {0, 1, 0}}};
+  const View& chosen = kViews.at(size_t(view));
+  return lookAlong(pose, chosen.direction, chosen.up);
 }
 
 void chooseSceneCamera(ViewState& state, int index) {
@@ -348,16 +345,9 @@ void split(Edit& edit) {
 // The changes that commands make in the viewer's state.
 
 bool needsScene(Command command) {
-  switch (command) {
-    case Command::Reload:
-    case Command::Open:
-    case Command::OpenFile:
-    case Command::CancelLoad:
-    case Command::DropReference:
-      return false;
-    default:
-      return !isForSheet(command);
-  }
+  constexpr std::array kWithout{Command::Reload, Command::Open, Command::OpenFile, Command::CancelLoad,
+                                Command::DropReference};
+  return !isForSheet(command) && std::ranges::find(kWithout, command) == kWithout.end();
 }
 
 bool isUsable(const ViewState& state, Command command) {

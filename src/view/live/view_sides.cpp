@@ -147,17 +147,13 @@ void ViewTracer::preview(Side& side, const RenderOptions& wanted) {
   publish(side);
 }
 
-/// Any thread may call this and the next function.
+/// Any thread may call this.
 void ViewTracer::reportWork(const std::string& what) {
   const Shows shown = shows_;
   exchange_.set(&TraceStatus::note,
                 what + (shown == Shows::Nothing   ? ""
                         : shown == Shows::Preview ? " (this is a preview in Blinn-Phong)"
                                                   : " (the last picture stays meanwhile)"));
-}
-
-void ViewTracer::reportDecoded(size_t decoded, size_t count) {
-  reportWork("compiling, " + std::to_string(decoded) + " of " + std::to_string(count) + " textures decoded");
 }
 
 std::shared_ptr<ViewProgram> ViewTracer::programFor(const RenderOptions& options, bool aside) {
@@ -475,11 +471,7 @@ void ViewTracer::saveBoth(const SaveRequest& request) {
   options.output.exposure = 0.0;
   options.output.toneMap = ToneMap::Linear;
   options.output.debugView = DebugView::None;
-  writePicture(options,
-               composite(sides, request_.size,
-                         {request.bar, request.both == CompareMode::Difference, request.differenceStops,
-                          request.exposure, request.toneMap}),
-               {});
+  writePicture(options, composite(sides, request_.size, request.composition), {});
   exchange_.deliver("wrote " + request.path.string());
 }
 
@@ -490,8 +482,8 @@ void ViewTracer::save(const SaveRequest& request) {
     if (request.both) return saveBoth(request);
     RenderOptions options = side.options;
     options.output.file = request.path;
-    options.output.exposure = request.exposure;
-    options.output.toneMap = request.toneMap;
+    options.output.exposure = request.composition.exposure;
+    options.output.toneMap = request.composition.toneMap;
     const FilmPixels pixels = side.film->read();
     const FilmTotals totals = totalsOf(pixels);
     const bool exr = formatOfName(options.output.file) == ImageFormat::OpenExr;

@@ -234,7 +234,10 @@ void ViewTracer::takeLoaded() {
   wasText_ = false;
   fileMaterials_ = result->viewed.materials;
   fileLights_ = result->viewed.lights;
-  loaded_->decoding = [this](size_t decoded, size_t count) { reportDecoded(decoded, count); };
+  loaded_->decoding = [this](size_t decoded, size_t count) {
+    reportWork("compiling, " + std::to_string(decoded) + " of " + std::to_string(count) +
+               " textures decoded");
+  };
   makePrograms();
   loadError_.clear();
   exchange_.set(&TraceStatus::error, {});

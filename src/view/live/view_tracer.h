@@ -151,7 +151,6 @@ class ViewTracer {
   void reportDriver();
   /// Tells the window what keeps the thread from drawing.
   void reportWork(const std::string& what);
-  void reportDecoded(size_t decoded, size_t count);
 
   ViewOptions start_;
   Exchange& exchange_;

@@ -432,11 +432,9 @@ void Window::save(const std::filesystem::path& name) {
   SaveRequest request;
   request.path = name;
   request.side = state_.shownSide();
-  if (both) request.both = state_.comparison;
-  request.bar = state_.shownBar();
-  request.differenceStops = state_.differenceStops;
-  request.exposure = o.output.exposure.value_or(0.0);
-  request.toneMap = o.output.toneMap;
+  request.both = both;
+  request.composition = {state_.shownBar(), state_.showsDifference(), state_.differenceStops,
+                         o.output.exposure.value_or(0.0), o.output.toneMap};
   exchange_.request([&](Requests& r) { r.saves.push_back(std::move(request)); });
 }
 
