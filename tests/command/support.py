@@ -3,13 +3,16 @@
 
 A test file is run as FILE FRAGTRACE SOURCE_FOLDER [unittest arguments].
 """
+import atexit
 import ctypes.util
 import fcntl
+import functools
 import json
 import math
 import os
 import pty
 import re
+import select
 import shutil
 import signal
 import statistics
@@ -41,8 +44,42 @@ SMALL = ["--resolution", "16,16", "--spp", "2", "--quiet"]
 WHITE = ["--default-light", "white", "--background-color", "1,1,1", "--bounces", "unlimited"]
 
 
-def run(*arguments, timeout=600, **options):
-    return subprocess.run([FRAGTRACE, *map(str, arguments)], capture_output=True, text=True, timeout=timeout, **options)
+class Server:
+    """The process that tests/command/fork_server.cpp describes."""
+
+    def __init__(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.files = [Path(self.folder.name) / name for name in ("stdout", "stderr")]
+        self.process = subprocess.Popen([FRAGTRACE.parent / "fork_server"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, start_new_session=True)
+        atexit.register(self.end)
+
+    def end(self):
+        os.killpg(self.process.pid, signal.SIGKILL)
+        self.process.communicate()
+        self.folder.cleanup()
+
+    def run(self, words, timeout):
+        self.process.stdin.write(json.dumps([*map(str, self.files), *words]) + "\n")
+        self.process.stdin.flush()
+        if not select.select([self.process.stdout], [], [], timeout)[0]:
+            atexit.unregister(self.end)
+            self.end()
+            server.cache_clear()
+            raise subprocess.TimeoutExpired(words, timeout)
+        return subprocess.CompletedProcess(words, int(self.process.stdout.readline()), *(path.read_text() for path in self.files))
+
+
+@functools.cache
+def server():
+    return Server() if (FRAGTRACE.parent / "fork_server").exists() else None
+
+
+def run(*arguments, timeout=600, alone=False, **options):
+    """Runs a command and returns what it prints and its status. alone: the program is started, which options need."""
+    words = list(map(str, arguments))
+    if server() and not alone and not options:
+        return server().run(words, timeout)
+    return subprocess.run([FRAGTRACE, *words], capture_output=True, text=True, timeout=timeout, **options)
 
 
 def shown(*words, columns=120):
