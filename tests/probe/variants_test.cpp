@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The full shader links on the driver by each entry and each kind of reads. tests/pure/variant_texts_test.cpp
-// checks the text of every switch.
+// The full shader links on the driver by each entry. tests/pure/variant_texts_test.cpp checks the text of
+// every switch.
 #include <gtest/gtest.h>
 
 #include "gl/context.h"
@@ -9,19 +9,17 @@
 namespace fragtrace {
 namespace {
 
-TEST(Variants, TheFullShaderLinksByEachEntryAndRead) {
+TEST(Variants, TheFullShaderLinksByEachEntry) {
   const auto context = makeContext(Backend::Egl);
   ShaderVariant fragments;
   fragments.stages.set();
   fragments.traits.set();
   fragments.reads = BufferReads::Image;
-  ShaderVariant resumable = fragments;
-  resumable.reads = BufferReads::Texel;
-  resumable.resumable = true;
   ShaderVariant compute = fragments;
+  fragments.resumable = true;
   compute.reads = BufferReads::Ssbo;
   compute.dispatch = Dispatch::Compute;
-  for (const ShaderVariant& variant : {fragments, resumable, compute}) {
+  for (const ShaderVariant& variant : {fragments, compute}) {
     ProgramCache cache(shaderSource({}));
     EXPECT_NO_THROW(cache.tracerProgram(variant)) << variantName(variant);
   }
