@@ -5,11 +5,16 @@ the mirrored lamp sends, that of a slab of glass follows from Snell and Fresnel.
 given, which is about 4.5 standard errors (of 6 seeds)."""
 import json
 import math
+import shutil
 import statistics
+import struct
 from pathlib import Path
 
+from support import SCENES, SHADERS, Case, Gltf, luminances, main, mean, quad, run
+import geometry
+from gltf_writer import GltfWriter
 from known_light_test import MATT, SPECULAR, from_lamp, over_ground
-from support import SCENES, Case, Gltf, luminances, main, mean, quad, run
+from scene_parts import place_quad
 
 WIDE = 2.5    # half of the width of the ground
 MIRROR = 1.1  # the mirror stands at x = -MIRROR, just beside what the camera sees
@@ -363,6 +368,272 @@ class Caustics(Case):
             refused = run("render", SCENES / "caustics.gltf", "-o", self.folder / "x.exr", "--caustics", "on", *other)
             self.assertEqual(refused.returncode, 2, refused.stderr)
             self.assertIn("--caustics on", refused.stderr)
+
+
+ALPHA = 0.25
+
+
+class CausticSources(Case):
+    """--caustics: lamps with alpha, and surfaces between a lamp and what makes its caustic; scenes without light paths. Light paths
+    bring what camera paths do, as py says."""
+    scene = Caustics.scene
+    luminances, seen = Caustics.luminances, Caustics.seen
+    assert_alike = Caustics.assert_alike
+
+    def lamp(self, like, rotation, **more):
+        """A lamp with these members of its material."""
+        material, place = Caustics.lamp(like, rotation)
+        color = material["pbrMetallicRoughness"] | {"baseColorFactor": [0, 0, 0, ALPHA]}
+        return (material | {"pbrMetallicRoughness": color} | more, place)
+
+    def test_a_lamp_shines_as_much_as_its_alpha_says(self):
+        """Most of its rays pass through it if alpha is small, so it is as dim for light samples and light paths."""
+        mirror = Caustics.above(0.9, 1.0)
+        for what, like, turn, things in (("caustic", UP, [0, 0, 0, 1], [mirror]), ("light sample", LAMP, OVER, [])):
+            seen = {}
+            for seed, (mode, more) in enumerate((("OPAQUE", {}), ("BLEND", {}), ("MASK", {"alphaCutoff": 0.5}))):
+                scene = self.scene("alpha", *things, self.lamp(like, turn, alphaMode=mode, **more))
+                seen[mode] = self.luminances(scene, "--seed", seed, spp=384)
+            self.assert_same_light(seen["BLEND"], [ALPHA * value for value in seen["OPAQUE"]], what, 0.025)
+            self.assertEqual(max(seen["MASK"]), 0, what)
+
+    def test_light_passes_the_backs_of_unlit_cards(self):
+        """The card is seen from below, by the lamp. Camera paths come from above, where it is not there."""
+        mirror = Caustics.above(0.9, 1.0)
+        card = ({"extensions": {"KHR_materials_unlit": {}}, "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]}},
+                {"translation": [1.5, 0, 0.6], "rotation": OVER, "scale": [0.5, 0.5, 1]})
+        bare = self.assert_alike(self.scene("bare", mirror, self.lamp(UP, [0, 0, 0, 1])), "bare", 768, 1536, known=0.01)
+        held = self.assert_alike(self.scene("card", mirror, self.lamp(UP, [0, 0, 0, 1]), card), "card", 768, 1536, known=0.011)
+        self.assertGreater(held, 0.5 * bare)
+
+    def test_a_range_ends_behind_a_thin_pane(self):
+        """It counts from the light to the metal, as without the pane, which reflects nothing here."""
+        light = {"type": "point", "intensity": INTENSITY, "range": 0.55}
+        pane = ({"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0}, "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1}}},
+                {"translation": [-0.75, 0, 0.9], "rotation": TURN, "scale": [0.9, 0.9, 1]})
+        wall = GlossyCaustics.metal(0.3), {"translation": [-MIRROR, 0, 0.9], "rotation": TURN, "scale": [0.9, 0.9, 1]}
+        scene = self.scene("range", wall, pane, lights=[(light, {"translation": [-0.7, 0.1, 0.9]})])
+        self.assert_alike(scene, "range", 2304, 768, bounces=4, known=0.02)
+
+    def test_where_they_hardly_land_camera_paths_alone_draw_all_parts(self):
+        """A wide mirror throws the light of a wide lamp over a ground of which the camera sees a hundredth."""
+        mirror = ({"pbrMetallicRoughness": {"metallicFactor": 1, "roughnessFactor": 0}}, {"translation": [-3, 0, 0], "rotation": TURN, "scale": [9, 9, 1]})
+        lamp = Caustics.lamp(((4, 0, 5), 2.5, 20.0))
+        scene = self.scene("wide", mirror, lamp, ground=30)
+
+        def drawn(*options, spp=6):
+            stats = self.folder / "stats.json"
+            return self.picture(scene, "x.pfm", *SMALL, "--spp", spp, "--stats", stats, *options), json.loads(stats.read_text())["caustics"]
+        # A goal of noise that few samples reach leaves the picture's limit: four million paths.
+        goal = ("--noise", 0.9)
+        whole, told = drawn(*goal, spp=4096)
+        self.assertEqual((told["light_paths"], told["pixels_per_path"], told["reason"]), (0, 0, "camera paths alone are less noisy"))
+        self.assertEqual(drawn(*goal, "--caustics", "off", spp=4096)[0], whole)
+        self.assertGreater(drawn("--caustics", "on")[1]["light_paths"], 0)
+        # Of few paths nothing is measured: no program of light paths is compiled.
+        whole, told = drawn()
+        self.assertEqual((told["light_paths"], told["casters"], told["reason"]), (0, 0, "few paths find the light of such wide lamps, too"))
+        self.assertEqual(drawn("--caustics", "off")[0], whole)
+        self.assertEqual([row[4:20] for row in whole[3:20]], drawn("--region", "4,3,16,17")[0])
+        for options in (("--seed", 9), ("--sample-offset", 5)):
+            self.assertEqual(drawn(*options, spp=1)[1]["light_paths"], 0, options)
+        # A small lamp, and a punctual light, are not left to chance.
+        for name, things, lights in (("small", (Caustics.lamp(((4, 0, 5), 0.1, 2000.0)),), ()),
+                                     ("point", (lamp,), (({"type": "point", "intensity": 5}, {"translation": [2, 0, 4]}),))):
+            scene = self.scene(name, mirror, *things, lights=lights, ground=30)
+            self.assertGreater(drawn()[1]["light_paths"], 0, name)
+
+
+GLOSSY_CAUSTICS_POINT = [({"type": "point", "intensity": INTENSITY}, {"translation": POINT})]
+
+
+class GlossyCaustics(Case):
+    """--caustics: metal and glass that are not quite smooth. Light paths bring what camera paths alone do, as py says of them."""
+    scene = Caustics.scene
+    luminances, seen = Caustics.luminances, Caustics.seen
+    assert_alike = Caustics.assert_alike
+    lamp = staticmethod(Caustics.lamp)
+
+    @staticmethod
+    def metal(roughness):
+        return {"pbrMetallicRoughness": {"baseColorFactor": [0.9, 0.8, 0.7, 1], "metallicFactor": 1, "roughnessFactor": roughness}}
+
+    def wall(self, roughness):
+        return self.metal(roughness), {"translation": [-MIRROR, 0, 0.45], "rotation": TURN, "scale": [1.2, 1.2, 1]}
+
+    def told(self, scene, *options):
+        path = self.folder / "stats.json"
+        self.picture(scene, "x.pfm", "--resolution", "16,16", *ON, "--spp", 8, "--bounces", 1, "--stats", path, *options)
+        return json.loads(path.read_text())["caustics"]
+
+    def test_a_brushed_wall_and_metal_that_the_camera_sees(self):
+        """The metal throws the light of the wall at the camera, with a lobe that is narrow, or wide."""
+        tilt = [0, -math.sin(math.pi / 8), 0, math.cos(math.pi / 8)]
+        for roughness in (0.1, 0.3):
+            seen = self.metal(roughness), {"translation": [0.3, 0, 0.35], "rotation": tilt, "scale": [0.4, 0.4, 1]}
+            scene = self.scene("brushed", self.wall(0.3), seen, lights=GLOSSY_CAUSTICS_POINT)
+            self.assert_alike(scene, f"brushed {roughness}", 1024, 512, bounces=3)
+
+    def test_a_frosted_pane(self):
+        """It stands beside the picture, before the light."""
+        glass = {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.3}, "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}}
+        pane = glass, {"translation": [-1.2, 0, 0.5], "rotation": TURN, "scale": [0.5, 0.8, 1]}
+        scene = self.scene("pane", pane, lights=[(GLOSSY_CAUSTICS_POINT[0][0], {"translation": [-2.2, 0.1, 1.1]})])
+        self.assert_alike(scene, "pane", 1024, 384, bounces=3, known=0.006)
+
+    def test_rougher_metal_and_wide_lamps_have_none(self):
+        for what, scene, some in (("some", self.scene("some", self.wall(0.3), lights=GLOSSY_CAUSTICS_POINT), True),
+                                  ("rough", self.scene("rough", self.wall(0.31), lights=GLOSSY_CAUSTICS_POINT), False),
+                                  ("wide", self.scene("wide", self.wall(0.3), self.lamp(LAMP)), False)):
+            self.assertEqual(self.told(scene)["light_paths"] > 0, some, what)
+
+    def test_the_variance_of_each_kind_of_path_is_told(self):
+        """The lamp that faces away from the ground lights it by the mirror alone, which light paths draw."""
+        lamp, mirror = Caustics.lamp(UP, [0, 0, 0, 1]), Caustics.above(0.9, 1.0)
+        scene = self.scene("up", mirror, lamp)
+        self.assertEqual(self.told(scene)["variance_share"], 1)
+        self.assertEqual(self.told(scene, "--caustics", "off")["variance_share"], 0)
+        both = self.told("caustics")
+        self.assertTrue(0.01 < both["variance_share"] < 0.99, both)
+
+
+GUIDING_LAMP = ((-0.7, -0.1, 1.1), 0.02, 2000.0)  # as that of caustics_test, and small
+PARALLEL = ("--camera-parallel-scale", 1.0)
+# A thin pane seen at a right angle, with the reflections in it. It mirrors hardly any light back to the ground.
+INDEX = 1.1
+THROUGH_PANE = 2 * INDEX / (INDEX * INDEX + 1)
+PANE = ({"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0}, "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": INDEX}}},
+        {"translation": [0, 0, 2], "scale": [3, 3, 1]})
+
+
+class Guiding(Case):
+    """Caustics that the camera sees through glass and in mirrors: camera paths find them by guiding (shaders/caustics/guiding.glsl)."""
+    scene, luminances = Caustics.scene, Caustics.luminances
+    lamp, mirror = staticmethod(Caustics.lamp), staticmethod(Caustics.mirror)
+
+    def test_a_mirrors_light_seen_through_a_pane(self):
+        open_air, behind = (self.luminances(self.scene("guided", self.mirror(), self.lamp(GUIDING_LAMP), *things), *PARALLEL, "--seed", len(things), spp=512)
+                            for things in ((), (PANE,)))
+        # Without guiding the error is many times as large.
+        self.assert_same_light(behind, [THROUGH_PANE * value for value in open_air], "behind the pane", 0.005)
+
+    def test_the_first_sample_waits_for_no_guiding(self):
+        def guiding_ms(spp):
+            path = self.folder / "s.json"
+            self.renders(SCENES / "caustic-ball.gltf", "-o", self.folder / "x.pfm", "--resolution", "32,32", *ON, "--spp", spp, "--stats", path, "--quiet")
+            return json.loads(path.read_text())["caustics"]["guiding_ms"]
+        self.assertEqual(guiding_ms(1), 0)
+        self.assertGreater(guiding_ms(2), 0)
+
+
+SUN_CAUSTICS_ABOVE = ("--camera-position", "0,4,0", "--camera-focal-point", "0,0,0", "--camera-view-up", "0,0,-1", "--camera-parallel-scale", "1")
+SKY = ("--sky", "--sun-elevation", "30", "--sun-azimuth", "90")
+BLACK = ("environment.glsl", "vec3(there) * intensity", "vec3(there) * (0.0f * intensity)")
+WIDER = 10
+SUN_CAUSTICS_WIDE = (("layout.glsl", "kSunRadius = 0.004651303f", f"kSunRadius = {0.004651303 * WIDER}f"), ("sky/sun.glsl", "sun.pdf = light.w;", f"sun.pdf = light.w / {WIDER**2}.0f;"))
+
+
+class SunCaustics(Case):
+    """--caustics: light that the sun of --sky, or of a map, sends by way of a mirror. The mirror stands at the edge of matt ground and faces the sun, so what
+    it throws there is as bright as what the sun itself sends, which is drawn from the ground. The sky beside the sun is made black. The mean of one picture
+    lies within the part that is given, which is about 4 standard errors (of 4 seeds)."""
+
+    def scene(self, name, mirror=True, lamp=0.0, roughness=0.0):
+        """The mirror has two halves. A lamp of that radiance shines down from where it shades nothing."""
+        gltf = GltfWriter(self.folder, name)
+        place_quad(gltf, "ground", geometry.ground(1.05, 3), gltf.add_lambert("ground", (1, 1, 1)))
+        smooth = gltf.add_material("mirror", metallic=1, roughness=roughness)
+        for z in (0.0, 1.1) if mirror else ():
+            place_quad(gltf, f"mirror {z}", geometry.quad((-1.05, 0, z), (0, 0, -1.1), (0, 1.3, 0)), smooth)
+        if lamp:
+            place_quad(gltf, "lamp", geometry.quad((0.1, 2.2, -0.2), (0.4, 0, 0), (0, 0, 0.4)), gltf.add_lamp("lamp", (lamp, lamp, lamp)))
+        gltf.write()
+        return str(self.folder / name)
+
+    def shaders(self, *edits):
+        folder = self.folder / f"shaders{len(edits)}"
+        if not folder.exists():
+            shutil.copytree(SHADERS, folder)
+            for name, old, new in edits:
+                text = (folder / name).read_text()
+                self.assertEqual(text.count(old), 1, name)
+                (folder / name).write_text(text.replace(old, new))
+        return ("--shader-folder", folder)
+
+    def drawn(self, scene, *options, spp=32):
+        return self.picture(scene, "x.pfm", "--resolution", "96,96", *SUN_CAUSTICS_ABOVE, "--bounces", 1, "--spp", spp, *options)
+
+    def seen(self, scene, *options, **more):
+        return mean(self.drawn(scene, *options, **more), 1)
+
+    def test_candidates_bring_what_glossy_metal_scatters_of_the_sky(self):
+        """The sun stands behind the metal, which a sample may choose all the same."""
+        scene = self.scene("glossy", roughness=0.3)
+        behind = ("--sky", "--sun-elevation", "3", "--sun-azimuth", "270")
+        one, several = (luminances(self.drawn(scene, *behind, "--light-reuse", reuse, "--seed", seed, spp=32)) for seed, reuse in enumerate(("none", "candidates")))
+        self.assert_same_light(several, one, "candidates", 0.002)
+
+    def test_a_mirror_shows_the_ground_a_second_sun(self):
+        direct = self.seen(self.scene("bare", mirror=False), *SKY, *self.shaders(BLACK), spp=16)
+        scene = self.scene("mirror")
+        self.assert_near(self.seen(scene, *SKY, *self.shaders(BLACK), spp=96), 2 * direct, "sun", 0.006)
+
+    def test_camera_paths_leave_out_what_light_paths_bring(self):
+        """A sun of ten times its width, as bright, is found by chance a hundred times as often."""
+        edits = self.shaders(BLACK, *SUN_CAUSTICS_WIDE)
+        direct = self.seen(self.scene("bare", mirror=False), *SKY, *edits, spp=16)
+        scene = self.scene("mirror")
+        # Turned back to the east.
+        turned = ("--sky", "--sun-elevation", "30", "--sun-azimuth", "130", "--hdri-rotation", "40", "--hdri-intensity", "0.5")
+        self.assert_near(self.seen(scene, *turned, *edits), direct, "wide sun, turned and dimmed", 0.012)
+        self.assert_near(self.seen(scene, *SKY, *edits, "--caustics", "off", spp=128), 2 * direct, "wide sun, from the camera alone", 0.05)
+
+    def map(self, name, width, place, sun, sky=0.0):
+        """A map of even sky with a sun of one texel, which filters blur over its neighbours."""
+        height = width // 2
+        texels = [[sky] * width for _ in range(height)]
+        x, y = place
+        texels[y][x] = sun
+        path = self.folder / name
+        rows = reversed(texels)  # from the bottom
+        path.write_bytes(b"PF\n%d %d\n-1.0\n" % (width, height) + b"".join(struct.pack("<fff", v, v, v) for row in rows for v in row))
+        return path
+
+    def test_the_sun_of_a_map(self):
+        """A narrow one stands where that of SKY does. A wide one, as bright as the sky is in all, is found by camera paths too."""
+        bare, mirror = self.scene("bare", mirror=False), self.scene("mirror")
+        narrow = ("--hdri-file", self.map("narrow.pfm", 512, (256, 85), 1e5))
+        direct = self.seen(bare, *narrow, spp=16)
+        self.assert_near(self.seen(mirror, *narrow), 2 * direct, "narrow sun", 0.008)
+        wide = ("--hdri-file", self.map("wide.pfm", 64, (42, 10), 3e3, sky=1.0), "--hdri-rotation", "60", "--hdri-intensity", "0.5")
+        for scene, spp in ((mirror, 32), (self.scene("glossy", roughness=0.25), 64)):
+            found, thrown = (luminances(self.drawn(scene, *wide, "--seed", seed, "--caustics", caustics, spp=samples))
+                             for seed, (caustics, samples) in enumerate((("off", 512), ("on", spp))))
+            self.assert_same_light(thrown, found, f"wide sun, turned and dimmed, {spp}", 0.004)
+
+    def test_beside_a_lamp_each_brings_its_own(self):
+        scene = self.scene("lamp", lamp=60)
+        direct = self.seen(self.scene("bare", mirror=False), *SKY, *self.shaders(BLACK), spp=16)
+        lamp = self.seen(scene)
+        self.assertGreater(lamp, 0.9 * direct)
+        self.assert_near(self.seen(scene, *SKY, *self.shaders(BLACK)), 2 * direct + lamp, "sun and lamp", 0.008)
+
+    def test_it_is_told(self):
+        def told(scene, *options):
+            path = self.folder / "stats.json"
+            self.renders(f"{scene}.gltf", "-o", self.folder / "x.png", "--resolution", "16,16", "--spp", 2, "--stats", path, *options)
+            return json.loads(path.read_text())["caustics"]
+        scene = self.scene("mirror")
+        day = told(scene, *SKY)
+        self.assertEqual(day["light_paths"], 2 * 16 * 4)
+        self.assertIn("a sun", day["reason"])
+        night = told(scene, "--sky", "--sun-elevation", "-5")
+        self.assertEqual(night["light_paths"], 0)
+        self.assertIn("no lamp or sun", night["reason"])
+        even = told(scene, "--hdri-file", self.map("even.pfm", 64, (42, 10), 2.0, sky=1.0))
+        self.assertEqual(even, night)
+        self.assertEqual(told(scene, "--hdri-file", self.map("sun.pfm", 64, (42, 10), 3e3, sky=1.0))["reason"], day["reason"])
+        self.assertEqual(told(scene, *SKY, "--caustics", "off"), {"light_paths": 0, "pixels_per_path": 0, "casters": 0, "variance_share": 0, "guiding_ms": 0, "reason": "--caustics"})
 
 
 if __name__ == "__main__":
