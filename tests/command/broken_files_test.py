@@ -2,11 +2,23 @@
 # SPDX-License-Identifier: MIT
 """Files with an odd value that other programs open, one row each: they are drawn as their right twin is, with one warning that names the
 place, and `--strict` refuses them with it (docs/gltf.md, What is refused)."""
+import base64
+import gzip
 import json
+import os
+import re
+import resource
+import socket
 import struct
+import subprocess
+import threading
+import time
+import unittest
+from pathlib import Path
 
-from made_files import base, changed
-from support import Case, data_uri, main, png, run
+from support import FRAGTRACE, Case, data_uri, main, png, quad, run
+from limits_test import hostile_pictures
+from made_files import FEATURES, base, changed, made_files, write
 
 NAN = float("nan")
 NULL = "\0null"  # `changed` takes away what is None
@@ -351,6 +363,282 @@ class Repairs(Case):
                                ({"/meshes/0/primitives/0/mode": 9}, "/meshes/0/primitives/0/mode")):
             scene = self.write("broken", changed((), changes))
             self.fails(3, "info", scene, says=[f"{scene}: {place}: "])
+
+
+FOLDER = Path(os.environ.get("FRAGTRACE_ASSETS", "/work/shared/assets")) / "malformed/gltf-validator-test"
+
+# Animations are read where a time is asked for.
+MOVED = ["--animation-time", "0"]
+
+# Reasons to refuse a whole file: what is no glTF 2.0, a broken reference in something that is used, and the first reason where nothing is left
+# to draw.
+WHOLE = re.compile(r"is not glTF|is empty, not glTF|the JSON is broken|\.glb|/asset|\"asset\" is missing|is not supported|required and not supported")
+REFERENCE = re.compile(r"index \d+ is past the \d+ elements of|is in a loop|is already a child of|is not a root node")
+LEFT = re.compile(r"reach past|has no data|\"samplers\" is missing|is not of floats|do not fit its|does not have \d components|is past the samplers|"
+                  r"is past the \d of the skin|is not affine|is not in the scene")
+# How many are refused: none more.
+REFUSED = 59
+
+
+@unittest.skipUnless(FOLDER.is_dir(), f"{FOLDER} is absent")
+class ValidatorFiles(Case):
+    """The Khronos glTF validator's own test files: none ends the program, and those that are refused are refused for a reason that the rule of
+    docs/gltf.md has. Skipped where the folder is absent.
+    
+    Run with FRAGTRACE_ASSETS=FOLDER for another folder of assets than /work/shared/assets."""
+
+    def test_every_file_is_loaded_or_refused_for_a_reason(self):
+        reports = sorted(FOLDER.glob("**/*.report.json"))
+        self.assertEqual(len(reports), 372)
+        faults, refused = [], 0
+        for report in reports:
+            path = Path(str(report).removesuffix(".report.json"))
+            result = run("info", path, *MOVED, timeout=20, errors="replace")
+            lines = result.stderr.splitlines()
+            refused += result.returncode == 3
+            if result.returncode not in (0, 3) or (result.returncode == 3 and len(lines) != 1):
+                faults.append((path, "status", result.returncode, result.stderr))
+            elif result.returncode == 3 and not (f"{path}: " in lines[0] and any(kind.search(lines[0].replace(str(path), "")) for kind in (WHOLE, REFERENCE, LEFT))):
+                faults.append((path, "is refused", lines[0]))
+        self.assertEqual(faults, [], "\n".join(map(str, faults)))
+        self.assertLessEqual(refused, REFUSED)
+
+
+VALIDATE = """
+const validator = require(process.argv[1]), fs = require('fs');
+(async () => {
+  for (const file of process.argv.slice(2)) {
+    const report = await validator.validateBytes(new Uint8Array(fs.readFileSync(file)));
+    console.log(report.issues.numErrors);
+  }
+})();
+"""
+
+
+class MadeFiles(Case):
+    """py FRAGTRACE SOURCE_FOLDER: the small files of made_files.py are loaded or refused as they expect.
+    
+    With FRAGTRACE_NODE_MODULES, a folder in which `npm install gltf-validator` was run, the Khronos validator is asked, too, whether they are valid."""
+
+    def test_each_is_loaded_or_refused_as_it_expects(self):
+        write(self.folder)
+        for name, root, expected in made_files():
+            with self.subTest(name):
+                path = self.folder / (name.replace(" ", "_") + ".gltf")
+                result = run("info", path, *(["--animation-time", "0.5"] if "animations" in root else []))
+                lines = result.stderr.splitlines()
+                self.assertEqual(result.returncode, expected["status"], result.stderr)
+                self.assertEqual(len(lines), 0 if expected["valid"] else 1, lines)
+                for line in lines:
+                    self.assertIn(path.name, line)
+                    self.assertIn(expected["says"], line)
+
+    def test_each_feature_is_drawn(self):
+        for name, root, expected in made_files():
+            if name not in FEATURES:
+                continue
+            with self.subTest(name):
+                path = self.written("scene.gltf", root)
+                result = run("render", path, "--output", self.folder / "picture.pfm", "--resolution", "8,8", "--spp", "1", "--quiet")
+                self.assertEqual((result.returncode, result.stderr), (0, ""))
+
+    @unittest.skipUnless("FRAGTRACE_NODE_MODULES" in os.environ, "FRAGTRACE_NODE_MODULES names no folder with gltf-validator")
+    def test_the_khronos_validator_agrees(self):
+        write(self.folder)
+        files = [(self.folder / (name.replace(" ", "_") + ".gltf"), expected) for name, _, expected in made_files()]
+        module = Path(os.environ["FRAGTRACE_NODE_MODULES"]) / "node_modules" / "gltf-validator"
+        result = subprocess.run(["node", "-e", VALIDATE, module, *(path for path, _ in files)], capture_output=True, text=True, check=True)
+        errors = list(map(int, result.stdout.split()))
+        self.assertEqual(len(errors), len(files))
+        for (path, expected), count in zip(files, errors):
+            self.assertEqual(count == 0, expected["valid"], path)
+
+
+SECRET = b"the secret of another folder"
+ESCAPE = "\x1b]0;owned\x07\n\r\x9b31m\x7f\u202egnp.exe\u2066"
+SECONDS, BYTES = 10, 1 << 30
+
+
+def huge_jpeg():
+    """A header of 65,500 x 65,500 pixels, and no data."""
+    return bytes.fromhex("ffd8ffc0001108ffdcffdc03011100021101031101ffda000c03010002110311003f00")
+
+
+def square(material=None):
+    gltf = quad(material or {})
+    del gltf["images"], gltf["textures"]
+    return gltf
+
+
+def with_buffer(uri):
+    gltf = square()
+    gltf["buffers"][0]["uri"] = uri
+    return gltf
+
+
+def with_image(uri):
+    gltf = quad({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}, images=[png(1, 1, b"\xff" * 4)])
+    gltf["images"][0] = {"uri": uri}
+    return gltf
+
+
+def with_volume(uri):
+    gltf = square()
+    gltf["nodes"][0]["extras"] = {"fragtrace_volume": {"volume": uri}}
+    return gltf
+
+
+def hostile_models_changed(**members):
+    """A quad whose accessor or other parts say what is not so."""
+    gltf = square()
+    for name, change in members.items():
+        gltf[name][0] |= change
+    return gltf
+
+
+def deep():
+    """Arrays in arrays, 200,000 of them."""
+    return '{"asset": {"version": "2.0"}, "extras": ' + "[" * 200000 + "]" * 200000 + "}"
+
+
+def chain(last):
+    """Nodes below each other, the last of which has this child."""
+    gltf = square()
+    count = 50000
+    gltf["nodes"] = [{"children": [i + 1]} for i in range(count - 1)] + [{"children": [last]} if last is not None else {"mesh": 0}]
+    gltf["scenes"] = [{"nodes": [0]}]
+    return gltf
+
+
+def hostile_models_instances(count):
+    gltf = square()
+    gltf["extensionsUsed"] = ["EXT_mesh_gpu_instancing"]
+    gltf["accessors"].append({"componentType": 5126, "count": count, "type": "VEC3"})
+    gltf["nodes"][0]["extensions"] = {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": len(gltf["accessors"]) - 1}}}
+    return gltf
+
+
+class HostileModels(Case):
+    """A model from a stranger can cost bounded time and memory, and nothing else (SECURITY.md): 40 kinds of attempts at other files, at memory, at time and
+    at the terminal. Each ends within 10 s and 1 GB, with the status of a broken file, one line without control characters, and no file outside touched."""
+
+    def setUp(self):
+        super().setUp()
+        self.scene = self.folder / "scene"
+        self.outside = self.folder / "outside"
+        for folder in (self.scene, self.outside):
+            folder.mkdir()
+        (self.outside / "secret.bin").write_bytes(SECRET)
+
+    def ends(self, model, *says, statuses=(3,), words=()):
+        """The loader's answer to a model."""
+        path = self.scene / "model.gltf"
+        path.write_bytes(model if isinstance(model, bytes) else (model if isinstance(model, str) else json.dumps(model)).encode())
+        before = {file: (file.stat().st_mtime_ns, file.read_bytes()) for file in self.outside.iterdir() if file.is_file()}
+        began = time.monotonic()
+        limit = lambda: (resource.setrlimit(resource.RLIMIT_DATA, (BYTES, BYTES)), resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS)))
+        result = subprocess.run([FRAGTRACE, *map(str, words or ("info", path, "--memory-limit", "256MB"))],
+                                capture_output=True, timeout=10 * SECONDS, preexec_fn=limit)
+        error = result.stderr.decode(errors="replace")
+        self.assertIn(result.returncode, statuses, error)
+        self.assertLess(time.monotonic() - began, 10 * SECONDS)
+        self.assertNotIn(SECRET, result.stdout + result.stderr)
+        for text in (error, result.stdout.decode(errors="replace")):
+            self.assertFalse([c for c in text if not c.isprintable() and c != "\n"], repr(text[:500]))
+        if result.returncode:
+            self.assertEqual(len(error.splitlines()), 1, error[:500])
+        for text in says:
+            self.assertIn(text, error)
+        after = {file: (file.stat().st_mtime_ns, file.read_bytes()) for file in self.outside.iterdir() if file.is_file()}
+        self.assertEqual(before, after)
+        return error
+
+    def test_names_that_lead_out_of_the_folder(self):
+        secret = self.outside / "secret.bin"
+        (self.scene / "link.bin").symlink_to(secret)
+        (self.scene / "folder").symlink_to(self.outside)
+        (self.scene / "chain.bin").symlink_to("link.bin")
+        (self.scene / "round.bin").symlink_to("round.bin")
+        for uri in ("../outside/secret.bin", "%2e%2e/outside/secret.bin", "..%2foutside%2fsecret.bin", "x/../../outside/secret.bin", str(secret), f"file://{secret}",
+                    f"//localhost{secret}", "http://localhost/secret.bin", "link.bin", "folder/secret.bin", "chain.bin",
+                    "/proc/self/environ", "/proc/self/fd/0", "C:\\secret.bin",
+                    # Backslashes are slashes, and what they lead to is checked again.
+                    "..\\outside\\secret.bin", "..%5coutside%5Csecret.bin", "%2e%2e%5Coutside/secret.bin", "x\\..\\..\\outside\\secret.bin",
+                    str(secret).replace("/", "\\"), str(secret).replace("/", "%5C"), "\\\\localhost\\secret.bin", "folder\\secret.bin", "folder%5csecret.bin"):
+            for model in (with_buffer(uri), with_image(uri)):
+                self.ends(model, statuses=(3,))
+        # Decoded once only: these are names of files that are not there. A texture that is missing is drawn magenta.
+        for uri in ("round.bin", "secret.bin%00", "..%255coutside%255csecret.bin", "%252e%252e/outside/secret.bin"):
+            self.ends(with_buffer(uri), statuses=(3,))
+            self.ends(with_image(uri), "drawn in magenta", statuses=(0,))
+            self.ends(with_image(uri), statuses=(3,), words=("info", "--missing-textures", "refuse", self.scene / "model.gltf"))
+        for uri in ("../outside/secret.bin", str(secret), "link.bin"):
+            self.ends(with_volume(uri), statuses=(3,))
+
+    def test_names_of_what_is_no_file(self):
+        os.mkfifo(self.scene / "pipe.bin")
+        (self.scene / "zero.bin").symlink_to("/dev/zero")
+        (self.scene / "tty.bin").symlink_to("/dev/tty")
+        (self.scene / "memory.bin").symlink_to("/proc/self/mem")
+        server = socket.socket(socket.AF_UNIX)
+        self.addCleanup(server.close)
+        there = os.getcwd()
+        os.chdir(self.scene)  # names of sockets are short
+        server.bind("socket.bin")
+        os.chdir(there)
+        for uri in ("pipe.bin", "zero.bin", "tty.bin", "memory.bin", "socket.bin", ".", ""):
+            self.ends(with_buffer(uri), statuses=(3,))
+            self.ends(with_image(uri), statuses=(3,) if uri in ("zero.bin", "memory.bin") else (0, 3))
+
+    def test_a_link_that_turns_while_it_is_read(self):
+        """Every answer is that of one of its two ends, and the other's content is never read."""
+        inside = base64.b64decode(square()["buffers"][0]["uri"].split(",")[1])
+        (self.scene / "inside.bin").write_bytes(inside)
+        done = threading.Event()
+
+        def turn():
+            while not done.is_set():
+                for target in ("inside.bin", self.outside / "secret.bin"):
+                    (self.scene / "new").symlink_to(target)
+                    os.replace(self.scene / "new", self.scene / "turning.bin")
+        (self.scene / "turning.bin").symlink_to("inside.bin")
+        thread = threading.Thread(target=turn)
+        thread.start()
+        try:
+            for _ in range(30):
+                error = self.ends(with_buffer("turning.bin"), statuses=(0, 3))
+                self.assertTrue(not error or "link out of the scene's folder" in error, error)
+        finally:
+            done.set()
+            thread.join()
+
+    def test_sizes_that_no_file_has(self):
+        many = 1 << 31
+        pictures = [with_image(data_uri("image/png", data)) for name, data in hostile_pictures() if name.endswith(".png")]
+        for model in (*pictures, with_image(data_uri("image/jpeg", huge_jpeg()))):
+            self.ends(model, statuses=(0, 3))
+        for model in (hostile_models_changed(accessors={"count": many}), hostile_models_changed(accessors={"count": 1 << 62}), hostile_models_changed(accessors={"byteOffset": 1 << 62}),
+                      hostile_models_changed(bufferViews={"byteLength": 1 << 62}), hostile_models_changed(buffers={"byteLength": 1 << 62}), hostile_models_instances(many), hostile_models_instances(1 << 28), chain(None), chain(0), deep()):
+            self.ends(model, statuses=(0, 3) if model == chain(None) else (3,))
+
+    def test_archives_that_grow(self):
+        """A megabyte of hundreds of megabytes, or that asks for gigabytes: none of these kinds of compression is a glTF's, but a picture of environment light is read as EXR and HDR."""
+        self.ends(gzip.compress(bytes(1 << 28), 1)[:1 << 20], statuses=(3,))
+        (self.scene / "x.hdr").write_bytes(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 30000 +X 30000\n" + bytes([2, 2, 0x75, 0x30, 255, 9]) * 170000)
+        self.ends(square(), statuses=(3,), words=("render", self.scene / "model.gltf", "--hdri-file", self.scene / "x.hdr", "-o", self.folder / "x.png",
+                                                  "--resolution", "8,8", "--spp", "1", "--quiet", "--memory-limit", "256MB"))
+
+    def test_names_that_speak_to_the_terminal(self):
+        named = square({"name": ESCAPE})
+        for kind in ("nodes", "meshes", "scenes"):
+            named.setdefault(kind, [{}])[0]["name"] = ESCAPE
+        named["asset"]["generator"] = ESCAPE
+        self.ends(named, statuses=(0, 3))
+        self.ends(named, statuses=(0, 3), words=("info", "--nodes", self.scene / "model.gltf"))
+        self.ends(with_buffer(ESCAPE), statuses=(3,))
+        self.ends(named | {"extensionsRequired": [ESCAPE]}, statuses=(3,))
+        self.ends(named | {"extensionsUsed": [ESCAPE]}, statuses=(0, 3))
+        self.ends(square({ESCAPE: 1, "alphaMode": ESCAPE}), statuses=(0, 3))
 
 
 if __name__ == "__main__":
