@@ -8,7 +8,7 @@ import statistics
 import subprocess
 import time
 
-from support import FRAGTRACE, SCENES, Case, Exr, luminances, main, read_pfm
+from support import FRAGTRACE, SCENES, TWO_TRIANGLES, Case, Exr, Gltf, luminances, main, read_pfm, run
 
 BOX = SCENES / "cornell-box.gltf"
 
@@ -192,6 +192,185 @@ class NoisePromise(Case):
                 self.assertGreater(seeds.p95, 0.004)
                 self.assertLess(seeds.p95, 0.012)
                 self.assertLess(abs(bias), 0.003)
+
+
+# `--noise` looks at the pixels that can be noisy, however few they are, and however rarely light is met there.
+class Sketch(Gltf):
+    """Quads and glass spheres, looked at from above by an orthographic camera that shows a square of 2 x `half` metres."""
+
+    def __init__(self, half):
+        super().__init__(extensionsUsed=["KHR_implicit_shapes"], materials=[],
+                         cameras=[{"type": "orthographic", "orthographic": {"xmag": half, "ymag": half, "znear": 0.01, "zfar": 100}}])
+        self.node(camera=0, translation=[0, 0, 50])
+
+    def material(self, emission=0, color=0.8, **extensions):
+        names = {"KHR_materials_" + name: e for name, e in extensions.items()}
+        self.root["extensionsUsed"] = sorted({*self.root["extensionsUsed"], *names, "KHR_materials_emissive_strength"})
+        self.root["materials"].append({
+            "pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0 if names else 1, "baseColorFactor": [color] * 3 + [1]},
+            "emissiveFactor": [1 if emission else 0] * 3,
+            "extensions": names or {"KHR_materials_emissive_strength": {"emissiveStrength": max(emission, 1)}}})
+        return len(self.root["materials"]) - 1
+
+    def quad(self, x, y, z, half, material, down=False):
+        """Adds a square; `half` is the distance from its middle to each side. It looks up, or down."""
+        position = self.accessor([(x + a, y + b, z) for a, b in ((-half, -half), (half, -half), (half, half), (-half, half))])
+        indices = self.accessor((0, 2, 1, 0, 3, 2) if down else TWO_TRIANGLES, "H")
+        self.node(mesh=self.mesh(indices, position=position, material=material))
+
+    def ball(self, z, radius, material):
+        self.root["extensions"] = {"KHR_implicit_shapes": {"shapes": [{"type": "sphere", "sphere": {"radius": radius}}]}}
+        self.node(extras={"shape": 0, "material": material}, translation=[0, 0, z])
+
+
+def small_object(pixels):
+    """A quad of so many pixels per side in a picture of 64 x 64, black all round; its edges keep off the next pixels."""
+    sketch = Sketch(32)
+    sketch.quad(0, 0, 0, pixels / 2 - 0.001, sketch.material())
+    sketch.quad(0, 40, 10, 6, sketch.material(500), down=True)
+    return sketch
+
+
+def lamp_in_the_dark():
+    """A lamp, seen from behind, over a white patch on a ground that is black."""
+    sketch = Sketch(32)
+    sketch.quad(0, 0, 0, 40, sketch.material(color=0, specular={"specularFactor": 0}))
+    sketch.quad(3, 5, 0.01, 4.999, sketch.material())
+    sketch.quad(3, 5, 1.5, 0.75, sketch.material(20), down=True)
+    return sketch
+
+
+def caustic():
+    """A glass ball hides a small lamp from all of the ground that is seen; one path of a thousand meets the lamp through it."""
+    sketch = Sketch(0.3)
+    sketch.quad(0, 0, 0, 4, sketch.material())
+    sketch.ball(1.2, 0.5, sketch.material(transmission={"transmissionFactor": 1}, volume={"thicknessFactor": 1}))
+    sketch.quad(0, 0, 6, 0.1, sketch.material(600), down=True)
+    return sketch
+
+
+# The 95th percentile of chi square over its degrees of freedom, here pictures: what root mean squares of so few scatter upwards by, squared.
+SCATTER = {4: 9.488 / 4, 8: 15.507 / 8}
+
+
+class Goal(Case):
+    """The 95th percentile, over lit pixels that a camera sample hits, of the root mean square error of some seeds, against a picture of many samples,
+    is at most 1.2 times the goal, beside what so few seeds scatter."""
+
+    def check(self, sketch, goal, resolution, most, seeds=4):
+        path = self.folder / "scene.gltf"
+        sketch.write(path)
+        common = ["--resolution", f"{resolution},{resolution}", "--no-background"]
+        stem = str(path.with_suffix(""))
+        reference = self.picture(stem, "r.exr", *common, "--spp", most, "--seed", 77)
+        pictures = [self.picture(stem, "x.exr", *common, "--noise", goal, "--seed", 100 + s, "--stats", self.folder / "s.json") for s in range(seeds)]
+        stats = json.loads((self.folder / "s.json").read_text())
+        light = reference.luminances()
+        floor = 0.01 * statistics.fmean(light)
+        seen = [any(alpha) for alpha in zip(*(p.values("A") for p in pictures))]
+        errors = [math.sqrt(statistics.fmean((x - r) ** 2 for x in pixel)) / (r + floor)
+                  for pixel, r, s in zip(zip(*(p.luminances() for p in pictures)), light, seen) if s and r > 0]
+        error = quantile(errors, 0.95)
+        print(f"{len(errors)} of {len(light)} pixels: true error {error:.4f}, goal {goal}, {stats['samples_per_pixel']:.0f} samples per pixel", flush=True)
+        self.assertGreaterEqual(stats["fewest_samples"], 32)
+        self.assertLess(error, 1.2 * goal * math.sqrt(SCATTER[seeds]))
+
+
+class NoiseGoal(Goal):
+    def test_an_object_of_2_percent_of_the_picture(self):
+        self.check(small_object(9), 0.02, 64, 4096)
+
+    def test_an_object_of_a_thousandth_of_the_picture(self):
+        self.check(small_object(2), 0.002, 64, 16384)
+
+    def test_a_lamp_in_the_dark(self):
+        self.check(lamp_in_the_dark(), 0.05, 64, 8192)
+
+
+class NoiseGoalCaustic(Goal):
+    def test_a_caustic_that_most_samples_miss(self):
+        self.check(caustic(), 0.5, 16, 65536, seeds=8)
+
+    def test_smaller_goals(self):
+        self.check(small_object(9), 0.01, 64, 32768, seeds=8)
+        self.check(lamp_in_the_dark(), 0.02, 64, 16384, seeds=8)
+
+
+# --quality: what it sets, for which pictures it is the default, and that the time left is true.
+SMALL = ["--resolution", "32,24", "--quiet"]
+GOALS = {"draft": (0.2, 16), "good": (0.1, 512), "best": (0.03, 4096)}
+RENDERS = ("cornell-box", "water-cube", "plastics", "caustic-ground", "many-lights", "sphere-plane-mirror", "rough-glass", "vitrine", "coverage",
+           "environment-diffuse")
+
+
+class Quality(Case):
+    def settled(self, output, *options):
+        """The noise asked for, the samples at most, and the filter, in the words of the statistics."""
+        stats = self.folder / "s.json"
+        self.renders(BOX, "-o", self.folder / output, *SMALL, "--stats", stats, *options)
+        stats = json.loads(stats.read_text())
+        return stats.get("adaptive", {}).get("noise"), stats["spp"], stats.get("denoise", {}).get("filter")
+
+    def test_each_sets_noise_samples_and_filter(self):
+        for name in ("draft", "good"):
+            for output in ("x.png", "x.exr"):
+                self.assertEqual(self.settled(output, "--quality", name), (*GOALS[name], "variance 5"))
+
+    def test_good_is_the_default_of_pictures_for_the_eye(self):
+        for output in ("x.png", "x.jpg"):
+            self.assertEqual(self.settled(output), (*GOALS["good"], "variance 5"))
+        for output in ("x.exr", "x.hdr", "x.pfm"):
+            self.assertEqual(self.settled(output), (None, 64, None))
+        for own, expected in (("--spp 4", (None, 4, None)), ("--noise 0.3", (0.3, 1 << 29, None)), ("--denoise none", (None, 64, None)),
+                              ("--region 0,0,8,8", (None, 64, None)), ("--light-reuse spatial", (None, 64, None)), ("--quality none", (None, 64, None)),
+                              ("--debug-view normal", (None, 64, None)), ("--stage shadows", (None, 64, None))):
+            self.assertEqual(self.settled("x.png", *own.split()), expected, own)
+        config = self.folder / "c.json"
+        config.write_text(json.dumps({"spp": 4}))
+        self.assertEqual(self.settled("x.png", "--config", config), (None, 4, None))
+
+    def test_what_other_options_say_stays(self):
+        self.assertEqual(self.settled("x.png", "--quality", "good", "--spp", 8), (0.1, 8, "variance 5"))
+        self.assertEqual(self.settled("x.png", "--quality", "draft", "--noise", 0.5), (0.5, 16, "variance 5"))
+        self.assertEqual(self.settled("x.png", "--quality", "draft", "--denoise", "none"), (0.2, 16, None))
+
+    def test_the_picture_depends_on_the_seed_alone(self):
+        first = self.folder / "a.png"
+        second = self.folder / "b.png"
+        self.renders(BOX, "-o", first, *SMALL)
+        self.renders(BOX, "-o", second, *SMALL, "--noise", 0.1, "--spp", 512, "--denoise", "variance")
+        self.assertEqual(first.read_bytes(), second.read_bytes())
+
+    def test_a_goal_that_is_not_reached_is_said(self):
+        said = self.renders(SCENES / "vitrine.gltf", "-o", self.folder / "x.png", "--resolution", "16,16", "--quality", "draft").stderr
+        self.assertIn("some pixels are noisier than --quality draft asks for after 16 samples", said)
+        self.assertNotIn("warning", said)
+
+
+class TimeLeft(Case):
+    def test_a_draft_that_its_limit_ends_was_near_its_end(self):
+        said = run("render", BOX, "-o", self.folder / "x.png", "--resolution", "600,400", "--quality", "draft", "--progress", "json").stderr
+        told = [event["fraction"] for event in map(json.loads, said.splitlines()) if event.get("phase") == "rendering"]
+        self.assertGreater(max(told), 0.75)
+
+    def test_a_third_of_the_way_the_time_left_is_right(self):
+        """Within 30 %, in the median of ten renders, and in eight of them within 60 %."""
+        ratios = []
+        for scene in RENDERS:
+            command = [FRAGTRACE, "render", SCENES / f"{scene}.gltf", "-o", self.folder / "x.png", "--resolution", "320,240", "--progress", "json"]
+            told = []
+            with subprocess.Popen(list(map(str, command)), stderr=subprocess.PIPE, text=True) as process:
+                for line in process.stderr:
+                    event = json.loads(line)
+                    if event.get("phase") == "rendering":
+                        told.append((time.monotonic(), event["seconds_left"]))
+            self.assertEqual(process.returncode, 0)
+            start, end = told[0][0], told[-1][0]
+            third, left = next(t for t in told if t[0] - start >= (end - start) / 3)
+            ratios.append(left / (end - third))
+            print(f"{scene}: {end - start:.1f} s, {left:.1f} s left at a third: {ratios[-1]:.2f} of the truth")
+        self.assertTrue(0.7 < sorted(ratios)[5] < 1.3, ratios)
+        self.assertGreaterEqual(sum(0.4 < r < 1.6 for r in ratios), 8, ratios)
 
 
 if __name__ == "__main__":
