@@ -3,8 +3,12 @@
 """However rays find triangles, and whichever way the shader runs and reads: the picture stays the same."""
 import itertools
 import json
+import os
+import shutil
+import subprocess
 
-from support import SCENES, Case, main, read_pfm
+from support import EXTENDED, FRAGTRACE, SCENES, Case, Exr, main, read_pfm, run
+from instanced_scene import write_field
 
 SIZE = ["--resolution", "48,48", "--spp", 8]
 
@@ -91,6 +95,242 @@ class Entries(Case):
 
 class MoreEntries(Entries):
     SCENES = ("cornell-box", []), ("mapped-layers", []), ("glass-sphere", []), ("lights", ["--stage", "shadows"])
+
+
+# Both schedules draw the same picture, bit for bit (on llvmpipe), with the same rays; a message says why the wavefront
+# does not draw.
+SKY = ["--hdri-file", SCENES / "sky.pfm"]
+# Large triangles first; spheres and lamps; glass with absorption; alpha.
+PICTURES = {
+    "room-ball": [],
+    "many-lights": ["--traversal", "front-to-back"],
+    "rough-glass": [*SKY, "--bounces", "6"],
+    "coverage": ["--traversal", "front-to-back"],
+}
+# All lobes, textures, thin walls.
+MORE_PICTURES = {
+    "lobes": [*SKY, "--traversal", "front-to-back"],
+    "mapped-layers": [*SKY, "--traversal", "front-to-back"],
+    "glass-sphere": [*SKY, "--traversal", "front-to-back", "--disable", "light-sampling"],
+    "thin-glass": [*SKY, "--traversal", "front-to-back", "--rr-depth", "1"],
+}
+
+
+# The ways to draw, and what only some scenes and stages have: passes beside the picture, stages before gi, suspended paths, the catcher.
+ENTRIES = (["--dispatch", "fragment"], ["--dispatch", "compute", "--schedule", "megakernel"], ["--schedule", "wavefront"])
+TUNED = (("room-ball", []), ("cornell-box", ["--traversal", "literals"]), ("thin-glass", SKY), ("coverage", []), ("lobes", SKY))
+TUNED_BY_FRAGMENTS = (("plastics", ["--stage", "refraction", *SKY]), ("many-lights", ["--light-reuse", "spatial"]), ("caustics", []), ("many-lights", ["--stage", "shadows"]),
+                      ("coverage", ["--shadow-catcher", "bottom"]), ("sphere-textured", ["--debug-view", "texcoords"]), ("room-ball", ["--denoise", "variance"]))
+
+
+class BothSchedules(Case):
+    def drawn(self, scene, schedule, *options):
+        """Returns the bytes of the file, and the statistics."""
+        path, stats = self.folder / "x.pfm", self.folder / "s.json"
+        asked = [] if "--schedule" in options else ["--schedule", schedule]
+        self.renders(SCENES / (scene + ".gltf"), "-o", path, "--quiet", *asked, "--stats", stats, *options)
+        return path.read_bytes(), json.loads(stats.read_text())
+
+    def same(self, scene, *options):
+        picture, stats = self.drawn(scene, "megakernel", *options)
+        waves, other = self.drawn(scene, "wavefront", *options)
+        self.assertEqual(other["schedule"], "wavefront", scene)
+        self.assertEqual(stats["schedule_reason"], "--schedule")
+        for name in ("rays", "samples_per_pixel", "budget_hits", "nonfinite_pixels"):
+            self.assertEqual(stats[name], other[name], f"{scene}: {name}")
+        self.assertAlmostEqual(stats["cut_share"], other["cut_share"], delta=1e-6, msg=scene)
+        self.assertEqual(picture, waves, scene)
+
+
+class Schedules(BothSchedules):
+    def test_the_same_bits(self):
+        for scene, options in PICTURES.items():
+            self.same(scene, *options, "--resolution", "37,70", "--spp", 3)
+
+    def test_instances(self):
+        write_field(self.folder, "field", 64, 500)
+        # The schedules agree without light sampling, too: then there are no shadow rays.
+        for switch in ("--enable", "--disable"):
+            self.same(str(self.folder / "field"), *SKY, "--instancing", "share", "--resolution", "37,40", "--spp", 2, switch, "light-sampling")
+
+    def test_what_is_cut_into_many_draws(self):
+        """Columns that end before a lane does, tiles beside each other, and more samples than the steps of a draw take."""
+        self.same("room-ball", "--resolution", "150,261", "--spp", 1)
+        self.same("room-ball", "--resolution", "8,40", "--spp", 200, "--sample-offset", 1000)
+
+    def test_adaptive_targets(self):
+        self.same("room-ball", "--resolution", "40,40", "--noise", 0.2, "--spp", 512)
+
+    def test_auto_takes_the_wavefront_for_many_paths(self):
+        """On a software rasteriser, which is what the tests have."""
+        for scene, options, chosen in (("room-ball", ["--spp", 1], ("megakernel", "few paths")),
+                                       ("room-ball", ["--spp", 65536, "--noise", 0.5], ("wavefront", None)),
+                                       ("many-lights", ["--spp", 65536, "--noise", 0.5], ("megakernel", "a small tree"))):
+            stats = self.drawn(scene, "auto", "--resolution", "8,8", *options)[1]
+            self.assertEqual((stats["schedule"], stats.get("schedule_reason")), chosen, scene)
+
+    def test_a_picture_that_is_stopped_is_even(self):
+        stats = self.drawn("room-ball", "wavefront", "--resolution", "300,300", "--time", 3)[1]
+        self.assertGreater(stats["fewest_samples"], 0)
+
+    def test_who_asks_for_the_wavefront_is_told_why_not(self):
+        result = self.renders(SCENES / "room-ball.gltf", "-o", self.folder / "x.pfm", "--schedule", "wavefront", "--stage", "flat", "--resolution", "8,8",
+                              "--spp", 1)
+        self.assertIn("--schedule wavefront: the megakernel draws: a stage before global illumination", result.stderr)
+        stats = self.drawn("cornell-box", "wavefront", "--resolution", "16,16", "--noise", 0.5)[1]
+        self.assertEqual(stats["schedule"], "wavefront")
+
+    def test_why_it_is_the_megakernel(self):
+        small = ["--resolution", "8,8", "--spp", 1]
+        for why, scene, options in (("the scene is shader text", "cornell-box", ["--traversal", "literals"]),
+                                    ("the tree is not walked front to back", "room-ball", ["--traversal", "bvh"]),
+                                    ("a layer", "room-ball", ["--debug-view", "normal"]),
+                                    ("the heat map", "room-ball", ["--debug-view", "visits"]),
+                                    ("a stage before global illumination", "room-ball", ["--stage", "shadows"]),
+                                    ("--dispatch fragment", "room-ball", ["--dispatch", "fragment"])):
+            stats = self.drawn(scene, "wavefront", *small, *options)[1]
+            self.assertEqual((stats["schedule"], stats.get("schedule_reason")), ("megakernel", why), scene)
+
+
+class MoreSchedules(BothSchedules):
+    def test_the_same_bits(self):
+        for scene, options in MORE_PICTURES.items():
+            self.same(scene, *options, "--resolution", "37,70", "--spp", 3)
+
+
+class Tunes(BothSchedules):
+    """The text for GPUs draws the same bits as that for software."""
+    def same_tuned(self, scene, *options):
+        small = ["--resolution", "37,30", "--spp", 3, *options]
+        (picture, stats), (other, tuned) = (self.drawn(scene, "auto", *small, "--tune", tune) for tune in ("software", "gpu"))
+        self.assertNotIn("+gpu", stats["variant"])
+        self.assertIn("+gpu", tuned["variant"])
+        for name in ("rays", "budget_hits", "nonfinite_pixels", "cut_share"):
+            self.assertEqual(stats.get(name), tuned.get(name), f"{scene}: {name}")
+        self.assertEqual(picture, other, (scene, options))
+
+    def test_by_each_entry(self):
+        for scene, options in TUNED if EXTENDED else TUNED[:2]:
+            for entry in ENTRIES:
+                self.same_tuned(scene, *options, *entry)
+
+    def test_what_else_is_drawn(self):
+        for scene, options in TUNED_BY_FRAGMENTS:
+            self.same_tuned(scene, *options)
+
+    def test_work_groups_of_several_squares(self):
+        self.same_tuned("room-ball", "--resolution", "131,70", "--stage", "flat", "--dispatch", "compute")
+
+    def test_verbose_says_which_stage_runs_the_tracer(self):
+        for options, said in (([], "dispatch fragment: measured"), (["--dispatch", "compute"], "dispatch compute: --dispatch;"),
+                              (["--schedule", "wavefront"], "dispatch compute: the wavefront")):
+            result = self.renders(SCENES / "room-ball.gltf", "-o", self.folder / "x.pfm", "--resolution", "8,8", "--spp", 1, "--verbose", *options)
+            self.assertIn(said, result.stderr)
+            self.assertIn("`fragtrace bench frame FILE --config ", result.stderr)
+
+    def test_stacks_of_paths_that_are_suspended(self):
+        write_field(self.folder, "field", 64, 500)
+        self.same_tuned(str(self.folder / "field"), *SKY, "--instancing", "share", "--dispatch", "compute")
+
+
+# Meshes that stand in the scene many times: shared ones draw the picture of their copies, in memory of what is unique.
+class Instancing(Case):
+    def drawn(self, name, *options, size="96,54", layers=None):
+        path, stats = self.folder / f"{name}.exr", self.folder / f"{name}.json"
+        self.renders(self.folder / "field.gltf", "-o", path, "--quiet", "--resolution", size, "--stats", stats,
+                     *(["--aov", layers] if layers else []), *options)
+        return Exr(path), json.loads(stats.read_text())
+
+    def both(self, *options, layers):
+        shared, told = self.drawn("shared", "--instancing", "share", *options, layers=layers)
+        flat, told_flat = self.drawn("flat", "--instancing", "flatten", *options, layers=layers)
+        self.assertIn("instances", told["variant"].split("+"))
+        self.assertNotIn("instances", told_flat["variant"].split("+"))
+        self.assertEqual(told["budget_hits"], 0)
+        self.assertEqual(told["scene"]["instancing"]["triangles_drawn"], told_flat["scene"]["triangles"])
+        return shared, flat
+
+    def same(self, shared, flat, layer, bound, apart=0):
+        """All but so many pixels are no further apart than the bound."""
+        values = zip(shared.values(layer), flat.values(layer))
+        count = sum(abs(a - b) > bound * (1 + abs(b)) for a, b in values)
+        self.assertLessEqual(count, apart, layer)
+
+    def test_shared_meshes_draw_the_picture_of_their_copies(self):
+        write_field(self.folder, "field", 64, 500)
+        shared, flat = self.both("--spp", 2, layers="depth,geometric-normal")
+        # Beyond rounding: rays at outlines and edges that meet another triangle.
+        self.same(shared, flat, "depth.Z", 2e-5, 3)
+        self.same(shared, flat, "geometric-normal.X", 2e-3, 25)
+        self.same(shared, flat, "geometric-normal.Y", 2e-3, 25)
+        mean = lambda exr: sum(exr.luminances()) / (96 * 54)
+        self.assertAlmostEqual(mean(shared) / mean(flat), 1.0, delta=2e-3)
+
+    def test_mirrored_and_unevenly_scaled_ones_too(self):
+        write_field(self.folder, "field", 64, 500, uneven=True)
+        shared, flat = self.both("--spp", 1, "--stage", "shadows", layers="depth,normal")
+        self.same(shared, flat, "depth.Z", 2e-5, 3)
+        # Normals are interpolated before or after they are transformed (docs/design/numerics.md).
+        for layer in ("normal.X", "normal.Y", "normal.Z"):
+            self.same(shared, flat, layer, 3e-2, 10)
+        self.same(shared, flat, "R", 3e-2, 60)
+
+    def test_mirrored_ones_with_normal_maps(self):
+        shutil.copy(SCENES / "bricks-normal.png", self.folder)
+        write_field(self.folder, "field", 64, 500, uneven=True, normal_map="bricks-normal.png")
+        shared, flat = self.both("--spp", 1, "--stage", "normal-maps", layers="normal")
+        for layer in ("normal.X", "normal.Y", "normal.Z"):
+            self.same(shared, flat, layer, 3e-2, 10)
+        self.same(shared, flat, "R", 3e-2, 20)
+
+    def test_the_heat_map_and_the_other_way_through_the_tree(self):
+        write_field(self.folder, "field", 64, 500)
+        visits, told = self.drawn("visits", "--instancing", "share", "--spp", 1, "--debug-view", "visits")
+        self.assertIn("instances", told["variant"].split("+"))
+        self.assertGreater(max(visits.values("R")), 0)
+        nearest, _ = self.drawn("nearest", "--instancing", "share", "--spp", 1, "--stage", "phong")
+        fixed, _ = self.drawn("fixed", "--instancing", "share", "--spp", 1, "--stage", "phong", "--traversal", "bvh")
+        self.same(nearest, fixed, "R", 0, 2)
+
+    def test_what_walks_no_tree_gets_copies(self):
+        write_field(self.folder, "field", 9, 32)
+        for traversal in ("iterative", "literals"):
+            result = run("render", self.folder / "field.gltf", "-o", self.folder / "x.pfm", "--spp", 1, "--resolution", "16,9",
+                         "--instancing", "share", "--traversal", traversal)
+            if traversal == "literals":
+                self.assertEqual(result.returncode, 2)
+                self.assertIn("triangles", result.stderr)
+            else:
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertIn("warning: --instancing share: only trees hold shared meshes; all are copied", result.stderr)
+
+    def test_a_name_that_is_no_choice_is_refused(self):
+        write_field(self.folder, "field", 4, 32)
+        self.fails(2, "info", self.folder / "field.gltf", "--instancing", "copy", says=["--instancing", "flatten"])
+
+
+class ManyInstances(Case):
+    def peak(self, *arguments):
+        """Runs it, and returns what it held in memory at most, in MB."""
+        process = subprocess.Popen([FRAGTRACE, *map(str, arguments)], stdout=subprocess.DEVNULL)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        self.assertEqual(process.returncode, 0)
+        return usage.ru_maxrss / 1000
+
+    def test_ten_thousand_instances_of_ten_thousand_triangles(self):
+        write_field(self.folder, "field", 10000, 10000)
+        scene, stats = self.folder / "field.gltf", self.folder / "x.json"
+        loaded = self.peak("info", scene)
+        drawn = self.peak("render", scene, "-o", self.folder / "x.pfm", "--stage", "flat", "--spp", 1, "--resolution", "64,36",
+                          "--quiet", "--stats", stats)
+        told = json.loads(stats.read_text())
+        print(f"peak {loaded:.0f} MB loaded, {drawn:.0f} MB drawn; loaded in {told['load_ms']:.0f} ms")
+        self.assertEqual(told["scene"]["instancing"]["triangles_drawn"], 100_000_002)
+        self.assertEqual(told["scene"]["instancing"]["instances"], 10000)
+        self.assertLess(told["scene_bytes"], 4_000_000)
+        self.assertLess(loaded, 80)  # the program, the file and some MB; copies would take 20 GB
+        self.assertLess(drawn, 300)  # and the driver's compiler
 
 
 if __name__ == "__main__":
