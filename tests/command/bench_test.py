@@ -438,8 +438,8 @@ class QuickCompilation(Case):
                 self.assertEqual(quick, optimised)
 
     def test_many_paths_are_not(self):
-        self.assertFalse(self.picture(BOX, "--resolution", "129,128", "--spp", "1", "--stage", "flat")[1])
-        self.assertTrue(self.picture(BOX, "--resolution", "128,128", "--spp", "1", "--stage", "flat")[1])
+        self.assertFalse(self.picture(BOX, "--resolution", "513,512", "--spp", "1", "--stage", "flat")[1])
+        self.assertTrue(self.picture(BOX, "--resolution", "512,512", "--spp", "1", "--stage", "flat")[1])
         self.assertFalse(self.picture(BOX, "--resolution", "8,8", "--time", "0.1", "--stage", "flat")[1])
 
 
