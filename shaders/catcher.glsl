@@ -14,12 +14,14 @@ float catcherDistance(vec3 origin, vec3 direction) {
   return above > 0.0 && direction.y < 0.0 ? above / -direction.y : 0.0;
 }
 
-/// Returns true if the path's ray meets the catcher before anything else; t is the distance of what it has hit.
-bool meetsCatcher(Path p, float t) {
-  if (p.caught) return true;
-  if (!p.cameraRay && !(kTransparentGlass && p.clear)) return false;
+/// The distance at which the path's ray meets the catcher before anything else, or else `otherwise`. A path that is
+/// caught is there.
+float catcherBefore(Path p, float otherwise) {
+  if (p.caught) return 0.0;
+  if (!p.cameraRay && !(kTransparentGlass && p.clear)) return otherwise;
   float there = catcherDistance(p.origin, p.direction);
-  return there > 0.0 && there < t * (1.0 - kCatcherMargin);
+  float t = p.hitSlot < 0 ? kFarAway : p.hitT;
+  return there > 0.0 && there < t * (1.0 - kCatcherMargin) ? there : otherwise;
 }
 
 /// The irradiance of the catcher by environment and punctual lights if nothing is in the way.
@@ -42,8 +44,7 @@ vec3 shareOfLight(vec3 part, vec3 all) {
 
 /// The camera ray meets the catcher. The path takes one light sample, and one direction in which the environment may be
 /// hidden.
-Path beginShadow(Path p) {
-  float t = catcherDistance(p.origin, p.direction);
+Path beginShadow(Path p, float t) {
   if (kTransparentGlass) {
     float passed = passedByGlass(p);
     p.throughput *= p.etaScale;
@@ -125,19 +126,7 @@ Path endShadow(Path p) {
   return p;
 }
 
-/// The guides of the catcher are white and level, so that a filter does not take it for empty surroundings.
-Path guideAtCatcher(Path p) {
-  float t = catcherDistance(p.origin, p.direction);
-  p = takeGuide(p, depthAlong(p.direction, t, p.time), vec3(0.0, 1.0, 0.0));
-  p.caught = true;
-  return guideStop(p, vec3(1.0));
-}
-
-Path meetCatcher(Path p) {
-  if (kAov == kAovGuides) return guideAtCatcher(p);
-  if (p.caught) return endShadow(p);
-  return beginShadow(p);
-}
+Path meetCatcher(Path p, float t) { return p.caught ? endShadow(p) : beginShadow(p, t); }
 
 /// The share of a shadow that a pixel of the whole picture keeps, since it ends before the edge. The outermost pixels
 /// have none. Lines of the same share are round at the corners, and bent along an edge, as far as the model leaves room
@@ -152,13 +141,6 @@ float shadowLeft(ivec2 pixel) {
   return 1.0 - smoothstep(0.0, 1.0, length(max(1.0 - toEdge / width + bend.yx, vec2(0.0))));
 }
 
-/// The guide of the catcher at a pixel. Where the shadow has ended, there is nothing to be filtered.
-Path guideOfShadow(Path p, ivec2 pixel) {
-  p.caught = false;
-  if (frame.shadowFade != vec2(0.0) && shadowLeft(pixel) <= 0.0) p.covered = false;
-  return p;
-}
-
 /// The alpha of the finished sample. For a shadow on the catcher it is the luminance of the hidden share.
 float coverageOf(Path p) {
   if (kShadowCatcher && p.caught) {
@@ -166,7 +148,6 @@ float coverageOf(Path p) {
     return kTransparentGlass ? 1.0 - p.etaScale * (1.0 - shadow) : shadow;
   }
   if (kTransparentGlass && !p.covered) return 1.0 - p.etaScale;
-  if (kAov == kAovGuides && kAlpha && !p.covered) return p.guide.share;
   return float(coveredRays(p)) / float(kCameraRays);
 }
 

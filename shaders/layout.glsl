@@ -36,9 +36,10 @@ const uint kFilmCountsBinding = 2u;        // rgba32ui: samples, rays, non-finit
 const uint kPathStatesBinding = 13u;
 const uint kProgressBinding = 14u;
 // uvec4s a path (path_rows.glsl); where no ray passes surfaces, the wavefront leaves the last ones out. Behind those of
-// a suspended path come one more, those of its stack, and one where parts of the light are drawn, or light paths.
+// a suspended path come one more, those of its stack, and those of its integrator's state.
 const uint kPathRows = 12u;
 const uint kPathPassingRows = 3u;
+const uint kPathOwnRows = 3u;
 // A lane of the wavefront has this many pixels of a column of its tile, each with the state of its path, and a row of
 // its own before them.
 const uint kWaveSlots = 32u;

@@ -245,7 +245,6 @@ Path seePage(Path p) {
 /// The path's ray has met nothing.
 Path meetSurroundings(Path p) {
   p.phase = kPhaseEnd;
-  if (!kDrawsLight || kLightPaths) return p;
   if (kFisheye && p.cameraRay && p.origin.y == kAboveAll) return p;
   if (p.cameraRay) return addLight(p, p.throughput * seenBehind(p.direction));
   if (kTransparentGlass && p.clear) return seePage(p);
@@ -256,7 +255,7 @@ Path meetSurroundings(Path p) {
   vec4 seen = environmentAlong(p.direction);
   if (kSunPaths && p.prefix == kPrefixCaustic) seen.rgb = mapBesideSun(p.direction);
   float weight = 1.0;
-  if (kGi && kEnvironmentSampling && p.pdf > 0.0) {
+  if (kEnvironmentSampling && p.pdf > 0.0) {
     float samples = lightSamplesAt(countedScatterings(p) - 1);
     weight = balanceWeight(p.pdf, samples * frame.environmentChance * environmentPdf(seen, p.direction));
   }
@@ -283,6 +282,9 @@ float survivalOf(Path p, float most) {
   float late = p.bounce >= kLatestRoulette ? min(most, kLateSurvival) : most;
   return min(maxComponent(p.throughput) * p.etaScale, late);
 }
+
+/// The prefix of a path that a surface has scattered; the integrator's.
+int prefixBehind(Path p, Surface s, float pdf, bool straight);
 
 /// Sets where the path goes on from the surface. `after` keeps it until the shadow ray is traced. weight multiplies the
 /// throughput, and zero ends the path.
@@ -319,14 +321,7 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
   if (roulette) p.throughput /= survival;
   p.cameraRay = false;
   if (kTransparentGlass) p.clear = p.clear && transmitted && m.transmission > 0.0;
-  if (kCaustics && kLightPaths) p.prefix = lightPrefix(p.prefix, pdf == 0.0, straight);
-  if (kCaustics && !kLightPaths) {
-    bool caster = isCaster(materialFlags(s.material), pdf == 0.0);
-    bool first = p.bounce == 1;
-    bool narrow = pdf == 0.0 || (first && pdf > kNarrow);
-    // Without light paths, camera paths leave out nothing.
-    p.prefix = casterCount < 0 ? kPrefixSmooth : cameraPrefix(p.prefix, first, narrow, straight, caster);
-  }
+  if (kCaustics) p.prefix = prefixBehind(p, s, pdf, straight);
   // Straight through a thin wall the path keeps its ray, and the pdf that light sampling shares with it.
   p.straightBounces += straight ? 1 : 0;
   p.after = ends ? kPhaseEnd : straight ? kPhasePass : kPhaseExtend;
@@ -356,15 +351,15 @@ Path proceed(Path p) {
 
 /// The MIS weight, against light sampling, of the emission that the path's ray has hit: 1 if no light sample finds it.
 float weightOfEmission(Path p, Surface s, float cosine) {
-  if (!kGi || !kEmissiveTriangles || !s.emitter || p.pdf <= 0.0) return 1.0;
+  if (!kEmissiveTriangles || !s.emitter || p.pdf <= 0.0) return 1.0;
   int slot = kMoving ? slotInFirst(p.hitSlot, p.time) : p.hitSlot;
   float pdf = kLightTree ? treePdf(slot, p.origin, p.normal, p.hitT, cosine) : emitterPdf(s.material, p.hitT, cosine);
   return misWeight(p.pdf, lightSamplesAt(countedScatterings(p) - 1) * pdf);
 }
 
 /// Emission of the point hit, weighted against light sampling.
-vec3 emittedAt(Path p, Surface s, uint flags) {
-  if (!s.front && (flags & kMaterialDoubleSided) == 0u) return vec3(0.0);
+vec3 emittedAt(Path p, Surface s) {
+  if (!s.front && (materialFlags(s.material) & kMaterialDoubleSided) == 0u) return vec3(0.0);
   // Light paths bring it.
   bool sampled = kEmissiveTriangles && s.emitter && materialFloats(s.material, kMaterialMaps).z > 0.0;
   if (kCaustics && sampled && p.prefix == kPrefixCaustic) return vec3(0.0);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A path in rows of the buffer of path states. The wavefront keeps paths from round to round, the megakernel from draw
 // to draw (kResumable). Rows lie alike in both. The wavefront keeps no row that its variant does not need.
-#include "path_states.glsl"
 
 const int kRowRay = 0;              // origin, tie
 const int kRowDirection = 1;        // direction, medium
@@ -18,21 +17,18 @@ const int kRowShadowHit = 9;        // the hit of the shadow ray, or of a suspen
 // The last surfaces that the ray and the shadow ray have passed: distance and slot of each; a suspended traversal has
 // its two groups instead of the second.
 const int kRowTMin = 10;
-// single-sided surfaces that a light path has met, or the cone of a camera path; instance of the row of the shadow
-// ray's hit, instance that is walked, medium of the shadow ray
+// the cone; instance of the row of the shadow ray's hit, instance that is walked, medium of the shadow ray
 const int kRowInstances = 11;
 // kResumable:
 const int kRowSuspended = 12;       // node of the traversal, light sample, more flags, visits
 const int kRowStack = 13;
-const int kRowAov = kRowStack + kStackSize / 4;  // kLightPart: aovWeight
-const int kRowBefore = kRowAov + (kLightPart ? 1 : 0);  // kTransparentGlass: before
-const int kRowLight = kRowStack + kStackSize / 4;  // kLightPaths: flux, waiting; splatPixel, range, travelled
+const int kRowOwn = kRowStack + kStackSize / 4;  // the integrator's
 
 const bool kShadowRows = kShadows || kPassesLight || kInstances || kResumable;
 const bool kPassingRows = kPassing || kResumable || kMedia || kRayCones;
 
 /// Rows of a path of the megakernel.
-const int kSuspendedRows = kRowBefore + (kTransparentGlass ? 1 : 0) + (kLightPaths ? 2 : 0);
+const int kSuspendedRows = kRowOwn + int(kPathOwnRows);
 
 /// The count of scatterings and, above it, the prefix.
 uint scatteringsOf(Path p) { return uint(p.bounce) | (kCaustics ? uint(p.prefix) << 29 : 0u); }
@@ -74,9 +70,7 @@ void savePath(Path p, int row, bool begins) {
   if (kPassingRows) {
     Traversal t = p.traversal;
     pathStates[row + kRowTMin] = uvec4(floatBitsToUint(t.tMin), uint(t.tMinSlot), 0u, 0u);
-    uint met = kLightPaths ? uint(p.fromLight.singleSided) : 0u;
-    if (kRayCones) met = p.cone;
-    pathStates[row + kRowInstances] = uvec4(met, uint(t.hitInstance), uint(t.instance), p.shadowMedium);
+    pathStates[row + kRowInstances] = uvec4(p.cone, uint(t.hitInstance), uint(t.instance), p.shadowMedium);
   }
 }
 
@@ -138,44 +132,16 @@ Path loadShadow(Path p, int row) {
   return p;
 }
 
-/// Guides trace no shadow ray: their own state is stored in its rows.
-Path packOwnState(Path p) {
-  if (kAov == kAovGuides) {
-    p.radiance = p.guide.albedo;
-    p.contribution = p.guide.normal;
-    p.shadowLimit = p.guide.depth;
-    p.shadowOrigin.x = p.guide.share;
-    p.shadowDirection = p.guide.lastNormal;
-  }
-  return p;
-}
-
-Path unpackOwnState(Path p) {
-  if (kAov == kAovGuides) {
-    p.guide = Guide(p.radiance, p.contribution, p.shadowLimit, p.shadowOrigin.x, p.shadowDirection);
-  }
-  return p;
-}
-
 /// A path that goes on in the next draw, in whatever phase and wherever in a traversal.
 void suspendPath(Path p, int row) {
-  p = packOwnState(p);
   savePath(p, row, false);
   Traversal t = p.traversal;
-  uint flags = uint(p.after) | (p.caught ? 16u : 0u) | (kLightPaths && p.fromLight.glassFirst ? 32u : 0u) |
-               (p.clear ? 64u : 0u);
+  uint flags = uint(p.after) | (p.caught ? 16u : 0u) | (p.clear ? 64u : 0u);
   pathStates[row + kRowShadowHit] = metBy(t);
   pathStates[row + kRowTMin].zw = uvec2(t.group, t.leaves);
   pathStates[row + kRowSuspended] = uvec4(uint(t.node), uint(p.lightSampleIndex), flags, uint(t.visits));
   if (!kIterative && !kLiterals) saveStack(t.stack, row + kRowStack);
-  if (kLightPart) pathStates[row + kRowAov] = uvec4(floatBitsToUint(p.aovWeight), 0u);
-  if (kTransparentGlass) pathStates[row + kRowBefore] = uvec4(floatBitsToUint(p.before), 0u);
-  if (kLightPaths) {
-    LightPath l = p.fromLight;
-    pathStates[row + kRowLight] = floatBitsToUint(vec4(l.flux, l.waiting));
-    pathStates[row + kRowLight + 1] = floatBitsToUint(vec4(l.splatPixel, l.range, l.travelled));
-    pathStates[row + kRowRadiance].x = l.chain;  // it has no radiance
-  }
+  suspendOwn(p, row + kRowOwn);
 }
 
 Path resumePath(int row, uint key) {
@@ -185,15 +151,6 @@ Path resumePath(int row, uint key) {
   p.after = int(a.z & 15u);
   p.caught = (a.z & 16u) != 0u;
   p.clear = (a.z & 64u) != 0u;
-  if (kLightPaths) {
-    vec4 l = uintBitsToFloat(readPathStates(row + kRowLight));
-    vec4 m = uintBitsToFloat(readPathStates(row + kRowLight + 1));
-    p.fromLight = LightPath(l.xyz, m.z, m.w, (a.z & 32u) != 0u, m.xy, l.w, floatBitsToUint(p.radiance.x),
-                            int(readPathStates(row + kRowInstances).x));
-    p.radiance = vec3(0.0);
-  }
-  if (kTransparentGlass) p.before = uintBitsToFloat(readPathStates(row + kRowBefore).xyz);
-  if (kLightPart) p.aovWeight = uintBitsToFloat(readPathStates(row + kRowAov).xyz);
   if (kMoving) p.traversal.part = momentAt(p.time, frame.segments.x).part;
   p.traversal.node = int(a.x);
   p.traversal.visits = int(a.w);
@@ -207,5 +164,5 @@ Path resumePath(int row, uint key) {
   p.traversal.both = kLightPaths && p.phase == kPhaseExtend;
   p.traversal.tie = p.phase == kPhaseExtend ? p.tie : 0.0;
   if (!kIterative && !kLiterals) p.traversal.stack = loadStack(row + kRowStack);
-  return unpackOwnState(p);
+  return resumeOwn(p, row + kRowOwn);
 }

@@ -37,27 +37,6 @@ const bool kClearShadows = kShadowCatcher && kTransmission && kDrawsLight;
 /// from 0 on. All camera rays of a sample take one where they first scatter; the last alone goes on.
 float lightSamplesAt(int scattering) { return kCameraRays > 1 && scattering == 0 ? float(kCameraRays) : 1.0; }
 
-/// The sums of a path that draws guides (kAovGuides), and the normal of its last surface.
-struct Guide {
-  vec3 albedo;
-  vec3 normal;
-  float depth;
-  float share;      // share of the ray that surfaces have taken so far
-  vec3 lastNormal;
-};
-
-/// A light path until the camera sees it (kLightPaths).
-struct LightPath {
-  vec3 flux;
-  float range;       // range of the path's punctual light; 0: unlimited
-  float travelled;   // distance since the light, up to the surface that was passed last
-  bool glassFirst;   // the path has met smooth glass first
-  vec2 splatPixel;   // the place in the picture at which the camera sees the point of the shadow ray
-  float waiting;     // sum of the light that the camera may see later; one part waits as the shadow ray (reservoir)
-  uint chain;        // a hash of the surfaces that it has met, and of their sides
-  int singleSided;   // single-sided surfaces met so far that could have scattered it
-};
-
 struct Path {
   int phase;
   int after;       // the phase that follows once the shadow ray is settled
@@ -92,8 +71,6 @@ struct Path {
   float shadowLimit;
   uint shadowMedium;  // the solids that the shadow ray is inside of, as `medium` (kDims)
   vec3 aovWeight;       // the share of the light still to come that belongs to the AOV (kLightPart)
-  Guide guide;
-  LightPath fromLight;
   vec3 contribution;  // added if the shadow ray meets nothing; of a caught path's own ray, what glass has let pass
   int hitSlot;        // slot that the ray has hit, or -1
   float hitT;         // since the last scattering
@@ -135,8 +112,6 @@ Path newPath() {
   p.shadowLimit = 0.0;
   p.shadowMedium = kPrimitiveNone;
   p.aovWeight = vec3(kAov == kAovDiffuse || kAov == kAovSpecular ? 0.0 : 1.0);
-  if (kAov == kAovGuides) p.guide = Guide(vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(0.0, 0.0, 1.0));
-  if (kLightPaths) p.fromLight = LightPath(vec3(0.0), 0.0, 0.0, false, vec2(0.0), 0.0, 0u, 0);
   p.contribution = vec3(0.0);
   p.hitSlot = -1;
   p.hitT = 0.0;
@@ -154,12 +129,6 @@ int earlierRays(Path p) { return kCameraRays > 1 ? p.rays >> 24 & 15 : 0; }
 
 /// Camera rays of the sample that have met a surface, with this one.
 int coveredRays(Path p) { return (kCameraRays > 1 ? p.rays >> 28 : 0) + (p.covered ? 1 : 0); }
-
-/// The path's own ray has been traced.
-void countRay(Path p) { countWork(kLightPaths ? kWorkLightRays : p.cameraRay ? kWorkCameraRays : kWorkBounceRays, 1u); }
-
-/// A shadow ray has been traced.
-void countShadowRay() { countWork(kLightPaths ? kWorkSplatRays : kWorkShadowRays, 1u); }
 
 /// The path with the hit of its ray.
 Path withHit(Path p, Traversal hit) {

@@ -79,12 +79,13 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "film.glsl"
 // On camera paths 0 without guiding, and -1 without light paths.
 layout(location = kMostCasters) uniform int casterCount;
+layout(location = 0) uniform vec4 casters[kMostCasters];  // local space: middle, radius
 
 #include "caustics/flux.glsl"
 #include "caustics/form.glsl"
 #include "path_state.glsl"
+#include "path_states.glsl"
 #include "tree/alpha.glsl"
-#include "path_rows.glsl"
 #include "media/phase.glsl"
 #include "media/flight.glsl"
 #include "media/fog.glsl"
@@ -97,10 +98,10 @@ layout(location = kMostCasters) uniform int casterCount;
 #include "reuse/candidates.glsl"
 #include "reuse/reservoir.glsl"
 #include "reuse/neighbours.glsl"
-#include "caustics/emit.glsl"
 #include "caustics/guiding.glsl"
 #include "shade.glsl"
-#include "catcher.glsl"
+#include "integrator.glsl"
+#include "path_rows.glsl"
 
 /// Rays are traced from end to end: what the budget ends begins its sample again in the next draw, and no traversal is
 /// kept from round to round.
@@ -118,16 +119,11 @@ int numberInTile(ivec2 pixel) {
   return place.y * frame.tile.z + place.x;
 }
 
-/// The next sample of a pixel.
-Path beginSample(FilmPixel film, ivec2 pixel, uint key, int steps) {
-  if (kCountWork) beginWork(numberInTile(pixel));
-  if (kLightPaths) {
-    ivec2 record = recordOf(pixel, film.samples);
-    storeRecord(record, false, vec3(0.0), vec2(0.0));
-    storeRecord(record, true, vec3(0.0), vec2(0.0));
-    return startLightPath(record, key, steps);
-  }
-  return startPath(pixel, key, film.samples + uint(frame.firstSample), 0, steps);
+/// Adds the finished path to the film.
+FilmPixel endSample(FilmPixel film, Path p, ivec2 pixel) {
+  if (kCountWork) endWork(numberInTile(pixel));
+  film.rays += uint(tracedRays(p));
+  return record(film, p, pixel);
 }
 
 /// The luminance of the throughput that a path had left when --bounces ended it, as seen from outside all glass.
@@ -144,55 +140,15 @@ void reportCut(float cut) {
   if (before + units < before) atomicAdd(progress.cutHigh, 1u);
 }
 
-/// Returns true if the sample of a finished path has more camera rays.
-bool hasMoreRays(Path p) { return earlierRays(p) < kCameraRays - 1; }
-
-/// The next camera ray of a finished path's sample.
-Path nextCameraRay(Path p, FilmPixel film, ivec2 pixel, uint key) {
-  uint index = film.samples + uint(frame.firstSample);
-  Path next = startPath(pixel, key, index, earlierRays(p) + 1, p.traversal.steps);
-  next.radiance = p.radiance;
-  next.rays = p.rays + kEarlierRay + (p.covered ? kCoveredRay : 0);
-  return next;
-}
-
-/// Adds the finished path to the film.
-FilmPixel endSample(FilmPixel film, Path p, ivec2 pixel) {
-  if (kCountWork) endWork(numberInTile(pixel));
-  film.rays += uint(tracedRays(p));
-  if (kCountVisits) p.radiance = vec3(float(p.traversal.visits));
-  if (kShadowCatcher && kAov == kAovGuides && p.caught) p = guideOfShadow(p, pixel + frame.filmOffset);
-  if (kShadowCatcher && p.caught && frame.shadowFade != vec2(0.0)) p.radiance *= shadowLeft(pixel + frame.filmOffset);
-  float alpha = coverageOf(p);
-  if (kShadowCatcher) p = showShadow(p);
-  if (kLightPaths || kStoresReservoirs) {
-    film.samples += 1u;
-  } else if (kAov == kAovGuides) {
-    p = endGuide(p);
-    film = addGuides(film, p.guide.albedo, p.guide.normal, p.guide.depth, alpha);
-  } else {
-    if (kShadowCatcher && frame.backgroundShows < 0.0) film.flags |= kPixelOverWhite;
-    film = addSample(film, p.radiance, alpha);
-  }
-  return film;
-}
-
-/// Takes the step that follows from the hit or miss of the path's ray.
+/// The path's ray has been traced: something stops it before its hit, or it hits a surface, or nothing.
 Path meet(Path p) {
-  float grid = kFarAway;
-  if (kDensityGrid && kAov == kAovGuides) grid = gridBefore(p);
-  if (kCountVisits) {
-    p.phase = kPhaseEnd;
-  } else if (kAov == kAovGuides && grid < kFarAway) {
-    p = guideInMedium(p, grid);
-  } else if (kShadowCatcher && meetsCatcher(p, p.hitSlot < 0 ? kFarAway : p.hitT)) {
-    p = meetCatcher(p);
-  } else if (kMedia && p.hitSlot < 0 && p.hitT < kFarAway) {
-    p = scatterInMedium(p);
+  float t = interceptedAt(p);
+  if (t < kFarAway) {
+    p = intercept(p, t);
   } else if (p.hitSlot < 0) {
-    p = kFog && kAov == kAovGuides ? guideInFog(p) : meetSurroundings(p);
+    p = miss(p);
   } else {
-    p = shade(p);
+    p = hit(p);
   }
   return p;
 }
@@ -246,8 +202,6 @@ Path advance(Path p, int budget, TreeFrame tree) {
   return p;
 }
 
-uint keyOfLane(ivec2 pixel) { return kLightPaths ? keyOfLightPaths() : keyOfPixel(pixel); }
-
 /// Advances one pixel (y from the bottom) until it has the samples wanted or has used the step budget of this draw. On
 /// GPUs its film stays in memory while a path goes on.
 void tracePixel(ivec2 pixel) {
@@ -262,24 +216,24 @@ void tracePixel(ivec2 pixel) {
   Path p;
   p.phase = kPhaseEnd;
   p.traversal.steps = 0;
-  if (kResumable && (film.flags & kPixelSuspended) != 0u) p = resumePath(row, keyOfLane(pixel));
-  p.pixel = kLightPaths ? recordOf(pixel, film.samples) : pixel;
+  if (kResumable && (film.flags & kPixelSuspended) != 0u) p = resumePath(row, keyOfPath(pixel));
+  p.pixel = placeOf(pixel, film.samples);
 
   bool tracing = p.phase != kPhaseEnd;
   while (p.traversal.steps < budget) {
     if (!tracing) {
       if (kGpu) film = loadFilm(pixel);
       if (film.samples >= samplesWanted(film)) break;
-      p = beginSample(film, pixel, keyOfLane(pixel), p.traversal.steps);
+      if (kCountWork) beginWork(numberInTile(pixel));
+      p = beginPath(pixel, film.samples, p.traversal.steps);
       tracing = true;
     }
     p = advance(p, budget, tree);
-    if (kLightPaths) p = endLightPath(p);
     if (p.phase >= kPhaseEnd) {
       cut += cutThroughput(p);
       if (kGpu) film = loadFilm(pixel);
       if (hasMoreRays(p)) {
-        p = nextCameraRay(p, film, pixel, keyOfLane(pixel));
+        p = nextRay(p, pixel, film.samples);
       } else {
         film = endSample(film, p, pixel);
         if (kGpu) storeFilm(pixel, film);

@@ -82,7 +82,7 @@ Traversal beginExtension(Path p, TreeFrame tree) {
   return beginRay(p.origin, p.direction, kFarAway, t, false, tree);
 }
 
-Traversal beginShadow(Path p, TreeFrame tree) {
+Traversal beginConnection(Path p, TreeFrame tree) {
   return beginRay(p.shadowOrigin, p.shadowDirection, p.shadowLimit, p.traversal, true, tree);
 }
 
@@ -129,7 +129,7 @@ Wave passShadows(Wave v, uint left, TreeFrame tree) {
       pathStates[row + kRowCounts].y += 1u;
       if (kCountWork) countShadowRay();
       v.blocked &= ~bit;
-      v = sendShadow(v, bit, row, beginShadow(p, tree));
+      v = sendShadow(v, bit, row, beginConnection(p, tree));
     }
     if (kCountWork) keepWork(numberOf(v, k));
   }
@@ -149,7 +149,7 @@ Wave shadeHits(Wave v, uint left, TreeFrame tree) {
     p.rays += 1;
     if (kCountWork) countRay(p);
     p.pixel = v.corner + ivec2(0, k);
-    p = kMedia ? meet(p) : shade(p);
+    p = kMedia ? meet(p) : hit(p);
     v.cut += cutThroughput(p);
     bool shadow = kShadows && p.phase == kPhaseShadow;
     Traversal s = p.traversal;
@@ -165,7 +165,7 @@ Wave shadeHits(Wave v, uint left, TreeFrame tree) {
     if (shadow) {
       p.traversal = s;
       v.waiting |= bit;
-      v = sendShadow(v, bit, row, beginShadow(p, tree));
+      v = sendShadow(v, bit, row, beginConnection(p, tree));
     }
     if (kCountWork) keepWork(numberOf(v, k));
   }
@@ -192,7 +192,7 @@ Wave beginSamples(Wave v, uint left, TreeFrame tree) {
     }
     if (p.phase == kPhaseExtend) {
       if (kCountWork) countRay(p);
-      p = meetSurroundings(p);
+      p = miss(p);
       p.rays += 1;
     }
     bool another = p.phase != kPhaseNone && hasMoreRays(p);
@@ -204,7 +204,8 @@ Wave beginSamples(Wave v, uint left, TreeFrame tree) {
     uint bit = 1u << k;
     int row = rowOf(v, k);
     if (another || film.samples < samplesWanted(film)) {
-      p = another ? nextCameraRay(p, film, pixel, keyOf(v, k)) : beginSample(film, pixel, keyOf(v, k), 0);
+      if (kCountWork && !another) beginWork(numberOf(v, k));
+      p = another ? nextRay(p, pixel, film.samples) : beginPath(pixel, film.samples, 0);
       if (kDensityGrid) v.steps += p.traversal.steps;
       Traversal t = beginExtension(p, tree);
       samples += 1;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Light paths (kLightPaths) begin at the sun or a lamp, which is drawn by its power, and are aimed at casters of
+// Light paths begin at the sun or a lamp, which is drawn by its power, and are aimed at casters of
 // caustics. Balls enclose all casters, so that no path that meets one first is left out.
 
-layout(location = 0) uniform vec4 casters[kMostCasters];  // local space: middle, radius
 // Probability that a light path begins at the sun; 1: no lamps.
 layout(location = kMostCasters + 1) uniform float sunChance;
 layout(location = kMostCasters + 2) uniform bool storesPhotons;  // light paths end where they land, and are stored
@@ -122,22 +121,4 @@ Emission drawEmission(Sampler sampler) {
     e = triangleEmission(emitter, share, choice, drawPair(sampler, kEmitterPointDimensions), aim);
   }
   return e;
-}
-
-/// The key of the random numbers of a pass of light paths, which has Sobol points of its own.
-uint keyOfLightPaths() { return pixelKey(uint(frame.firstSample), 0xfffffffeu, uint(frame.seed)); }
-
-/// Begins a light path. A pass has as many rows of paths as its height asks for, each as wide as the picture.
-Path startLightPath(ivec2 record, uint key, int steps) {
-  ivec2 place = inPicture(record);
-  uint index = uint(place.y * frame.pictureSize.x + place.x);
-  Sampler sampler = makeSampler(key, index);
-  Emission e = drawEmission(sampler);
-  Path p = pathAlong(e.origin, e.direction, sampler, steps, kPrimitiveNone);
-  p.pixel = record;
-  p.cameraRay = false;
-  p.fromLight.flux = e.flux;
-  p.fromLight.range = e.range;
-  if (maxComponent(e.flux) <= 0.0f) p.phase = kPhaseEnd;
-  return p;
 }

@@ -9,20 +9,6 @@ Reservoir reservoirAt(ivec2 pixel) {
   return reservoirOf(texelFetch(reservoirSurfaces, pixel, 0), texelFetch(reservoirLights, pixel, 0));
 }
 
-void storeReservoir(ivec2 pixel, Reservoir r) {
-  imageStore(filmSum, pixel, firstTexel(r));
-  imageStore(filmCompensation, pixel, secondTexel(r));
-}
-
-/// Stores the light sample of the first surface of a camera path, which ends there.
-Path fillReservoir(Path p, Surface s, SurfaceMaterial m) {
-  p.phase = kPhaseEnd;
-  if (p.bounce > 0 || lightSampleCount() == 0) return p;
-  LitSurface on = LitSurface(s.position, packNormal(s.geometricNormal), takesLightFromBehind(s, m));
-  storeReservoir(p.pixel, makeReservoir(on, normalOfLight(s, m), p.sampler, kBounceDimensions + kLightDimension));
-  return p;
-}
-
 /// The pixel of neighbour `index`: one in each of as many sectors of a disc that is turned by chance.
 ivec2 neighbourOf(ivec2 pixel, int index, vec2 uv) {
   float angle = 2.0 * kPi * (float(index) + uv.x) / float(kReuseNeighbours);

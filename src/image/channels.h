@@ -12,7 +12,8 @@
 namespace fragtrace {
 
 /// The guides by which filters distinguish surfaces, as means over the samples of a pixel: albedo, the share
-/// of the pixel that shows a surface, normal, and depth in metres along the view axis (shaders/guides.glsl).
+/// of the pixel that shows a surface, normal, and depth in metres along the view axis
+/// (shaders/integrators/guide.glsl).
 inline constexpr std::array kGuideChannels{"denoising.albedo.R", "denoising.albedo.G", "denoising.albedo.B",
                                            "denoising.albedo.A", "denoising.normal.X", "denoising.normal.Y",
                                            "denoising.normal.Z", "denoising.depth.Z"};

@@ -274,8 +274,7 @@ void Renderer::useProgram(const RenderPass& pass) {
 }
 
 void Renderer::bindPathStates(const ShaderVariant& variant) {
-  const int own = variant.lightPaths ? 2 : isLightPart(variant.aov) ? 1 : 0;
-  const int rows = int(layout::kPathRows) + 1 + variant.stackSize / 4 + own;
+  const int rows = int(layout::kPathRows + layout::kPathOwnRows) + 1 + variant.stackSize / 4;
   const glm::ivec2 wave = software_ ? kWaveTile : kGpuWaveTile;
   const int64_t lanes = int64_t(wave.x) * wave.y / layout::kWaveSlots;
   const int64_t count = variant.wavefront ? lanes * layout::kWaveLaneRows : int64_t(kMaxTilePixels) * rows;

@@ -112,6 +112,16 @@ std::string pathStatesText(int imageUnit) {
   return text + "uvec4 readPathStates(int index) { return " + value + "; }\n";
 }
 
+/// The file that says what happens to the rays of a variant.
+const char* integratorOf(const ShaderVariant& v) {
+  if (v.lightPaths) return "integrators/light.glsl";
+  if (v.storesReservoirs) return "integrators/reservoir.glsl";
+  if (v.aov == Aov::Guides) return "integrators/guide.glsl";
+  const bool layer = v.aov != Aov::None && !isLightPart(v.aov);
+  if (layer || v.countsVisits || !has(v.stages, Stage::Phong)) return "integrators/first_hit.glsl";
+  return has(v.stages, Stage::Gi) ? "integrators/camera.glsl" : "integrators/local.glsl";
+}
+
 std::string shaderText(const ShaderSource& source, const std::string& name, const std::string& includedFrom) {
   const std::string where = includedFrom.empty() ? "" : " (included from " + includedFrom + ")";
   if (!source.folder.empty()) {
@@ -170,7 +180,8 @@ struct Assembly {
     for (const std::string_view line : splitText(whole, '\n')) {
       const size_t open = line.find('"');
       if (line.starts_with("#include") && open != line.npos) {
-        append(std::string(line.substr(open + 1, line.rfind('"') - open - 1)), name);
+        const std::string_view file = line.substr(open + 1, line.rfind('"') - open - 1);
+        append(file == "integrator.glsl" ? integratorOf(variant) : std::string(file), name);
         lineDirective(number + 1, name);
       } else {
         text.append(line) += '\n';

@@ -276,7 +276,7 @@ std::vector<TraitRow> plainRows() {  // NOLINT(readability-function-size): a tab
        .name = "smooth-surfaces",
        .constant = "kSmoothSurfaces",
        .absence = "no clear glass and no mirror, or no filter to see through them",
-       .ofMaterial =  // kGuideAlpha of shaders/guides.glsl, and more than half of the light.
+       .ofMaterial =  // kGuideAlpha of shaders/integrators/guide.glsl, and more than half of the light.
        [](const Material& m, const Coordinates&) {
          return m.roughnessFactor < 0.1f && (m.transmissive() || m.metallicFactor > 0.5f);
        }},

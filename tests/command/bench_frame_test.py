@@ -101,10 +101,10 @@ class FramePictures(Frame):
     def test_a_shader_that_loses_hits_in_one_traversal_fails_without_a_reference(self):
         shaders = self.folder / "shaders"
         shutil.copytree(SHADERS, shaders)
-        text = (shaders / "shade.glsl").read_text()
-        self.assertIn("Path shade(Path p) {", text)
-        (shaders / "shade.glsl").write_text(
-            text.replace("Path shade(Path p) {", "Path shade(Path p) {\n  if (kFrontToBack && p.hitSlot == 0) p.throughput *= 0.0;"))
+        text = (shaders / "integrators/camera.glsl").read_text()
+        self.assertIn("Path hit(Path p) {", text)
+        (shaders / "integrators/camera.glsl").write_text(
+            text.replace("Path hit(Path p) {", "Path hit(Path p) {\n  if (kFrontToBack && p.hitSlot == 0) p.throughput *= 0.0;"))
         result, _ = self.frame(*QUICK, "--spp", 4, "--traversal", "front-to-back", "--shader-folder", shaders, status=1)
         self.assertIn("although their samples are the same", result.stderr)
 

@@ -59,6 +59,22 @@ void addEntries(BufferReads reads, std::vector<ShaderVariant>& variants) {
     v.gpu = true;
     variants.push_back(v);
   }
+  // Each integrator.
+  for (size_t aov = 0; aov < kAovRows.size(); ++aov) {
+    variants.push_back(full(reads));
+    variants.back().aov = Aov(aov);
+    variants.back().resumable = true;
+  }
+  for (bool ShaderVariant::*own :
+       {&ShaderVariant::lightPaths, &ShaderVariant::storesReservoirs, &ShaderVariant::neighbours,
+        &ShaderVariant::countsVisits, &ShaderVariant::shadowCatcher, &ShaderVariant::transparentGlass,
+        &ShaderVariant::lightCandidates, &ShaderVariant::countsWork}) {
+    ShaderVariant v = full(reads);
+    v.*own = v.resumable = true;
+    variants.push_back(v);
+    v.aov = Aov::Guides;
+    variants.push_back(v);
+  }
   for (const TraversalMethod method :
        {TraversalMethod::Iterative, TraversalMethod::Bvh, TraversalMethod::FrontToBack}) {
     for (const int size : {8, 12, 16, 20, 24, 32, 48}) {

@@ -1,8 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Guides (kAovGuides), by which a filter distinguishes surfaces. Albedo and normal are those of the first surface
+// Guides, by which a filter distinguishes surfaces. Albedo and normal are those of the first surface
 // that is not just smooth glass or a smooth metal, so that what is seen through or in these stays sharp. Depth is that
 // of the first surface of all, which separates these from the rest. Where alpha lets a part of the light pass, surfaces
 // count by their shares, not by chance.
+#include "catcher.glsl"
+#include "integrators/camera_rays.glsl"
+
+/// The sums of a path, and the normal of its last surface.
+struct Guide {
+  vec3 albedo;
+  vec3 normal;
+  float depth;
+  float share;      // share of the ray that surfaces have taken so far
+  vec3 lastNormal;
+} guide;
 
 const float kGuideAlpha = 0.01;    // the roughest that is followed: what it shows is hardly blurred
 const int kGuideScatterings = 16;  // largest number of scatterings
@@ -10,14 +21,13 @@ const float kGuideRest = 0.01;     // share of a ray below which surfaces behind
 const float kGuideFog = 1e-3;      // optical depth of the thinnest fog that counts
 
 /// The share of the ray that alpha has let pass so far.
-float guideRest(Path p) { return kAlpha ? 1.0 - p.guide.share : 1.0; }
+float guideRest() { return kAlpha ? 1.0 - guide.share : 1.0; }
 
 /// Ends a share of the ray at a surface of this albedo.
-Path addGuide(Path p, float share, vec3 albedo, vec3 normal) {
-  p.guide.albedo += share * albedo;
-  p.guide.normal += share * normal;
-  p.guide.share += share;
-  return p;
+void addGuide(float share, vec3 albedo, vec3 normal) {
+  guide.albedo += share * albedo;
+  guide.normal += share * normal;
+  guide.share += share;
 }
 
 /// The tint of the way so far, without the factor by which glass around the point scales radiance.
@@ -25,8 +35,8 @@ vec3 guideTint(Path p) { return kPassesLight ? p.throughput * p.etaScale : p.thr
 
 /// The rest of the ray ends here, or continues from here without chance.
 Path takeGuide(Path p, float depth, vec3 normal) {
-  if (p.cameraRay) p.guide.depth += guideRest(p) * depth;
-  p.guide.lastNormal = normal;
+  if (p.cameraRay) guide.depth += guideRest() * depth;
+  guide.lastNormal = normal;
   p.covered = true;
   p.phase = kPhaseEnd;
   return p;
@@ -38,15 +48,23 @@ Path guideStop(Path p, vec3 albedo) {
   return p;
 }
 
+Path beginPath(ivec2 pixel, uint samples, int steps) {
+  guide = Guide(vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(0.0, 0.0, 1.0));
+  return cameraPath(pixel, samples, steps);
+}
+
 /// One surface along the camera path is a guide, or leads to the next one. The stronger of reflection and refraction is
 /// followed, since noise of the guides would be noise of the picture.
-Path guideAt(Path p, Surface s, uint flags, vec4 base) {
+Path hit(Path p) {
+  Surface s = surfaceHit(p);
+  uint flags = materialFlags(s.material);
+  vec4 base = baseColorAt(s.material, s.texcoords, s.color);
   vec3 normal = facingNormal(mappedNormal(s), -p.direction);
   bool blends = kAlpha && (flags & (kMaterialMask | kMaterialBlend)) != 0u;
-  float share = blends ? guideRest(p) * alphaAt(s.material, flags, base.a) : 1.0;
-  if (blends && guideRest(p) - share > kGuideRest) {
-    if (p.cameraRay) p.guide.depth += share * depthOf(s, p.time);
-    p = addGuide(p, share, guideTint(p) * base.rgb, normal);
+  float share = blends ? guideRest() * alphaAt(s.material, flags, base.a) : 1.0;
+  if (blends && guideRest() - share > kGuideRest) {
+    if (p.cameraRay) guide.depth += share * depthOf(s, p.time);
+    addGuide(share, guideTint(p) * base.rgb, normal);
     p.phase = kPhaseExtend;
     return tracePast(p, kFarAway, p.hitT, p.hitSlot);
   }
@@ -68,11 +86,11 @@ Path guideInMedium(Path p, float t) {
   return guideStop(p, vec3(1.0));
 }
 
-/// Fog counts before the surroundings.
-Path guideInFog(Path p) {
-  p = meetSurroundings(p);
-  bool thick = p.cameraRay && fogDepth(fog, p.origin, p.direction, 0.0, kFarAway) >= kGuideFog;
-  return thick ? guideInMedium(p, insideFog(fog, p.origin, p.direction, 0.0).y) : p;
+/// The guides of the catcher are white and level, so that a filter does not take it for empty surroundings.
+Path guideAtCatcher(Path p, float t) {
+  p = takeGuide(p, depthAlong(p.direction, t, p.time), vec3(0.0, 1.0, 0.0));
+  p.caught = true;
+  return guideStop(p, vec3(1.0));
 }
 
 /// The distance of the grid's box where a flight of the camera's ray ends in the grid before it meets a surface, or
@@ -84,8 +102,41 @@ float gridBefore(Path p) {
   return walk.end < kFarAway ? max(walk.entry, 0.0) : kFarAway;
 }
 
-/// The path has ended: its last surface takes the rest.
-Path endGuide(Path p) {
-  if (p.covered) p = addGuide(p, guideRest(p), guideTint(p), p.guide.lastNormal);
+float interceptedAt(Path p) {
+  float t = kDensityGrid ? gridBefore(p) : kFarAway;
+  return kShadowCatcher ? catcherBefore(p, t) : t;
+}
+
+Path intercept(Path p, float t) { return kShadowCatcher ? guideAtCatcher(p, t) : guideInMedium(p, t); }
+
+/// Fog counts before the surroundings.
+Path miss(Path p) {
+  p.phase = kPhaseEnd;
+  if (kFog && p.cameraRay && fogDepth(fog, p.origin, p.direction, 0.0, kFarAway) >= kGuideFog) {
+    p = guideInMedium(p, insideFog(fog, p.origin, p.direction, 0.0).y);
+  }
   return p;
+}
+
+void suspendOwn(Path p, int row) {
+  pathStates[row] = floatBitsToUint(vec4(guide.albedo, guide.depth));
+  pathStates[row + 1] = floatBitsToUint(vec4(guide.normal, guide.share));
+  pathStates[row + 2] = floatBitsToUint(vec4(guide.lastNormal, 0.0));
+}
+
+Path resumeOwn(Path p, int row) {
+  vec4 a = uintBitsToFloat(readPathStates(row));
+  vec4 b = uintBitsToFloat(readPathStates(row + 1));
+  guide = Guide(a.xyz, b.xyz, a.w, b.w, uintBitsToFloat(readPathStates(row + 2).xyz));
+  return p;
+}
+
+/// The last surface takes the rest of the ray. Where the catcher's shadow has ended, there is nothing to be filtered.
+FilmPixel record(FilmPixel film, Path p, ivec2 pixel) {
+  if (kShadowCatcher && p.caught && frame.shadowFade != vec2(0.0) && shadowLeft(inPicture(pixel)) <= 0.0) {
+    p.covered = false;
+  }
+  float alpha = p.covered ? 1.0 : kAlpha ? guide.share : 0.0;
+  if (p.covered) addGuide(guideRest(), guideTint(p), guide.lastNormal);
+  return addGuides(film, guide.albedo, guide.normal, guide.depth, alpha);
 }

@@ -1,7 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Light paths (kLightPaths): a lamp or the sun, delta lobes of casters, a rough surface, then any surfaces, the last of
+// Light paths: a lamp or the sun, delta lobes of casters, a rough surface, then any surfaces, the last of
 // which is rough and is seen by the camera. Camera paths leave out exactly these (form.glsl). Particles carry flux, so
 // glass and shading normals weigh them in another way than camera paths (flux.glsl).
+
+#include "caustics/emit.glsl"
+
+/// The path until the camera sees it.
+struct LightPath {
+  vec3 flux;
+  float range;       // range of the path's punctual light; 0: unlimited
+  float travelled;   // distance since the light, up to the surface that was passed last
+  bool glassFirst;   // the path has met smooth glass first
+  vec2 splatPixel;   // the place in the picture at which the camera sees the point of the shadow ray
+  float waiting;     // sum of the light that the camera may see later; one part waits as the shadow ray (reservoir)
+  uint chain;        // a hash of the surfaces that it has met, and of their sides
+  int singleSided;   // single-sided surfaces met so far that could have scattered it
+} fromLight;
 
 /// The camera as seen from a point.
 struct SeenFrom {
@@ -66,9 +80,11 @@ SeenFrom cameraFrom(vec3 point, vec2 lens) {
   return c;
 }
 
+int prefixBehind(Path p, Surface s, float pdf, bool straight) { return lightPrefix(p.prefix, pdf == 0.0, straight); }
+
 /// Returns true if --bounces lets a camera path go the same way back.
 bool withinBounces(Path p) {
-  int most = kTransmission && p.fromLight.glassFirst ? frame.maxBounces : frame.maxBounces + 1;
+  int most = kTransmission && fromLight.glassFirst ? frame.maxBounces : frame.maxBounces + 1;
   return 1 + limitedScatterings(p) <= most;
 }
 
@@ -116,18 +132,18 @@ Path spawnSplatRay(Path p, Surface s, SurfaceMaterial m, bool first) {
   if (camera.importance <= 0.0 || !withinBounces(p)) return p;
   BsdfValue value = scatteredTowards(p, s, m, camera.direction);
   if (value.pdf > kNarrow) return p;
-  vec3 light = p.fromLight.flux * p.throughput * value.value * (p.etaScale * camera.importance);
+  vec3 light = fromLight.flux * p.throughput * value.value * (p.etaScale * camera.importance);
   uint solid = innermost(solidsTowards(p, s, camera.direction));
   if (kAbsorption && solid != kPrimitiveNone) {
     light *= exp(-camera.distance * materialFloats(solid, kMaterialVolume).rgb);
   }
   float size = maxComponent(light);
   if (!(size > 0.0) || isNonfinite(size)) return p;
-  p.fromLight.waiting += first ? 0.0 : size;
-  bool taken = first || pathRandom(p, kSplatDimension) * p.fromLight.waiting < size;
+  fromLight.waiting += first ? 0.0 : size;
+  bool taken = first || pathRandom(p, kSplatDimension) * fromLight.waiting < size;
   if (!taken) return p;
   p.contribution = first ? light : light / size;
-  p.fromLight.splatPixel = camera.place;
+  fromLight.splatPixel = camera.place;
   // The shadow ray starts at the camera, since single-sided surfaces stop light from one side only.
   vec3 target = offsetOrigin(s.position, s.positionError, s.geometricNormal, camera.direction);
   p.shadowOrigin = s.position + camera.distance * camera.direction;
@@ -140,13 +156,17 @@ Path spawnSplatRay(Path p, Surface s, SurfaceMaterial m, bool first) {
 }
 
 /// Stores the light of the shadow ray, which nothing blocks.
-void storeSplat(Path p) { storeRecord(p.pixel, p.fromLight.waiting < 0.0, p.contribution, p.fromLight.splatPixel); }
+Path connected(Path p) {
+  storeRecord(p.pixel, fromLight.waiting < 0.0, p.contribution, fromLight.splatPixel);
+  return p;
+}
 
-/// At the end of a light path, traces the shadow ray that waits.
-Path endLightPath(Path p) {
-  if (p.phase != kPhaseEnd || p.fromLight.waiting <= 0.0) return p;
-  p.contribution *= p.fromLight.waiting;
-  p.fromLight.waiting = -1.0;
+/// Returns true if a shadow ray waits for the end of the path.
+bool hasMoreRays(Path p) { return fromLight.waiting > 0.0; }
+
+Path nextRay(Path p, ivec2 pixel, uint samples) {
+  p.contribution *= fromLight.waiting;
+  fromLight.waiting = -1.0;
   return traceSplat(p);
 }
 
@@ -160,7 +180,7 @@ bool isSingleSided(uint material, uint flags) {
 /// Continues behind the surface, as if it were not there.
 Path passOn(Path p, Surface s, float times) {
   p.throughput *= times;
-  p.fromLight.travelled += p.hitT;
+  fromLight.travelled += p.hitT;
   p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.direction);
   if (kCreases) p.tie = s.front ? -kTie : kTie;
   return extend(p);
@@ -174,15 +194,19 @@ const float kPassedOn = 0.125;
 uint chainAfter(Path p, Surface s, bool transmitted) {
   uvec3 facing = uvec3(ivec3(round(1.5 * s.shadingNormal)) + 2);
   uint side = facing.x + 8u * facing.y + 64u * facing.z + (transmitted ? 512u : 0u);
-  return mixBits(mixBits(p.fromLight.chain + side) + s.material);
+  return mixBits(mixBits(fromLight.chain + side) + s.material);
 }
 
 /// One step of a light path. Camera paths go the other way: they see single-sided surfaces from the front and pass
 /// through the back. So a light path that meets the back ends. One that meets the front is scattered there, and light
 /// also passes through; chance takes one of the two.
-Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
+Path hit(Path p) {
+  Surface s = surfaceHit(p);
+  uint flags = materialFlags(s.material);
+  vec3 baseColor = vec3(baseColorAt(s.material, s.texcoords, s.color));
+  if (kPassesLight) p = flyTo(p, s);
   p.phase = kPhaseEnd;
-  bool unlit = kUnlit && (flags & kMaterialUnlit) != 0u;
+  bool unlit = isUnlit(s.material);
   bool glossy = isCaster(flags, false);
   bool mirror = isCaster(flags, true);
   bool caster = glossy || mirror;
@@ -192,8 +216,8 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   bool mayScatter = !unlit && (caster || scattered);
   bool passes = singleSided;
   if (singleSided && mayScatter) {
-    passes = hashFloat(p.sampler, kPassedOnDimensions + uint(p.fromLight.singleSided)) < kPassedOn;
-    p.fromLight.singleSided += 1;
+    passes = hashFloat(p.sampler, kPassedOnDimensions + uint(fromLight.singleSided)) < kPassedOn;
+    fromLight.singleSided += 1;
   }
   if (passes) return passOn(p, s, mayScatter ? 1.0 / kPassedOn : 1.0);
   if (unlit) return p;
@@ -212,9 +236,9 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   bool rough = !(mirror || thin) || !at.b.mirrorLike || chances.z + chances.w > 0.0;
 
   // Step: let the camera see it. The first surface that is all rough has a ray and a record of its own.
-  bool first = p.prefix == kPrefixCaustic && !mirror && !thin && p.fromLight.waiting == 0.0;
+  bool first = p.prefix == kPrefixCaustic && !mirror && !thin && fromLight.waiting == 0.0;
   if (storesPhotons && rough && p.prefix == kPrefixCaustic) {
-    storePhoton(p.pixel, s.position, -p.direction, maxComponent(p.fromLight.flux * p.throughput), p.fromLight.chain);
+    storePhoton(p.pixel, s.position, -p.direction, maxComponent(fromLight.flux * p.throughput), fromLight.chain);
     return p;
   }
   if (rough && scattered) p = spawnSplatRay(p, s, m, first);
@@ -239,12 +263,67 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   weight /= survival;
   // A ray that goes straight through a thin wall is still that of the lamp.
   if (!straight && p.bounce == p.straightBounces) {
-    float travelled = p.fromLight.travelled + p.hitT;
-    p.fromLight.flux *= rangeWindow(travelled * travelled, p.fromLight.range);
+    float travelled = fromLight.travelled + p.hitT;
+    fromLight.flux *= rangeWindow(travelled * travelled, fromLight.range);
   }
-  if (p.bounce == 0) p.fromLight.glassFirst = glass && delta;
-  if (!straight) p.fromLight.chain = chainAfter(p, s, next.transmitted);
+  if (p.bounce == 0) fromLight.glassFirst = glass && delta;
+  if (!straight) fromLight.chain = chainAfter(p, s, next.transmitted);
   p = spawnRay(p, s, direction, weight, next.pdf, next.transmitted, m);
   if (!withinBounces(p)) p.after = kPhaseEnd;
   return p.phase == kPhaseShadow ? p : proceed(p);
 }
+
+float interceptedAt(Path p) { return kFarAway; }
+
+Path intercept(Path p, float t) { return p; }
+
+Path miss(Path p) {
+  p.phase = kPhaseEnd;
+  return p;
+}
+
+/// The key of the random numbers of a pass of light paths, which has Sobol points of its own.
+uint keyOfPath(ivec2 pixel) { return pixelKey(uint(frame.firstSample), 0xfffffffeu, uint(frame.seed)); }
+
+/// The path's record in the film.
+ivec2 placeOf(ivec2 pixel, uint samples) { return recordOf(pixel, samples); }
+
+/// A pass has as many rows of paths as its height asks for, each as wide as the picture.
+Path beginPath(ivec2 pixel, uint samples, int steps) {
+  ivec2 place = recordOf(pixel, samples);
+  storeRecord(place, false, vec3(0.0), vec2(0.0));
+  storeRecord(place, true, vec3(0.0), vec2(0.0));
+  ivec2 inPass = inPicture(place);
+  Sampler sampler = makeSampler(keyOfPath(pixel), uint(inPass.y * frame.pictureSize.x + inPass.x));
+  Emission e = drawEmission(sampler);
+  Path p = pathAlong(e.origin, e.direction, sampler, steps, kPrimitiveNone);
+  p.pixel = place;
+  p.cameraRay = false;
+  fromLight = LightPath(e.flux, e.range, 0.0, false, vec2(0.0), 0.0, 0u, 0);
+  if (maxComponent(e.flux) <= 0.0f) p.phase = kPhaseEnd;
+  return p;
+}
+
+void suspendOwn(Path p, int row) {
+  LightPath l = fromLight;
+  pathStates[row] = floatBitsToUint(vec4(l.flux, l.waiting));
+  pathStates[row + 1] = floatBitsToUint(vec4(l.splatPixel, l.range, l.travelled));
+  pathStates[row + 2] = uvec4(l.chain, uint(l.singleSided), uint(l.glassFirst), 0u);
+}
+
+Path resumeOwn(Path p, int row) {
+  vec4 a = uintBitsToFloat(readPathStates(row));
+  vec4 b = uintBitsToFloat(readPathStates(row + 1));
+  uvec4 c = readPathStates(row + 2);
+  fromLight = LightPath(a.xyz, b.z, b.w, c.z != 0u, b.xy, a.w, c.x, int(c.y));
+  return p;
+}
+
+FilmPixel record(FilmPixel film, Path p, ivec2 pixel) {
+  film.samples += 1u;
+  return film;
+}
+
+void countRay(Path p) { countWork(kWorkLightRays, 1u); }
+
+void countShadowRay() { countWork(kWorkSplatRays, 1u); }

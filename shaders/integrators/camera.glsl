@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// Global illumination: paths from the camera, with a light sample and a direction of the BSDF at each surface. With an
+// AOV of a part of the light (kLightPart), only that part counts.
+#include "catcher.glsl"
+#include "integrators/camera_rays.glsl"
+
+/// The share of the light that a camera path's first surface scatters from `wi` that belongs to the AOV.
+vec3 aovShare(Bsdf b, vec3 wo, vec3 wi) {
+  vec3 all = evaluateBsdf(b, wo, wi).value;
+  vec3 diffuse = diffuseUnderLayers(b, wo, wi);
+  vec3 share = clamp(diffuse / max(all, vec3(1e-30)), vec3(0.0), vec3(1.0));
+  return kAov == kAovDiffuse ? share : vec3(1.0) - share;
+}
+
+/// The sampler of a light sample. Where the paths of a sample scatter first, their light samples are points of one
+/// sequence: nothing else depends on these.
+Sampler samplerOfLight(Path p) {
+  Sampler s = p.sampler;
+  if (kCameraRays == 1 || !kSobol || countedScatterings(p) > 0) return s;
+  uint index = bitfieldReverse(s.reversed);
+  uint earlier = uint(earlierRays(p));
+  uint sampleIndex = earlier == kShortRays ? index : (index - kFarHalf) / max(kShortRays, 1u);
+  s.reversed = bitfieldReverse(kFarHalf + sampleIndex * uint(kCameraRays) + earlier);
+  return s;
+}
+
+/// The light sample of a scattering.
+LightSample lightAt(Path p, Surface s, SurfaceMaterial m) {
+  uint normal = normalOfLight(s, m);
+  uint dimension = kBounceDimensions * uint(p.bounce + 1) + kLightDimension;
+  if (kNeighbours && p.bounce == 0 && reservoirAt(p.pixel).known) {
+    return lightOfNeighbours(p, reservoirAt(p.pixel), s.position, normal);
+  }
+  if (kCandidates) {
+    bool through = takesLightFromBehind(s, m);
+    return lightOfCandidates(s.position, s.geometricNormal, through, normal, p.sampler, dimension);
+  }
+  return sampleLight(0, s.position, normal, samplerOfLight(p), dimension);
+}
+
+/// The irradiance of a light sample without the light of lamps and the sun that a glossy caster scatters: light paths
+/// bring it.
+vec3 irradianceLeft(Path p, Surface s, LightSample light) {
+  bool glossy = isCaster(materialFlags(s.material), false);
+  if (cameraPrefix(p.prefix, p.bounce == 0, false, false, glossy) != kPrefixCaustic) return light.irradiance;
+  bool lamp = light.distance < kFarAway || light.pdf <= 0.0;
+  if (kSunPaths && !lamp) {
+    vec3 all = vec3(environmentAlong(light.direction));
+    return light.irradiance * mapBesideSun(light.direction) / max(all, vec3(1e-30));
+  }
+  return lamp ? vec3(0.0) : light.irradiance;
+}
+
+/// Takes one light sample, and sets up its shadow ray.
+Path sampleLd(Path p, Surface s, SurfaceMaterial m, Scattering at) {
+  LightSample light = lightAt(p, s, m);
+  if (kCaustics) light.irradiance = irradianceLeft(p, s, light);
+  vec3 wi = toFrame(at.around, light.direction);
+  // Behind glass, a clear path sees the page instead of the surroundings.
+  bool hidden = kTransparentGlass && p.clear && m.transmission > 0.0 && wi.z * at.wo.z < 0.0;
+  if (hidden && light.pdf > 0.0 && light.distance == kFarAway) light.irradiance = vec3(0.0);
+  bool sameSide = (dot(light.direction, s.geometricNormal) > 0.0) == (wi.z > 0.0);
+  BsdfValue value = evaluateBsdf(at.b, at.wo, wi);
+  float weight = lightWeight(light, value.pdf / lightSamplesAt(countedScatterings(p)));
+  if (kLightPart && p.bounce == 0) p.aovWeight = aovShare(at.b, at.wo, wi);
+  if (kThroughGlass) p.throughGlass = passesGlass(p, s, light.direction);
+  return spawnShadowRay(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
+}
+
+/// The chance that guiding draws the direction of a path. It has none where it draws delta lobes alone.
+float guidingChance(Path p, Bsdf b, float cosine) {
+  vec4 chances = lobeChances(b, cosine);
+  bool guidable = casterCount > 0 && p.bounce > 0 && isGuidable(p.prefix);
+  return guidable ? 0.5 * (b.mirrorLike ? min(1.0, chances.z + chances.w) : 1.0) : 0.0;
+}
+
+/// A guiding direction by that chance, or else the BSDF's own. Lobes that are no delta lobes are weighted by the
+/// pdf of both; next.pdf stays that of the BSDF, by which light samples are weighted.
+BsdfSample guided(inout Path p, Surface s, Scattering at, BsdfSample next, uint cell, float chance, vec2 uv) {
+  float choice = pathRandom(p, kGuidingDimension);
+  bool taken = choice < chance;
+  bool delta = !taken && next.pdf == 0.0;
+  vec3 direction = toWorld(at.around, next.wi);
+  if (taken) {
+    direction = guidingDirection(s.position, cell, choice / chance, uv);
+    next.wi = toFrame(at.around, direction);
+    BsdfValue value = evaluateBsdf(at.b, at.wo, next.wi);
+    next.transmitted = next.wi.z < 0.0;
+    next.pdf = max(value.pdf, float(1e-30));
+    next.weight = value.pdf > 0.0 ? value.value / value.pdf : vec3(0.0);
+  }
+  float pdf = (1.0 - chance) * next.pdf + chance * guidingPdf(s.position, cell, direction);
+  next.weight *= delta ? 1.0 / (1.0 - chance) : next.pdf / pdf;
+  if (!delta) p.prefix = taken ? kPrefixGuided : kPrefixNone;
+  return next;
+}
+
+/// Glass draws both its lobes often in so many scatterings of a camera path. Each makes what lies behind it noisier.
+const int kSharedScatterings = 4;
+
+/// Returns true if glass is to draw both its lobes often: the path has met glass alone, so no light path brings the
+/// lamp that it may see.
+bool sharesGlass(Path p) {
+  bool glassAlone = p.prefix == kPrefixNone && p.freeBounces == p.bounce;
+  return casterCount > 0 && glassAlone && p.bounce < kSharedScatterings;
+}
+
+/// The path-traced material: one light sample, and one direction drawn from the BSDF.
+Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
+  if (kDispersion) {
+    p = disperse(p, m, s.material);
+    if (m.solid) m.ior = dispersedIor(p, s.material);
+  }
+  Scattering at = scatteringAt(s, m, normal, -p.direction);
+  if (kCaustics) at.b.sharesGlass = sharesGlass(p);
+  Frame3 around = at.around;
+  Bsdf b = at.b;
+  vec3 wo = at.wo;
+  uint dimension = kBounceDimensions * uint(p.bounce + 1);
+  // The numbers of this bounce are drawn before it is counted.
+  float choice = kPassesLight ? pathRandom(p, kLobeDimension) : 0.0;
+  vec2 uv = drawPair(p.sampler, dimension + kDirectionDimension);
+  if (lightSampleCount() > 0) p = sampleLd(p, s, m, at);
+  BsdfSample next = sampleBsdf(b, wo, choice, uv.x, uv.y);
+  if (kGuided) {
+    // llvmpipe executes a branch that no lane takes, but not an iteration.
+    float chance = guidingChance(p, b, wo.z);
+    if (chance > 0.0 && next.pdf > 0.0) p.prefix = kPrefixNone;
+    uint cell = 0u;
+    for (int i = chance > 0.0 ? 0 : 1; i < 1; ++i) cell = guidingCell(s.position);
+    if (!hasGuiding(cell)) chance = 0.0;
+    for (int i = chance > 0.0 ? 0 : 1; i < 1; ++i) next = guided(p, s, at, next, cell, chance, uv);
+  }
+  if (kLightPart && p.bounce == 0) {
+    bool delta = next.pdf == 0.0;
+    p.aovWeight = delta ? vec3(kAov == kAovSpecular ? 1.0 : 0.0) : aovShare(b, wo, next.wi);
+  }
+  vec3 direction = normalize(toWorld(around, next.wi));
+  if (kSpecular && next.pdf == 0.0) direction = ontoSide(direction, s.geometricNormal, next.transmitted);
+  bool wrongSide = (dot(direction, s.geometricNormal) < 0.0) != next.transmitted;
+  return spawnRay(p, s, direction, wrongSide ? vec3(0.0) : next.weight, next.pdf, next.transmitted, m);
+}
+
+Path beginPath(ivec2 pixel, uint samples, int steps) { return cameraPath(pixel, samples, steps); }
+
+float interceptedAt(Path p) {
+  float t = kMedia && p.hitSlot < 0 ? p.hitT : kFarAway;
+  return kShadowCatcher ? catcherBefore(p, t) : t;
+}
+
+Path intercept(Path p, float t) {
+  if (kShadowCatcher && (!kMedia || t != p.hitT)) return meetCatcher(p, t);
+  if (kMedia) return scatterInMedium(p);
+  return p;
+}
+
+Path miss(Path p) { return meetSurroundings(p); }
+
+Path hit(Path p) {
+  Surface s = surfaceHit(p);
+  vec3 baseColor = vec3(baseColorAt(s.material, s.texcoords, s.color));
+  if (kPassesLight) p = flyTo(p, s);
+  if (kMedia && p.hitSlot < 0) return scatterInMedium(p);
+  p = arrive(p, s, baseColor);
+  if (p.phase >= kPhaseEnd) return p;
+  p = shadeGlobal(p, s, materialAt(s.material, baseColor, s.texcoords), normalFacing(s, -p.direction));
+  if (p.phase != kPhaseShadow) p = proceed(p);
+  return p;
+}
+
+void suspendOwn(Path p, int row) {
+  if (kLightPart) pathStates[row] = uvec4(floatBitsToUint(p.aovWeight), 0u);
+  if (kTransparentGlass) pathStates[row + 1] = uvec4(floatBitsToUint(p.before), 0u);
+}
+
+Path resumeOwn(Path p, int row) {
+  if (kLightPart) p.aovWeight = uintBitsToFloat(readPathStates(row).xyz);
+  if (kTransparentGlass) p.before = uintBitsToFloat(readPathStates(row + 1).xyz);
+  return p;
+}
+
+FilmPixel record(FilmPixel film, Path p, ivec2 pixel) {
+  if (kShadowCatcher && p.caught && frame.shadowFade != vec2(0.0)) p.radiance *= shadowLeft(inPicture(pixel));
+  float alpha = coverageOf(p);
+  if (kShadowCatcher) p = showShadow(p);
+  if (kShadowCatcher && frame.backgroundShows < 0.0) film.flags |= kPixelOverWhite;
+  return addSample(film, p.radiance, alpha);
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// The stages before global illumination: Blinn-Phong under every light, mirror reflection and smooth glass. They visit
+// a hit once for each of their light samples.
+#include "integrators/camera_rays.glsl"
+
+Path beginPath(ivec2 pixel, uint samples, int steps) { return cameraPath(pixel, samples, steps); }
+
+/// Blinn-Phong, mirror reflection and smooth glass.
+Path shadeLocal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
+  if (kRefraction && pathRandom(p, kGlassDimension) < m.transmission * (1.0 - m.metallic)) {
+    return scatterGlass(p, s, m, normal, pathRandom(p, kLobeDimension));
+  }
+  vec3 wo = -p.direction;
+  vec3 f0 = phongF0(m.baseColor, m.metallic, m.dielectricF0);
+  vec3 diffuse = (1.0 - m.metallic) * m.baseColor;
+  float exponent = phongExponent(m.roughness);
+  if (p.lightSampleIndex == 0) p.radiance += 0.03 * p.throughput * m.baseColor;
+  if (kEnvironmentLight && p.lightSampleIndex == 0)
+    p.radiance += p.throughput * environmentReflected(diffuse, f0, exponent, normal, wo);
+  int lights = lightSampleCount();
+  if (p.lightSampleIndex < lights) {
+    uint dimension = kBounceDimensions * uint(p.bounce + 1);
+    LightSample light = sampleLight(p.lightSampleIndex, s.position, kNoNormal, p.sampler, dimension + kLightDimension);
+    if (kVertexNormals) diffuse *= terminatorFade(s.geometricNormal, s.shadingNormal, light.direction);
+    vec3 value = phongValue(diffuse, f0, exponent, normal, wo, light.direction);
+    bool above = dot(light.direction, s.geometricNormal) > 0.0;
+    if (kThinGlass) p.throughGlass = passesGlass(p, s, light.direction);
+    p = spawnShadowRay(p, s, light, above ? p.throughput * light.irradiance * value : vec3(0.0));
+  }
+  p.lightSampleIndex += 1;
+  p.after = kPhaseShade;
+  if (p.lightSampleIndex < lights) return p;
+  float gloss = 1.0 - m.roughness;
+  return scatterMirror(p, s, m, normal, gloss * gloss);
+}
+
+Path hit(Path p) {
+  Surface s = surfaceHit(p);
+  vec3 baseColor = vec3(baseColorAt(s.material, s.texcoords, s.color));
+  bool first = p.lightSampleIndex == 0;
+  if (kPassesLight && first) p = flyTo(p, s);
+  if (first) p = arrive(p, s, baseColor);
+  if (p.phase >= kPhaseEnd) return p;
+  p = shadeLocal(p, s, materialAt(s.material, baseColor, s.texcoords), normalFacing(s, -p.direction));
+  if (p.phase != kPhaseShadow) p = proceed(p);
+  return p;
+}
+
+float interceptedAt(Path p) { return kFarAway; }
+
+Path intercept(Path p, float t) { return p; }
+
+Path miss(Path p) { return meetSurroundings(p); }
+
+void suspendOwn(Path p, int row) {}
+
+Path resumeOwn(Path p, int row) { return p; }
+
+FilmPixel record(FilmPixel film, Path p, ivec2 pixel) { return addSample(film, p.radiance, p.covered ? 1.0 : 0.0); }
