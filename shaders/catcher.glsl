@@ -64,7 +64,6 @@ Path beginShadow(Path p, float t) {
   vec3 all = freeIrradiance(s.position);
   uint dimension = kBounceDimensions * uint(p.bounce + 1);
   vec2 uv = drawPair(p.sampler, dimension + kDirectionDimension);
-  p.phase = kPhaseExtend;
   if (lightSampleCount() > 0) {
     LightSample light = sampleLight(0, s.position, kNoNormal, p.sampler, dimension + kLightDimension);
     float cosine = max(light.direction.y, 0.0);
@@ -73,9 +72,9 @@ Path beginShadow(Path p, float t) {
     float weight = light.pdf > 0.0 ? balanceWeight(light.pdf, cosine * kInversePi) : 1.0;
     vec3 share = shareOfLight(light.irradiance * (counts ? cosine * weight : 0.0), all);
     if (kShadows) p = spawnShadowRay(p, s, light, share);
-    if (p.phase == kPhaseShadow) {
+    if (p.phase == kPhaseConnect) {
       // The hidden share is share * (1 - V), where V is 1 if the shadow ray meets nothing: it begins as `share`, and
-      // settleShadow() adds -share where V is 1.
+      // connected() adds -share where V is 1.
       p.radiance = p.contribution;
       p.contribution = -p.contribution;
     }
@@ -85,9 +84,8 @@ Path beginShadow(Path p, float t) {
   p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.direction);
   p.pdf = lobe.z * kInversePi;
   if (kCreases) p.tie = 0.0;
-  if (kClearShadows && p.phase != kPhaseShadow) p.contribution = vec3(1.0);
-  p.after = kEnvironment && p.pdf > 0.0 ? kPhaseExtend : kPhaseEnd;
-  if (p.phase != kPhaseShadow) p = proceed(p);
+  if (kClearShadows && p.phase != kPhaseConnect) p.contribution = vec3(1.0);
+  p.next = kEnvironment && p.pdf > 0.0 ? kPhaseBegin : kPhaseEnd;
   return p;
 }
 
@@ -110,12 +108,11 @@ bool passesToCatcher(inout Path p) {
 
 /// The ray along the direction drawn has met a surface, or nothing.
 Path endShadow(Path p) {
-  p.phase = kPhaseEnd;
   bool arrives = p.hitSlot < 0;
   if (arrives && !kClearShadows) return p;
   if (kClearShadows && !arrives && passesToCatcher(p)) {
-    p.phase = kPhaseExtend;
-    return tracePast(p, kFarAway, p.hitT, p.hitSlot);
+    p.next = kPhasePass;
+    return p;
   }
   vec4 hidden = environmentAlong(p.direction);
   float weight = 1.0;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The steps of a path from the camera, as a state machine: where the step budget ends a draw, the path waits for the
-// next one, or with kWholeRays its sample begins anew. Light paths share the steps that scatter.
+// What integrators share of a path: how it begins at the camera, scatters, and meets emission and surroundings.
 
 /// Paths scatter, so that --bounces can end them.
 const bool kScatters = kGi || kReflections || kRefraction;
@@ -71,49 +70,12 @@ Path withChances(Path p) {
 }
 
 /// Starts a traversal of a ray up to its limit, keeping the step count of this draw.
-Path traceAnew(Path p, float limit) {
+Path beginTraversal(Path p, float limit) {
   int steps = p.traversal.steps;
   p.traversal = startTraversal(limit, frame.leafCount);
   if (kMoving) p.traversal = beginAt(p.traversal, momentAt(p.time, frame.segments.x), frame.segments.y);
   p.traversal.steps = steps;
   return p;
-}
-
-/// The traversal is that of the path's own ray.
-Path asExtension(Path p) {
-  if (kCreases) p.traversal.tie = p.tie;
-  if (kCoincident) p.traversal.extends = true;
-  if (kLightPaths) p.traversal.both = true;
-  return p;
-}
-
-/// Traces the same ray once more, for what lies behind the surface that it met at distance t and passes through.
-Path tracePast(Path p, float limit, float t, int slot) {
-  if (kCountWork) countWork(kWorkPassed, 1u);
-  p = traceAnew(p, limit);
-  if (p.phase == kPhaseExtend) p = asExtension(p);
-  p.traversal.tMin = t;
-  p.traversal.tMinSlot = slot;
-  return p;
-}
-
-/// Goes on with the path's ray behind the surface that it has met.
-Path goPast(Path p) {
-  p = tracePast(p, kFarAway, p.hitT, p.hitSlot);
-  return kMedia ? limitFlight(p, p.hitT) : p;
-}
-
-/// Starts a traversal of the path's ray up to a limit.
-Path extendTo(Path p, float limit) {
-  p.phase = kPhaseExtend;
-  p.lightSampleIndex = 0;
-  return asExtension(traceAnew(p, limit));
-}
-
-/// Goes on with the path's ray.
-Path extend(Path p) {
-  p = extendTo(p, kFarAway);
-  return kMedia ? limitFlight(p, 0.0) : p;
 }
 
 /// The place of a pixel of the film in the picture; y from the bottom.
@@ -135,7 +97,7 @@ Path pathAlong(vec3 origin, vec3 direction, Sampler sampler, int steps, uint sol
   if (kTimed) p.time = kIdAov ? 0.5 : timeOf(sampler);
   if (kNestedSolids && solids >> 16 != kNoSolid) p = standInside(p, solids >> 16);
   if (kPassesLight && solids != kPrimitiveNone) p = standInside(p, innermost(solids));
-  return extend(p);
+  return p;
 }
 
 /// The ray of a panorama or a fisheye.
@@ -244,7 +206,6 @@ Path seePage(Path p) {
 
 /// The path's ray has met nothing.
 Path meetSurroundings(Path p) {
-  p.phase = kPhaseEnd;
   if (kFisheye && p.cameraRay && p.origin.y == kAboveAll) return p;
   if (p.cameraRay) return addLight(p, p.throughput * seenBehind(p.direction));
   if (kTransparentGlass && p.clear) return seePage(p);
@@ -286,11 +247,9 @@ float survivalOf(Path p, float most) {
 /// The prefix of a path that a surface has scattered; the integrator's.
 int prefixBehind(Path p, Surface s, float pdf, bool straight);
 
-/// Sets where the path goes on from the surface. `after` keeps it until the shadow ray is traced. weight multiplies the
-/// throughput, and zero ends the path.
+/// Sets where the path goes on from the surface. weight multiplies the throughput, and zero ends the path.
 Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool transmitted, SurfaceMaterial m) {
   p.throughput *= weight;
-  p.after = kPhaseEnd;
   // The last camera ray of a sample alone goes on, for all.
   if (kCameraRays > 1 && countedScatterings(p) == 0 && !goesStraight(p.medium, s, m, atDeltaGlass(m, pdf), transmitted))
     p.throughput *= earlierRays(p) < kCameraRays - 1 ? 0.0 : float(kCameraRays);
@@ -324,7 +283,7 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
   if (kCaustics) p.prefix = prefixBehind(p, s, pdf, straight);
   // Straight through a thin wall the path keeps its ray, and the pdf that light sampling shares with it.
   p.straightBounces += straight ? 1 : 0;
-  p.after = ends ? kPhaseEnd : straight ? kPhasePass : kPhaseExtend;
+  p.next = ends ? kPhaseEnd : straight ? kPhasePass : kPhaseBegin;
   if (straight) return p;
   if (kRayCones) p.cone = scatteredCone(p, pdf, transmitted);
   p.pdf = pdf;
@@ -334,18 +293,6 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
   // At a sharp edge, rounding decides which of two faces a ray hits first. A ray that has left a front is to meet a
   // front.
   if (kCreases) p.tie = (dot(direction, s.geometricNormal) > 0.0) == s.front ? kTie : -kTie;
-  return p;
-}
-
-/// Enters the phase that was settled.
-Path proceed(Path p) {
-  p.phase = p.after;
-  if (p.phase == kPhaseExtend) p = extend(p);
-  if (kThroughGlass && p.phase == kPhasePass) {
-    p.phase = kPhaseExtend;
-    p.lightSampleIndex = 0;
-    p = goPast(p);
-  }
   return p;
 }
 
@@ -396,8 +343,8 @@ Path spawnShadowRayFrom(Path p, vec3 point, vec3 origin, LightSample light, vec3
     p.shadowLimit = distance * float(0.9999);
   }
   if (kDims && !kDimsLate) p = dimShadow(p, innermost(p.shadowMedium), 0.0, p.shadowLimit);
-  if (lit) p.phase = kPhaseShadow;
-  return traceAnew(p, p.shadowLimit);
+  if (lit) p.phase = kPhaseConnect;
+  return beginTraversal(p, p.shadowLimit);
 }
 
 /// Returns the same of a point of a surface.

@@ -136,7 +136,7 @@ Path loadShadow(Path p, int row) {
 void suspendPath(Path p, int row) {
   savePath(p, row, false);
   Traversal t = p.traversal;
-  uint flags = uint(p.after) | (p.caught ? 16u : 0u) | (p.clear ? 64u : 0u);
+  uint flags = uint(p.next) | (p.caught ? 16u : 0u) | (p.clear ? 64u : 0u);
   pathStates[row + kRowShadowHit] = metBy(t);
   pathStates[row + kRowTMin].zw = uvec2(t.group, t.leaves);
   pathStates[row + kRowSuspended] = uvec4(uint(t.node), uint(p.lightSampleIndex), flags, uint(t.visits));
@@ -148,7 +148,7 @@ Path resumePath(int row, uint key) {
   Path p = loadShadow(loadPath(row, key), row);
   uvec4 a = readPathStates(row + kRowSuspended);
   p.lightSampleIndex = int(a.y);
-  p.after = int(a.z & 15u);
+  p.next = int(a.z & 15u);
   p.caught = (a.z & 16u) != 0u;
   p.clear = (a.z & 64u) != 0u;
   if (kMoving) p.traversal.part = momentAt(p.time, frame.segments.x).part;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The state of one path.
 
-const int kPhaseExtend = 0;  // the path's ray is being traced
-const int kPhaseShade = 1;   // its ray is traced; light sample `lightSampleIndex` is next
-const int kPhaseShadow = 2;  // the shadow ray of that light sample is being traced
-const int kPhaseEnd = 3;     // the sample is complete
-const int kPhaseCut = 4;     // the sample is complete because the path has scattered more than --bounces times
-const int kPhaseNone = 5;    // there is no path: the pixel's next path has yet to begin (wavefront)
-const int kPhasePass = 6;    // a value of `after` alone: the ray goes on behind the thin wall that it has met
+const int kPhaseBegin = 0;    // the path has a ray, which is to be traced
+const int kPhasePass = 1;     // its ray continues behind the surface that it has met
+const int kPhaseExtend = 2;   // its ray is being traced
+const int kPhaseMeet = 3;     // its ray is traced
+const int kPhaseConnect = 4;  // the shadow ray of a light sample is being traced
+const int kPhaseEnd = 5;      // the path is complete
+const int kPhaseCut = 6;      // the same, because it has scattered more than --bounces times
+const int kPhaseNone = 7;     // there is no path: the pixel's next path has yet to begin (wavefront)
 
 const float kTie = 9.5367431640625e-7;  // 2^-20: 16 roundings of a distance
 
@@ -39,7 +40,7 @@ float lightSamplesAt(int scattering) { return kCameraRays > 1 && scattering == 0
 
 struct Path {
   int phase;
-  int after;       // the phase that follows once the shadow ray is settled
+  int next;        // the phase that follows what the ray has met, and the shadow ray from there
   int lightSampleIndex;
   int bounce;      // scatterings so far, also one whose ray roulette ends
   int freeBounces;  // the part of `bounce` at smooth glass (kTransmission) and in media, which --bounces does not limit
@@ -82,8 +83,8 @@ struct Path {
 /// A path on which nothing has happened; its ray is still to be set.
 Path newPath() {
   Path p;
-  p.phase = kPhaseExtend;
-  p.after = kPhaseEnd;
+  p.phase = kPhaseBegin;
+  p.next = kPhaseEnd;
   p.lightSampleIndex = 0;
   p.bounce = 0;
   p.freeBounces = 0;

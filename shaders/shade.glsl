@@ -132,44 +132,14 @@ Surface surfaceHit(Path p) {
   return s;
 }
 
-/// A path arrives at a surface, which may end it: an unlit one, or one behind too many bounces.
-Path arrive(Path p, Surface s, vec3 baseColor) {
+/// A path arrives at a surface. Returns false if it ends there: on an unlit one, or behind too many bounces.
+bool arrives(inout Path p, Surface s, vec3 baseColor) {
   if (p.cameraRay) p.covered = true;
   bool unlit = isUnlit(s.material);
   if (unlit) p = addLight(p, p.throughput * baseColor);
   if (kEmission && !unlit) p = addLight(p, clampIndirect(p.throughput * emittedAt(p, s), countedScatterings(p)));
-  if (unlit || kAov == kAovEmission) p.phase = kPhaseEnd;
-  if (kScatters && p.phase != kPhaseEnd && limitedScatterings(p) > frame.maxBounces) p.phase = kPhaseCut;
-  return p;
-}
-
-/// Nothing is in the way of the shadow ray; the integrator's.
-Path connected(Path p);
-
-/// The shadow ray is traced. One that met glass may go on behind it; else the light sample is settled.
-Path settleShadow(Path p) {
-  int slot = p.traversal.slot;
-  bool passes = false;
-  if (kPassing && slot >= 0 && slot != kOpaqueSlot) {
-    if (kCountWork) countWork(kWorkShadowSurfaces, 1u);
-    Surface s = surfaceAt(slot, p.traversal.hitInstance, p.shadowOrigin, p.shadowDirection, p.traversal.t,
-                          p.traversal.weights, p.time);
-    vec4 base = baseColorAt(s.material, s.texcoords, s.color);
-    if (kClearShadows && p.caught) {
-      p.contribution *= clearThrough(s, base.rgb, p.shadowDirection);
-      passes = maxComponent(-p.contribution) > 0.0;
-    } else if (kThroughGlass && p.throughGlass) {
-      p.contribution *= lightThrough(s, base.rgb, p.shadowDirection);
-      passes = maxComponent(p.contribution) > 0.0;
-    }
-    if (kDimsLate && passes) {
-      p = dimShadow(p, solidBefore(p.shadowMedium, s, false), passedBefore(p), p.traversal.t);
-      if (isSolid(s.material)) p.shadowMedium = behindBoundary(p.shadowMedium, s);
-    }
-  }
-  if (kPassing && passes) return tracePast(p, p.shadowLimit, p.traversal.t, slot);
-  if (kDimsLate && slot < 0) p = dimShadow(p, innermost(p.shadowMedium), passedBefore(p), p.shadowLimit);
-  if (slot < 0) p = connected(p);
-  if (kClearShadows && p.caught) p.contribution = vec3(1.0);
-  return proceed(p);
+  if (unlit || kAov == kAovEmission) return false;
+  bool cut = kScatters && limitedScatterings(p) > frame.maxBounces;
+  if (cut) p.next = kPhaseCut;
+  return !cut;
 }

@@ -3,7 +3,7 @@
 // A round shades what the rays of the last one hit, ends and begins samples, then traces all rays in one loop that
 // gives a lane its next ray as soon as the last one is done, so that no lane waits for the longest ray. What is done to
 // some pixels only is a loop of its own over their bits: llvmpipe executes a branch that no lane takes, but not an
-// iteration. Its loops are the steps of advance() (trace.glsl) one by one, in the same order for each pixel, so
+// iteration. Its loops are the steps of advance() (machine.glsl) one by one, in the same order for each pixel, so
 // pictures are the same bits where a compiler keeps to the text.
 
 /// Rows of a path.
@@ -119,13 +119,13 @@ Wave passShadows(Wave v, uint left, TreeFrame tree) {
     v.steps += 1;
     Path p = loadShadow(loadPath(row, keyOf(v, k)), row);
     if (kDimsLate) p = loadShadowPast(p, row);
-    p.phase = kPhaseShadow;
-    p = settleShadow(p);
+    p.phase = kPhaseConnect;
+    p = connect(p);
     if (kThroughGlass || kDimsLate) pathStates[row + kRowContribution].xyz = floatBitsToUint(p.contribution);
     if (kDimsLate) pathStates[row + kRowInstances].w = p.shadowMedium;
     uint bit = 1u << k;
     v.waiting |= bit;
-    if (p.phase == kPhaseShadow) {
+    if (p.phase == kPhaseConnect) {
       pathStates[row + kRowCounts].y += 1u;
       if (kCountWork) countShadowRay();
       v.blocked &= ~bit;
@@ -150,12 +150,13 @@ Wave shadeHits(Wave v, uint left, TreeFrame tree) {
     if (kCountWork) countRay(p);
     p.pixel = v.corner + ivec2(0, k);
     p = kMedia ? meet(p) : hit(p);
-    v.cut += cutThroughput(p);
-    bool shadow = kShadows && p.phase == kPhaseShadow;
+    bool shadow = kShadows && p.phase == kPhaseConnect;
     Traversal s = p.traversal;
-    if (shadow) p = proceed(p);
+    p.phase = p.next;
+    v.cut += cutThroughput(p);
+    bool goesOn = p.phase <= kPhasePass;
+    if (goesOn) p = extend(p);
     if (kDensityGrid) v.steps += p.traversal.steps;
-    bool goesOn = p.phase == kPhaseExtend;
     Traversal t = p.traversal;
     if (goesOn) t = beginExtension(p, tree);
     p.traversal = t;
@@ -193,6 +194,7 @@ Wave beginSamples(Wave v, uint left, TreeFrame tree) {
     if (p.phase == kPhaseExtend) {
       if (kCountWork) countRay(p);
       p = miss(p);
+      p.phase = kPhaseEnd;
       p.rays += 1;
     }
     bool another = p.phase != kPhaseNone && hasMoreRays(p);
@@ -206,6 +208,7 @@ Wave beginSamples(Wave v, uint left, TreeFrame tree) {
     if (another || film.samples < samplesWanted(film)) {
       if (kCountWork && !another) beginWork(numberOf(v, k));
       p = another ? nextRay(p, pixel, film.samples) : beginPath(pixel, film.samples, 0);
+      p = extend(p);
       if (kDensityGrid) v.steps += p.traversal.steps;
       Traversal t = beginExtension(p, tree);
       samples += 1;

@@ -161,11 +161,8 @@ Path hit(Path p) {
   vec3 baseColor = vec3(baseColorAt(s.material, s.texcoords, s.color));
   if (kPassesLight) p = flyTo(p, s);
   if (kMedia && p.hitSlot < 0) return scatterInMedium(p);
-  p = arrive(p, s, baseColor);
-  if (p.phase >= kPhaseEnd) return p;
-  p = shadeGlobal(p, s, materialAt(s.material, baseColor, s.texcoords), normalFacing(s, -p.direction));
-  if (p.phase != kPhaseShadow) p = proceed(p);
-  return p;
+  if (!arrives(p, s, baseColor)) return p;
+  return shadeGlobal(p, s, materialAt(s.material, baseColor, s.texcoords), normalFacing(s, -p.direction));
 }
 
 void suspendOwn(Path p, int row) {

@@ -33,7 +33,6 @@ Path hit(Path p) {
   vec3 baseColor = vec3(baseColorAt(s.material, s.texcoords, s.color));
   p.covered = !kCountVisits;
   p.radiance = aovAt(s, p.hitSlot, p.hitInstance, baseColor, -p.direction, p.time);
-  p.phase = kPhaseEnd;
   return p;
 }
 
@@ -43,8 +42,7 @@ Path intercept(Path p, float t) { return p; }
 
 /// The stage flat shows the background.
 Path miss(Path p) {
-  if (kAov == kAovNone) return meetSurroundings(p);
-  p.phase = kPhaseEnd;
+  if (kAov == kAovNone) p = meetSurroundings(p);
   return p;
 }
 

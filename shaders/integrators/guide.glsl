@@ -38,7 +38,6 @@ Path takeGuide(Path p, float depth, vec3 normal) {
   if (p.cameraRay) guide.depth += guideRest() * depth;
   guide.lastNormal = normal;
   p.covered = true;
-  p.phase = kPhaseEnd;
   return p;
 }
 
@@ -65,8 +64,8 @@ Path hit(Path p) {
   if (blends && guideRest() - share > kGuideRest) {
     if (p.cameraRay) guide.depth += share * depthOf(s, p.time);
     addGuide(share, guideTint(p) * base.rgb, normal);
-    p.phase = kPhaseExtend;
-    return tracePast(p, kFarAway, p.hitT, p.hitSlot);
+    p.next = kPhasePass;
+    return p;
   }
   p = takeGuide(p, depthOf(s, p.time), normal);
   SurfaceMaterial m;
@@ -75,8 +74,8 @@ Path hit(Path p) {
   bool refracts = kRefraction && follows && m.transmission * (1.0 - m.metallic) > 0.5;
   // Milk hides what is behind it.
   if (kScattering) refracts = refracts && (flags & kMaterialScatters) == 0u;
-  if (kRefraction && refracts) return proceed(scatterGlass(p, s, m, normal, 0.5));
-  if (kReflections && follows && m.metallic > 0.5) return proceed(scatterMirror(p, s, m, normal, 1.0));
+  if (kRefraction && refracts) return scatterGlass(p, s, m, normal, 0.5);
+  if (kReflections && follows && m.metallic > 0.5) return scatterMirror(p, s, m, normal, 1.0);
   return guideStop(p, base.rgb);
 }
 
@@ -111,7 +110,6 @@ Path intercept(Path p, float t) { return kShadowCatcher ? guideAtCatcher(p, t) :
 
 /// Fog counts before the surroundings.
 Path miss(Path p) {
-  p.phase = kPhaseEnd;
   if (kFog && p.cameraRay && fogDepth(fog, p.origin, p.direction, 0.0, kFarAway) >= kGuideFog) {
     p = guideInMedium(p, insideFog(fog, p.origin, p.direction, 0.0).y);
   }

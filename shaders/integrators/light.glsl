@@ -90,9 +90,9 @@ bool withinBounces(Path p) {
 
 /// Traces the shadow ray, after which the path ends unless spawnRay() gives it another ray.
 Path traceSplat(Path p) {
-  p.after = kPhaseEnd;
-  p.phase = kPhaseShadow;
-  return traceAnew(p, p.shadowLimit);
+  p.next = kPhaseEnd;
+  p.phase = kPhaseConnect;
+  return beginTraversal(p, p.shadowLimit);
 }
 
 /// f |wi.Ns| |wo.Ng| / |wi.Ng| of the path's light towards wo, which is towards the camera, and the pdf with which a
@@ -183,7 +183,8 @@ Path passOn(Path p, Surface s, float times) {
   fromLight.travelled += p.hitT;
   p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.direction);
   if (kCreases) p.tie = s.front ? -kTie : kTie;
-  return extend(p);
+  p.next = kPhaseBegin;
+  return p;
 }
 
 /// A single-sided surface sends this share of the light paths that it could scatter on behind itself.
@@ -205,7 +206,6 @@ Path hit(Path p) {
   uint flags = materialFlags(s.material);
   vec3 baseColor = vec3(baseColorAt(s.material, s.texcoords, s.color));
   if (kPassesLight) p = flyTo(p, s);
-  p.phase = kPhaseEnd;
   bool unlit = isUnlit(s.material);
   bool glossy = isCaster(flags, false);
   bool mirror = isCaster(flags, true);
@@ -269,18 +269,15 @@ Path hit(Path p) {
   if (p.bounce == 0) fromLight.glassFirst = glass && delta;
   if (!straight) fromLight.chain = chainAfter(p, s, next.transmitted);
   p = spawnRay(p, s, direction, weight, next.pdf, next.transmitted, m);
-  if (!withinBounces(p)) p.after = kPhaseEnd;
-  return p.phase == kPhaseShadow ? p : proceed(p);
+  if (!withinBounces(p)) p.next = kPhaseEnd;
+  return p;
 }
 
 float interceptedAt(Path p) { return kFarAway; }
 
 Path intercept(Path p, float t) { return p; }
 
-Path miss(Path p) {
-  p.phase = kPhaseEnd;
-  return p;
-}
+Path miss(Path p) { return p; }
 
 /// The key of the random numbers of a pass of light paths, which has Sobol points of its own.
 uint keyOfPath(ivec2 pixel) { return pixelKey(uint(frame.firstSample), 0xfffffffeu, uint(frame.seed)); }

@@ -28,7 +28,7 @@ Path shadeLocal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
     p = spawnShadowRay(p, s, light, above ? p.throughput * light.irradiance * value : vec3(0.0));
   }
   p.lightSampleIndex += 1;
-  p.after = kPhaseShade;
+  p.next = kPhaseMeet;
   if (p.lightSampleIndex < lights) return p;
   float gloss = 1.0 - m.roughness;
   return scatterMirror(p, s, m, normal, gloss * gloss);
@@ -39,11 +39,8 @@ Path hit(Path p) {
   vec3 baseColor = vec3(baseColorAt(s.material, s.texcoords, s.color));
   bool first = p.lightSampleIndex == 0;
   if (kPassesLight && first) p = flyTo(p, s);
-  if (first) p = arrive(p, s, baseColor);
-  if (p.phase >= kPhaseEnd) return p;
-  p = shadeLocal(p, s, materialAt(s.material, baseColor, s.texcoords), normalFacing(s, -p.direction));
-  if (p.phase != kPhaseShadow) p = proceed(p);
-  return p;
+  if (first && !arrives(p, s, baseColor)) return p;
+  return shadeLocal(p, s, materialAt(s.material, baseColor, s.texcoords), normalFacing(s, -p.direction));
 }
 
 float interceptedAt(Path p) { return kFarAway; }

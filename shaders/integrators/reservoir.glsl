@@ -13,18 +13,13 @@ float interceptedAt(Path p) { return kFarAway; }
 
 Path intercept(Path p, float t) { return p; }
 
-Path miss(Path p) {
-  p.phase = kPhaseEnd;
-  return p;
-}
+Path miss(Path p) { return p; }
 
 Path hit(Path p) {
   Surface s = surfaceHit(p);
   vec3 baseColor = vec3(baseColorAt(s.material, s.texcoords, s.color));
   if (kPassesLight) p = flyTo(p, s);
-  p.phase = kPhaseEnd;
-  if (p.hitSlot < 0) return p;
-  if (isUnlit(s.material) || lightSampleCount() == 0) return p;
+  if (p.hitSlot < 0 || isUnlit(s.material) || lightSampleCount() == 0) return p;
   SurfaceMaterial m = materialAt(s.material, baseColor, s.texcoords);
   LitSurface on = LitSurface(s.position, packNormal(s.geometricNormal), takesLightFromBehind(s, m));
   storeReservoir(p.pixel, makeReservoir(on, normalOfLight(s, m), p.sampler, kBounceDimensions + kLightDimension));

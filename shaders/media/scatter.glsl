@@ -18,13 +18,12 @@ bool holdsLamps(uint solids) { return (materialFlags(innermost(solids)) & kMater
 /// Decides by roulette if a path continues after a scattering in a medium. --bounces does not limit these
 /// scatterings, because paths in a white, dense medium are long.
 Path decideInMedium(Path p) {
-  p.after = kPhaseEnd;
   if (maxComponent(p.throughput) <= 0.0) return p;
   bool decides = p.bounce >= frame.rouletteDepth;
   float survival = survivalOf(p, 1.0);
   if (decides && drawFloat(p.sampler, kBounceDimensions * uint(p.bounce) + kRouletteDimension) >= survival) return p;
   if (decides) p.throughput /= survival;
-  p.after = kPhaseExtend;
+  p.next = kPhaseBegin;
   return p;
 }
 
@@ -54,7 +53,6 @@ Path scatterInMedium(Path p) {
   }
   p.throughput *= scatter.rgb;
   if (p.cameraRay) p.covered = true;
-  p.phase = kPhaseEnd;
   if (kAov == kAovEmission) return p;
   if (kLightPart && p.bounce == 0) p.aovWeight = vec3(kAov == kAovDiffuse ? 1.0 : 0.0);
   vec2 uv = drawPair(p.sampler, kBounceDimensions * uint(p.bounce + 1) + kDirectionDimension);
@@ -71,6 +69,5 @@ Path scatterInMedium(Path p) {
   p.clear = false;
   p.bounce += 1;
   p.freeBounces += 1;
-  p = decideInMedium(p);
-  return p.phase == kPhaseShadow ? p : proceed(p);
+  return decideInMedium(p);
 }

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// The path machine: a path goes from phase to phase until it ends. The integrator (integrators/) says what happens at
+// begin, hit, miss and connected.
+//
+//   phase    what advance() does                                               next phase
+//   begin    starts to trace the ray that the path has                         extend
+//   pass     starts to trace the same ray behind the surface that it has met   extend
+//   extend   traverse() looks for the nearest hit                              meet, once it is done
+//   meet     intercept(), hit() or miss() add light, and may set up            connect with a shadow ray, else p.next
+//            a shadow ray and the next ray
+//   connect  traverse() looks for anything on the shadow ray;                  p.next
+//            nothing: connected() adds the light sample
+//   end      record() adds the path to the film (trace.glsl)
+//
+// A round of a path is an extension, what it meets, and a connection. On GPUs it is one ray of either kind, so that
+// there is one traversal: a second one takes registers (docs/measurements/gpu.md).
+
+/// Rays are traced from end to end: what the budget ends begins its sample again in the next draw, and no traversal is
+/// kept from round to round.
+const bool kWholeRays = kGi && !kPassing && !kResumable && kAov == kAovNone;
+
+/// Starts a traversal behind the surface that the ray has met at distance t, and passes.
+Path beginBehind(Path p, float limit, float t, int slot) {
+  if (kCountWork) countWork(kWorkPassed, 1u);
+  p = beginTraversal(p, limit);
+  p.traversal.tMin = t;
+  p.traversal.tMinSlot = slot;
+  return p;
+}
+
+/// Starts to trace the path's ray, up to the end of its flight in a medium.
+Path extend(Path p) {
+  bool passes = kPassing && p.phase == kPhasePass;
+  if (passes) p = beginBehind(p, kFarAway, p.hitT, p.hitSlot);
+  if (!passes) p = beginTraversal(p, kFarAway);
+  if (kCreases) p.traversal.tie = p.tie;
+  if (kCoincident) p.traversal.extends = true;
+  if (kLightPaths) p.traversal.both = true;
+  if (kMedia && !(kShadowCatcher && passes && p.caught)) p = limitFlight(p, passes ? p.hitT : 0.0);
+  p.phase = kPhaseExtend;
+  p.lightSampleIndex = 0;
+  return p;
+}
+
+/// Traces the path's ray, or its shadow ray, as far as the budget lets it.
+Path traced(Path p, bool connects, int budget, TreeFrame tree) {
+  if (kTestsAlpha) p = withChances(p);
+  p.traversal = traverse(connects ? p.shadowOrigin : p.origin, connects ? p.shadowDirection : p.direction,
+                         connects ? p.shadowLimit : kFarAway, p.traversal, tree, budget, connects);
+  return p;
+}
+
+/// The path's ray has been traced: something stops it before its hit, or it hits a surface, or nothing.
+Path meet(Path p) {
+  p.phase = kPhaseMeet;
+  p.next = kPhaseEnd;
+  float t = interceptedAt(p);
+  if (t < kFarAway) {
+    p = intercept(p, t);
+  } else if (p.hitSlot < 0) {
+    p = miss(p);
+  } else {
+    p = hit(p);
+  }
+  if (p.phase == kPhaseMeet) p.phase = p.next;
+  return p;
+}
+
+/// The share of the connection's light that the surface on its shadow ray lets pass, which may be none.
+vec3 passed(Path p, Surface s) {
+  vec3 baseColor = vec3(baseColorAt(s.material, s.texcoords, s.color));
+  vec3 share = vec3(0.0);
+  if (kThroughGlass && p.throughGlass) share = lightThrough(s, baseColor, p.shadowDirection);
+  if (kClearShadows && p.caught) share = clearThrough(s, baseColor, p.shadowDirection);
+  return share;
+}
+
+/// The shadow ray has been traced. One that has met glass may continue behind it; else the path does.
+Path connect(Path p) {
+  int slot = p.traversal.slot;
+  bool passes = false;
+  if (kPassing && slot >= 0 && slot != kOpaqueSlot) {
+    if (kCountWork) countWork(kWorkShadowSurfaces, 1u);
+    Surface s = surfaceAt(slot, p.traversal.hitInstance, p.shadowOrigin, p.shadowDirection, p.traversal.t,
+                          p.traversal.weights, p.time);
+    p.contribution *= passed(p, s);
+    passes = maxComponent(abs(p.contribution)) > 0.0;
+    if (kDimsLate && passes) {
+      p = dimShadow(p, solidBefore(p.shadowMedium, s, false), passedBefore(p), p.traversal.t);
+      if (isSolid(s.material)) p.shadowMedium = behindBoundary(p.shadowMedium, s);
+    }
+  }
+  if (kPassing && passes) return beginBehind(p, p.shadowLimit, p.traversal.t, slot);
+  if (kDimsLate && slot < 0) p = dimShadow(p, innermost(p.shadowMedium), passedBefore(p), p.shadowLimit);
+  if (slot < 0) p = connected(p);
+  if (kClearShadows && p.caught) p.contribution = vec3(1.0);
+  p.phase = p.next;
+  return p;
+}
+
+/// The shadow ray has been traced, as far as the budget lets it.
+Path connectTraced(Path p) {
+  if (!isDone(p.traversal)) return p;
+  p.rays += 1;
+  if (kCountWork) countShadowRay();
+  return connect(p);
+}
+
+/// One round of a path. A traversal that the budget ends leaves it in its phase.
+Path advance(Path p, int budget, TreeFrame tree) {
+  p.traversal.steps += 1;
+  bool connects = kGpu && kShadows && p.phase == kPhaseConnect;
+  // Only light paths may have ended before their first ray.
+  bool begins = kWholeRays && !kLightPaths ? !connects : p.phase <= kPhasePass;
+  if (begins) p = extend(p);
+  if (kGpu && kWholeRays && connects) p = beginTraversal(p, p.shadowLimit);
+  if (p.phase == kPhaseExtend || connects) {
+    p = traced(p, connects, budget, tree);
+    // A shadow ray or one that is not done leaves its hit, too: that of the ray before then needs no registers.
+    if (kWholeRays) p = withHit(p, p.traversal);
+    if (!connects && isDone(p.traversal)) {
+      p.rays += 1;
+      if (kCountWork) countRay(p);
+      if (!kWholeRays) p = withHit(p, p.traversal);
+      p.phase = kPhaseMeet;
+    }
+  }
+  if (kGpu && connects) p = connectTraced(p);
+  if (p.phase == kPhaseMeet) {
+    p = meet(p);
+    p.traversal.steps += kCandidateSteps;
+  }
+  if (!kGpu && kShadows && p.phase == kPhaseConnect) p = connectTraced(traced(p, true, budget, tree));
+  return p;
+}
