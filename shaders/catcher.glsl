@@ -17,10 +17,10 @@ float catcherDistance(vec3 origin, vec3 direction) {
 /// The distance at which the path's ray meets the catcher before anything else, or else `otherwise`. A path that is
 /// caught is there.
 float catcherBefore(Path p, float otherwise) {
-  if (p.caught) return 0.0;
-  if (!p.cameraRay && !(kTransparentGlass && p.clear)) return otherwise;
-  float there = catcherDistance(p.origin, p.direction);
-  float t = p.hitSlot < 0 ? kFarAway : p.hitT;
+  if (p.eye.caught) return 0.0;
+  if (!p.cameraRay && !(kTransparentGlass && p.eye.clear)) return otherwise;
+  float there = catcherDistance(p.ray.origin, p.ray.direction);
+  float t = p.hit.slot < 0 ? kFarAway : p.hit.t;
   return there > 0.0 && there < t * (1.0 - kCatcherMargin) ? there : otherwise;
 }
 
@@ -49,15 +49,15 @@ Path beginShadow(Path p, float t) {
     float passed = passedByGlass(p);
     p.throughput *= p.etaScale;
     p.etaScale = passed;
-    p.before = p.radiance;
+    p.eye.before = p.radiance;
   }
-  p.throughput *= seenBehind(p.direction);
+  p.throughput *= seenBehind(p.ray.direction);
   p.radiance = vec3(0.0);
   p.cameraRay = false;
-  p.caught = true;
-  p.aovWeight = vec3(1.0);
+  p.eye.caught = true;
+  p.eye.aovWeight = vec3(1.0);
   Surface s;
-  s.position = p.origin + t * p.direction;
+  s.position = p.ray.origin + t * p.ray.direction;
   s.position.y = frame.catcherHeight;
   s.positionError = max(maxComponent(abs(s.position)), t) * 1e-6;
   s.geometricNormal = vec3(0.0, 1.0, 0.0);
@@ -75,55 +75,55 @@ Path beginShadow(Path p, float t) {
     if (p.phase == kPhaseConnect) {
       // The hidden share is share * (1 - V), where V is 1 if the shadow ray meets nothing: it begins as `share`, and
       // connected() adds -share where V is 1.
-      p.radiance = p.contribution;
-      p.contribution = -p.contribution;
+      p.radiance = p.connection.light;
+      p.connection.light = -p.connection.light;
     }
   }
   vec3 lobe = sampleCosineHemisphere(uv.x, uv.y);
-  p.direction = vec3(lobe.x, lobe.z, -lobe.y);
-  p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.direction);
-  p.pdf = lobe.z * kInversePi;
-  if (kCreases) p.tie = 0.0;
-  if (kClearShadows && p.phase != kPhaseConnect) p.contribution = vec3(1.0);
-  p.next = kEnvironment && p.pdf > 0.0 ? kPhaseBegin : kPhaseEnd;
+  p.ray.direction = vec3(lobe.x, lobe.z, -lobe.y);
+  p.ray.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.ray.direction);
+  p.ray.pdf = lobe.z * kInversePi;
+  if (kCreases) p.ray.tie = 0.0;
+  if (kClearShadows && p.phase != kPhaseConnect) p.connection.light = vec3(1.0);
+  p.next = kEnvironment && p.ray.pdf > 0.0 ? kPhaseBegin : kPhaseEnd;
   return p;
 }
 
 /// Dims the caught path by what a solid absorbs on its ray's way to a surface that lets it pass.
 Path passSolid(Path p, Surface s) {
-  uint solid = solidBefore(p.medium, s, false);
+  uint solid = solidBefore(p.ray.medium, s, false);
   if (solid != kPrimitiveNone)
-    p.contribution *= exp(-(p.hitT - passedBefore(p)) * materialFloats(solid, kMaterialVolume).rgb);
-  if (isSolid(s.material)) p.medium = behindBoundary(p.medium, s);
+    p.connection.light *= exp(-(p.hit.t - passedBefore(p)) * materialFloats(solid, kMaterialVolume).rgb);
+  if (isSolid(s.material)) p.ray.medium = behindBoundary(p.ray.medium, s);
   return p;
 }
 
 /// Returns true if light passes the surface that the caught path's ray has met.
 bool passesToCatcher(inout Path p) {
-  Surface s = surfaceAt(p.hitSlot, p.hitInstance, p.origin, p.direction, p.hitT, p.hitWeights, p.time);
-  p.contribution *= clearThrough(s, vec3(baseColorAt(s.material, s.texcoords, s.color)), p.direction);
+  Surface s = surfaceAt(p.hit.slot, p.hit.instance, p.ray.origin, p.ray.direction, p.hit.t, p.hit.weights, p.time);
+  p.connection.light *= clearThrough(s, vec3(baseColorAt(s.material, s.texcoords, s.color)), p.ray.direction);
   if (kAbsorption) p = passSolid(p, s);
-  return maxComponent(p.contribution) > 0.0;
+  return maxComponent(p.connection.light) > 0.0;
 }
 
 /// The ray along the direction drawn has met a surface, or nothing.
 Path endShadow(Path p) {
-  bool arrives = p.hitSlot < 0;
+  bool arrives = p.hit.slot < 0;
   if (arrives && !kClearShadows) return p;
   if (kClearShadows && !arrives && passesToCatcher(p)) {
     p.next = kPhasePass;
     return p;
   }
-  vec4 hidden = environmentAlong(p.direction);
+  vec4 hidden = environmentAlong(p.ray.direction);
   float weight = 1.0;
   if (kEnvironmentSampling)
-    weight = balanceWeight(p.pdf, frame.environmentChance * environmentPdf(hidden, p.direction));
-  vec3 share = shareOfLight(kPi * weight * hidden.rgb, freeIrradiance(p.origin));
-  p.radiance += arrives ? share * (vec3(1.0) - p.contribution) : share;
+    weight = balanceWeight(p.ray.pdf, frame.environmentChance * environmentPdf(hidden, p.ray.direction));
+  vec3 share = shareOfLight(kPi * weight * hidden.rgb, freeIrradiance(p.ray.origin));
+  p.radiance += arrives ? share * (vec3(1.0) - p.connection.light) : share;
   return p;
 }
 
-Path meetCatcher(Path p, float t) { return p.caught ? endShadow(p) : beginShadow(p, t); }
+Path meetCatcher(Path p, float t) { return p.eye.caught ? endShadow(p) : beginShadow(p, t); }
 
 /// The share of a shadow that a pixel of the whole picture keeps, since it ends before the edge. The outermost pixels
 /// have none. Lines of the same share are round at the corners, and bent along an edge, as far as the model leaves room
@@ -140,7 +140,7 @@ float shadowLeft(ivec2 pixel) {
 
 /// The alpha of the finished sample. For a shadow on the catcher it is the luminance of the hidden share.
 float coverageOf(Path p) {
-  if (kShadowCatcher && p.caught) {
+  if (kShadowCatcher && p.eye.caught) {
     float shadow = luminance(p.radiance);
     return kTransparentGlass ? 1.0 - p.etaScale * (1.0 - shadow) : shadow;
   }
@@ -150,9 +150,9 @@ float coverageOf(Path p) {
 
 /// The finished sample of a path that was caught: the background times the share of light that arrives.
 Path showShadow(Path p) {
-  if (!p.caught) return p;
+  if (!p.eye.caught) return p;
   p.radiance = p.throughput * (vec3(1.0) - p.radiance);
-  if (kTransparentGlass) p.radiance += p.before;
+  if (kTransparentGlass) p.radiance += p.eye.before;
   // The camera sees the background directly, with or without a shadow on it. So it is emission.
   if (kAov == kAovDiffuse || kAov == kAovSpecular) p.radiance = vec3(0.0);
   return p;

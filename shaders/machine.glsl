@@ -31,22 +31,23 @@ Path beginBehind(Path p, float limit, float t, int slot) {
 /// Starts to trace the path's ray, up to the end of its flight in a medium.
 Path extend(Path p) {
   bool passes = kPassing && p.phase == kPhasePass;
-  if (passes) p = beginBehind(p, kFarAway, p.hitT, p.hitSlot);
+  if (passes) p = beginBehind(p, kFarAway, p.hit.t, p.hit.slot);
   if (!passes) p = beginTraversal(p, kFarAway);
-  if (kCreases) p.traversal.tie = p.tie;
+  if (kCreases) p.traversal.tie = p.ray.tie;
   if (kCoincident) p.traversal.extends = true;
   if (kLightPaths) p.traversal.both = true;
-  if (kMedia && !(kShadowCatcher && passes && p.caught)) p = limitFlight(p, passes ? p.hitT : 0.0);
+  if (kMedia && !(kShadowCatcher && passes && p.eye.caught)) p = limitFlight(p, passes ? p.hit.t : 0.0);
   p.phase = kPhaseExtend;
-  p.lightSampleIndex = 0;
   return p;
 }
 
 /// Traces the path's ray, or its shadow ray, as far as the budget lets it.
 Path traced(Path p, bool connects, int budget, TreeFrame tree) {
   if (kTestsAlpha) p = withChances(p);
-  p.traversal = traverse(connects ? p.shadowOrigin : p.origin, connects ? p.shadowDirection : p.direction,
-                         connects ? p.shadowLimit : kFarAway, p.traversal, tree, budget, connects);
+  vec3 origin = connects ? p.connection.origin : p.ray.origin;
+  vec3 direction = connects ? p.connection.direction : p.ray.direction;
+  float limit = connects ? p.connection.limit : kFarAway;
+  p.traversal = traverse(origin, direction, limit, p.traversal, tree, budget, connects);
   return p;
 }
 
@@ -57,7 +58,7 @@ Path meet(Path p) {
   float t = interceptedAt(p);
   if (t < kFarAway) {
     p = intercept(p, t);
-  } else if (p.hitSlot < 0) {
+  } else if (p.hit.slot < 0) {
     p = miss(p);
   } else {
     p = hit(p);
@@ -70,8 +71,8 @@ Path meet(Path p) {
 vec3 passed(Path p, Surface s) {
   vec3 baseColor = vec3(baseColorAt(s.material, s.texcoords, s.color));
   vec3 share = vec3(0.0);
-  if (kThroughGlass && p.throughGlass) share = lightThrough(s, baseColor, p.shadowDirection);
-  if (kClearShadows && p.caught) share = clearThrough(s, baseColor, p.shadowDirection);
+  if (kThroughGlass && p.connection.throughGlass) share = lightThrough(s, baseColor, p.connection.direction);
+  if (kClearShadows && p.eye.caught) share = clearThrough(s, baseColor, p.connection.direction);
   return share;
 }
 
@@ -81,19 +82,19 @@ Path connect(Path p) {
   bool passes = false;
   if (kPassing && slot >= 0 && slot != kOpaqueSlot) {
     if (kCountWork) countWork(kWorkShadowSurfaces, 1u);
-    Surface s = surfaceAt(slot, p.traversal.hitInstance, p.shadowOrigin, p.shadowDirection, p.traversal.t,
+    Surface s = surfaceAt(slot, p.traversal.hitInstance, p.connection.origin, p.connection.direction, p.traversal.t,
                           p.traversal.weights, p.time);
-    p.contribution *= passed(p, s);
-    passes = maxComponent(abs(p.contribution)) > 0.0;
+    p.connection.light *= passed(p, s);
+    passes = maxComponent(abs(p.connection.light)) > 0.0;
     if (kDimsLate && passes) {
-      p = dimShadow(p, solidBefore(p.shadowMedium, s, false), passedBefore(p), p.traversal.t);
-      if (isSolid(s.material)) p.shadowMedium = behindBoundary(p.shadowMedium, s);
+      p = dimShadow(p, solidBefore(p.connection.medium, s, false), passedBefore(p), p.traversal.t);
+      if (isSolid(s.material)) p.connection.medium = behindBoundary(p.connection.medium, s);
     }
   }
-  if (kPassing && passes) return beginBehind(p, p.shadowLimit, p.traversal.t, slot);
-  if (kDimsLate && slot < 0) p = dimShadow(p, innermost(p.shadowMedium), passedBefore(p), p.shadowLimit);
+  if (kPassing && passes) return beginBehind(p, p.connection.limit, p.traversal.t, slot);
+  if (kDimsLate && slot < 0) p = dimShadow(p, innermost(p.connection.medium), passedBefore(p), p.connection.limit);
   if (slot < 0) p = connected(p);
-  if (kClearShadows && p.caught) p.contribution = vec3(1.0);
+  if (kClearShadows && p.eye.caught) p.connection.light = vec3(1.0);
   p.phase = p.next;
   return p;
 }
@@ -113,7 +114,7 @@ Path advance(Path p, int budget, TreeFrame tree) {
   // Only light paths may have ended before their first ray.
   bool begins = kWholeRays && !kLightPaths ? !connects : p.phase <= kPhasePass;
   if (begins) p = extend(p);
-  if (kGpu && kWholeRays && connects) p = beginTraversal(p, p.shadowLimit);
+  if (kGpu && kWholeRays && connects) p = beginTraversal(p, p.connection.limit);
   if (p.phase == kPhaseExtend || connects) {
     p = traced(p, connects, budget, tree);
     // A shadow ray or one that is not done leaves its hit, too: that of the ray before then needs no registers.

@@ -89,10 +89,7 @@ uint keyOfPixel(ivec2 pixel) {
 
 /// A path that begins with a ray inside of solids.
 Path pathAlong(vec3 origin, vec3 direction, Sampler sampler, int steps, uint solids) {
-  Path p = newPath();
-  p.sampler = sampler;
-  p.origin = origin;
-  p.direction = direction;
+  Path p = newPath(origin, direction, sampler);
   p.traversal.steps = steps;
   if (kTimed) p.time = kIdAov ? 0.5 : timeOf(sampler);
   if (kNestedSolids && solids >> 16 != kNoSolid) p = standInside(p, solids >> 16);
@@ -155,7 +152,7 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int earlier, int steps) 
   // Outside of the fisheye's circle the ray goes up from above all, and meetSurroundings() gives it no light.
   if (kFisheye && !withinFisheye(point)) ray = CameraRay(vec3(0.0, kAboveAll, 0.0), vec3(0.0, 1.0, 0.0));
   Path p = pathAlong(ray.origin, ray.direction, sampler, steps, frame.cameraSolids);
-  if (kRayCones) p.cone = cameraCone(p);
+  if (kRayCones) p.ray.cone = cameraCone(p);
   p.pixel = pixel;
   p.throughput = vec3(1.0 / float(kCameraRays));
   return p;
@@ -163,7 +160,7 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int earlier, int steps) 
 
 /// Adds light, or the share of it that belongs to the AOV.
 Path addLight(Path p, vec3 light) {
-  p.radiance += kLightPart ? p.aovWeight * light : light;
+  p.radiance += kLightPart ? p.eye.aovWeight * light : light;
   return p;
 }
 
@@ -198,7 +195,7 @@ float passedByGlass(Path p) { return dot(p.throughput, vec3(1.0 / 3.0)) * p.etaS
 
 /// A clear path has met nothing: it shows the page. From here on `etaScale` is the part of it that is seen.
 Path seePage(Path p) {
-  p = addLight(p, p.throughput * p.etaScale * seenBehind(p.direction));
+  p = addLight(p, p.throughput * p.etaScale * seenBehind(p.ray.direction));
   p.etaScale = passedByGlass(p);
   p.covered = false;
   return p;
@@ -206,19 +203,19 @@ Path seePage(Path p) {
 
 /// The path's ray has met nothing.
 Path meetSurroundings(Path p) {
-  if (kFisheye && p.cameraRay && p.origin.y == kAboveAll) return p;
-  if (p.cameraRay) return addLight(p, p.throughput * seenBehind(p.direction));
-  if (kTransparentGlass && p.clear) return seePage(p);
+  if (kFisheye && p.cameraRay && p.ray.origin.y == kAboveAll) return p;
+  if (p.cameraRay) return addLight(p, p.throughput * seenBehind(p.ray.direction));
+  if (kTransparentGlass && p.eye.clear) return seePage(p);
   if (!kEnvironment) return p;
   // Surroundings are outside of everything: who has left less than was entered has missed a face that touches another.
   if (kPassesLight) p.throughput *= p.etaScale;
   // Light paths bring the sun.
-  vec4 seen = environmentAlong(p.direction);
-  if (kSunPaths && p.prefix == kPrefixCaustic) seen.rgb = mapBesideSun(p.direction);
+  vec4 seen = environmentAlong(p.ray.direction);
+  if (kSunPaths && p.prefix == kPrefixCaustic) seen.rgb = mapBesideSun(p.ray.direction);
   float weight = 1.0;
-  if (kEnvironmentSampling && p.pdf > 0.0) {
+  if (kEnvironmentSampling && p.ray.pdf > 0.0) {
     float samples = lightSamplesAt(countedScatterings(p) - 1);
-    weight = balanceWeight(p.pdf, samples * frame.environmentChance * environmentPdf(seen, p.direction));
+    weight = balanceWeight(p.ray.pdf, samples * frame.environmentChance * environmentPdf(seen, p.ray.direction));
   }
   return addLight(p, clampIndirect(p.throughput * (weight * seen.rgb), countedScatterings(p)));
 }
@@ -250,14 +247,14 @@ int prefixBehind(Path p, Surface s, float pdf, bool straight);
 /// Sets where the path goes on from the surface. weight multiplies the throughput, and zero ends the path.
 Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool transmitted, SurfaceMaterial m) {
   p.throughput *= weight;
+  bool deltaGlass = atDeltaGlass(m, pdf);
+  bool straight = goesStraight(p.ray.medium, s, m, deltaGlass, transmitted);
   // The last camera ray of a sample alone goes on, for all.
-  if (kCameraRays > 1 && countedScatterings(p) == 0 && !goesStraight(p.medium, s, m, atDeltaGlass(m, pdf), transmitted))
+  if (kCameraRays > 1 && countedScatterings(p) == 0 && !straight)
     p.throughput *= earlierRays(p) < kCameraRays - 1 ? 0.0 : float(kCameraRays);
   bool ends = maxComponent(p.throughput) <= 0.0;
-  bool deltaGlass = atDeltaGlass(m, pdf);
-  uint medium = p.medium;
   if (transmitted && m.solid) {
-    p.medium = behindBoundary(p.medium, s);
+    p.ray.medium = behindBoundary(p.ray.medium, s);
     float squared = m.ior * m.ior;
     float before = p.etaScale;
     p.etaScale = s.front ? before * squared : max(before / squared, 1.0);
@@ -265,7 +262,6 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
     // scale ends at 1. The weight holds the whole factor, which is corrected here.
     if (!s.front) p.throughput *= before / (squared * p.etaScale);
   }
-  bool straight = goesStraight(medium, s, m, deltaGlass, transmitted);
   p.bounce += 1;
   p.freeBounces += deltaGlass ? 1 : 0;
   // At smooth glass roulette begins by kLatestRoulette in any stage: nothing else ends a ray trapped inside.
@@ -279,29 +275,31 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
   if (roulette && drawFloat(p.sampler, rouletteDimension) >= survival) ends = true;
   if (roulette) p.throughput /= survival;
   p.cameraRay = false;
-  if (kTransparentGlass) p.clear = p.clear && transmitted && m.transmission > 0.0;
+  if (kTransparentGlass) p.eye.clear = p.eye.clear && transmitted && m.transmission > 0.0;
   if (kCaustics) p.prefix = prefixBehind(p, s, pdf, straight);
   // Straight through a thin wall the path keeps its ray, and the pdf that light sampling shares with it.
   p.straightBounces += straight ? 1 : 0;
   p.next = ends ? kPhaseEnd : straight ? kPhasePass : kPhaseBegin;
   if (straight) return p;
-  if (kRayCones) p.cone = scatteredCone(p, pdf, transmitted);
-  p.pdf = pdf;
-  p.normal = normalOfLight(s, m);
-  p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, direction);
-  p.direction = direction;
+  if (kRayCones) p.ray.cone = scatteredCone(p, pdf, transmitted);
+  p.ray.pdf = pdf;
+  p.ray.normal = normalOfLight(s, m);
+  p.ray.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, direction);
+  p.ray.direction = direction;
   // At a sharp edge, rounding decides which of two faces a ray hits first. A ray that has left a front is to meet a
   // front.
-  if (kCreases) p.tie = (dot(direction, s.geometricNormal) > 0.0) == s.front ? kTie : -kTie;
+  if (kCreases) p.ray.tie = (dot(direction, s.geometricNormal) > 0.0) == s.front ? kTie : -kTie;
   return p;
 }
 
 /// The MIS weight, against light sampling, of the emission that the path's ray has hit: 1 if no light sample finds it.
 float weightOfEmission(Path p, Surface s, float cosine) {
-  if (!kEmissiveTriangles || !s.emitter || p.pdf <= 0.0) return 1.0;
-  int slot = kMoving ? slotInFirst(p.hitSlot, p.time) : p.hitSlot;
-  float pdf = kLightTree ? treePdf(slot, p.origin, p.normal, p.hitT, cosine) : emitterPdf(s.material, p.hitT, cosine);
-  return misWeight(p.pdf, lightSamplesAt(countedScatterings(p) - 1) * pdf);
+  if (!kEmissiveTriangles || !s.emitter || p.ray.pdf <= 0.0) return 1.0;
+  int slot = kMoving ? slotInFirst(p.hit.slot, p.time) : p.hit.slot;
+  float pdf = 0.0;
+  if (kLightTree) pdf = treePdf(slot, p.ray.origin, p.ray.normal, p.hit.t, cosine);
+  if (!kLightTree) pdf = emitterPdf(s.material, p.hit.t, cosine);
+  return misWeight(p.ray.pdf, lightSamplesAt(countedScatterings(p) - 1) * pdf);
 }
 
 /// Emission of the point hit, weighted against light sampling.
@@ -310,7 +308,7 @@ vec3 emittedAt(Path p, Surface s) {
   // Light paths bring it.
   bool sampled = kEmissiveTriangles && s.emitter && materialFloats(s.material, kMaterialMaps).z > 0.0;
   if (kCaustics && sampled && p.prefix == kPrefixCaustic) return vec3(0.0);
-  float cosine = abs(dot(s.geometricNormal, p.direction));
+  float cosine = abs(dot(s.geometricNormal, p.ray.direction));
   // The weight comes first: compilers for Intel spill less.
   float weight = weightOfEmission(p, s, cosine);
   vec3 radiance = emissionAt(s.material, s.texcoords);
@@ -325,31 +323,31 @@ Path spawnShadowRayFrom(Path p, vec3 point, vec3 origin, LightSample light, vec3
   if (!kShadows && !lit) return p;
   value = clampIndirect(value, countedScatterings(p) + 1);
   if (!kDims && !kShadows) return addLight(p, value);
-  p.contribution = kLightPart ? p.aovWeight * value : value;
-  p.shadowOrigin = origin;
-  p.shadowDirection = light.direction;
-  p.shadowLimit = kShadows ? kFarAway : light.distance;
+  p.connection.light = kLightPart ? p.eye.aovWeight * value : value;
+  p.connection.origin = origin;
+  p.connection.direction = light.direction;
+  p.connection.limit = kShadows ? kFarAway : light.distance;
   if (!kShadows) {
-    if (kDims) p = dimShadow(p, innermost(p.shadowMedium), 0.0, light.distance);
-    p.radiance += p.contribution;
+    if (kDims) p = dimShadow(p, innermost(p.connection.medium), 0.0, light.distance);
+    p.radiance += p.connection.light;
     return p;
   }
   if (light.distance < kFarAway) {
     // The ray begins beside the point, and is aimed again: near a light, a parallel one would end behind it.
     vec3 towards = light.distance * light.direction - (origin - point);
     float distance = length(towards);
-    p.shadowDirection = distance > 0.0 ? towards / distance : light.direction;
+    p.connection.direction = distance > 0.0 ? towards / distance : light.direction;
     // The light's own surface is kept out by a relative margin above the rounding of the point chosen on it.
-    p.shadowLimit = distance * float(0.9999);
+    p.connection.limit = distance * float(0.9999);
   }
-  if (kDims && !kDimsLate) p = dimShadow(p, innermost(p.shadowMedium), 0.0, p.shadowLimit);
+  if (kDims && !kDimsLate) p = dimShadow(p, innermost(p.connection.medium), 0.0, p.connection.limit);
   if (lit) p.phase = kPhaseConnect;
-  return beginTraversal(p, p.shadowLimit);
+  return beginTraversal(p, p.connection.limit);
 }
 
 /// Returns the same of a point of a surface.
 Path spawnShadowRay(Path p, Surface s, LightSample light, vec3 value) {
-  if (kDims) p.shadowMedium = solidsTowards(p, s, light.direction);
+  if (kDims) p.connection.medium = solidsTowards(p, s, light.direction);
   vec3 origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, light.direction);
   return spawnShadowRayFrom(p, s.position, origin, light, value);
 }

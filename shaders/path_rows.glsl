@@ -20,7 +20,7 @@ const int kRowTMin = 10;
 // the cone; instance of the row of the shadow ray's hit, instance that is walked, medium of the shadow ray
 const int kRowInstances = 11;
 // kResumable:
-const int kRowSuspended = 12;       // node of the traversal, light sample, more flags, visits
+const int kRowSuspended = 12;       // node of the traversal, more flags, visits
 const int kRowStack = 13;
 const int kRowOwn = kRowStack + kStackSize / 4;  // the integrator's
 
@@ -54,65 +54,63 @@ uvec4 metBy(Traversal t) { return uvec4(floatBitsToUint(t.t), uint(t.slot), floa
 /// fewer rows of such a path.
 void savePath(Path p, int row, bool begins) {
   uint flags = uint(p.phase) | (begins ? 8u : 0u) | (p.cameraRay ? 16u : 0u) | (p.oneChannel ? 32u : 0u) |
-               (p.covered ? 64u : 0u) | (p.throughGlass ? 128u : 0u) | (kLightTree ? p.normal << 8 : 0u);
-  pathStates[row + kRowRay] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.tie));
-  pathStates[row + kRowDirection] = uvec4(floatBitsToUint(p.direction), p.medium);
-  pathStates[row + kRowHit] = uvec4(floatBitsToUint(p.hitT), uint(p.hitSlot), floatBitsToUint(p.hitWeights));
-  if (!begins) pathStates[row + kRowThroughput] = uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.pdf));
+               (p.covered ? 64u : 0u) | (p.connection.throughGlass ? 128u : 0u) | (kLightTree ? p.ray.normal << 8 : 0u);
+  pathStates[row + kRowRay] = uvec4(floatBitsToUint(p.ray.origin), floatBitsToUint(p.ray.tie));
+  pathStates[row + kRowDirection] = uvec4(floatBitsToUint(p.ray.direction), p.ray.medium);
+  pathStates[row + kRowHit] = uvec4(floatBitsToUint(p.hit.t), uint(p.hit.slot), floatBitsToUint(p.hit.weights));
+  if (!begins) pathStates[row + kRowThroughput] = uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.ray.pdf));
   pathStates[row + kRowRadiance] = uvec4(floatBitsToUint(p.radiance), flags);
   uint sampleIndex = bitfieldReverse(p.sampler.reversed);
   pathStates[row + kRowCounts] = uvec4(sampleIndex, uint(p.rays), scatteringsOf(p), bounceCounts(p));
   if (kShadowRows && !begins) {
-    pathStates[row + kRowShadow] = uvec4(floatBitsToUint(p.shadowOrigin), floatBitsToUint(p.shadowLimit));
-    pathStates[row + kRowShadowDirection] = uvec4(floatBitsToUint(p.shadowDirection), floatBitsToUint(p.etaScale));
+    pathStates[row + kRowShadow] = uvec4(floatBitsToUint(p.connection.origin), floatBitsToUint(p.connection.limit));
+    pathStates[row + kRowShadowDirection] = uvec4(floatBitsToUint(p.connection.direction), floatBitsToUint(p.etaScale));
   }
-  if (kShadowRows) pathStates[row + kRowContribution] = uvec4(floatBitsToUint(p.contribution), uint(p.hitInstance));
+  uvec4 light = uvec4(floatBitsToUint(p.connection.light), uint(p.hit.instance));
+  if (kShadowRows) pathStates[row + kRowContribution] = light;
   if (kPassingRows) {
     Traversal t = p.traversal;
     pathStates[row + kRowTMin] = uvec4(floatBitsToUint(t.tMin), uint(t.tMinSlot), 0u, 0u);
-    pathStates[row + kRowInstances] = uvec4(p.cone, uint(t.hitInstance), uint(t.instance), p.shadowMedium);
+    pathStates[row + kRowInstances] = uvec4(p.ray.cone, uint(t.hitInstance), uint(t.instance), p.connection.medium);
   }
 }
 
 /// Loads a path without its shadow ray. key: that of its random numbers.
 Path loadPath(int row, uint key) {
-  Path p = newPath();
   vec4 f = uintBitsToFloat(readPathStates(row + kRowRay));
-  p.origin = f.xyz;
-  p.tie = f.w;
   uvec4 a = readPathStates(row + kRowDirection);
-  p.direction = uintBitsToFloat(a.xyz);
-  p.medium = a.w;
+  uvec4 counts = readPathStates(row + kRowCounts);
+  Path p = newPath(f.xyz, uintBitsToFloat(a.xyz), makeSampler(key, counts.x));
+  p.ray.tie = f.w;
+  p.ray.medium = a.w;
   a = readPathStates(row + kRowHit);
-  p.hitT = uintBitsToFloat(a.x);
-  p.hitSlot = int(a.y);
-  p.hitWeights = uintBitsToFloat(a.zw);
+  p.hit.t = uintBitsToFloat(a.x);
+  p.hit.slot = int(a.y);
+  p.hit.weights = uintBitsToFloat(a.zw);
   a = readPathStates(row + kRowRadiance);
   p.radiance = uintBitsToFloat(a.xyz);
   p.phase = int(a.w & 7u);
   p.cameraRay = (a.w & 16u) != 0u;
   p.oneChannel = (a.w & 32u) != 0u;
   p.covered = (a.w & 64u) != 0u;
-  p.throughGlass = (a.w & 128u) != 0u;
-  p.normal = kLightTree ? a.w >> 8 : kNoNormal;
+  p.connection.throughGlass = (a.w & 128u) != 0u;
+  p.ray.normal = kLightTree ? a.w >> 8 : kNoNormal;
   bool begins = !kResumable && (a.w & 8u) != 0u;
   f = uintBitsToFloat(readPathStates(row + kRowThroughput));
   p.throughput = begins ? vec3(1.0 / float(kCameraRays)) : f.xyz;
-  p.pdf = begins ? 0.0 : f.w;
-  a = readPathStates(row + kRowCounts);
-  p.sampler = makeSampler(key, a.x);
+  p.ray.pdf = begins ? 0.0 : f.w;
   if (kMovingCamera || kMoving) p.time = timeOf(p.sampler);
-  p.rays = int(a.y);
-  p = withCounts(p, a.z, a.w);
+  p.rays = int(counts.y);
+  p = withCounts(p, counts.z, counts.w);
   if (kShadowRows) {
     p.etaScale = begins ? 1.0 : uintBitsToFloat(readPathStates(row + kRowShadowDirection).w);
     a = readPathStates(row + kRowContribution);
-    p.contribution = uintBitsToFloat(a.xyz);
-    p.hitInstance = int(a.w);
+    p.connection.light = uintBitsToFloat(a.xyz);
+    p.hit.instance = int(a.w);
   }
-  if (kRayCones) p.cone = readPathStates(row + kRowInstances).x;
+  if (kRayCones) p.ray.cone = readPathStates(row + kRowInstances).x;
   if (kDimsLate) {
-    p.shadowMedium = readPathStates(row + kRowInstances).w;
+    p.connection.medium = readPathStates(row + kRowInstances).w;
     p.traversal.tMin = uintBitsToFloat(readPathStates(row + kRowTMin).x);
   }
   return p;
@@ -121,9 +119,9 @@ Path loadPath(int row, uint key) {
 /// The shadow ray, and what the traversal has met.
 Path loadShadow(Path p, int row) {
   vec4 f = uintBitsToFloat(readPathStates(row + kRowShadow));
-  p.shadowOrigin = f.xyz;
-  p.shadowLimit = f.w;
-  p.shadowDirection = uintBitsToFloat(readPathStates(row + kRowShadowDirection).xyz);
+  p.connection.origin = f.xyz;
+  p.connection.limit = f.w;
+  p.connection.direction = uintBitsToFloat(readPathStates(row + kRowShadowDirection).xyz);
   uvec4 a = readPathStates(row + kRowShadowHit);
   p.traversal.t = uintBitsToFloat(a.x);
   p.traversal.slot = int(a.y);
@@ -136,10 +134,10 @@ Path loadShadow(Path p, int row) {
 void suspendPath(Path p, int row) {
   savePath(p, row, false);
   Traversal t = p.traversal;
-  uint flags = uint(p.next) | (p.caught ? 16u : 0u) | (p.clear ? 64u : 0u);
+  uint flags = uint(p.next) | (p.eye.caught ? 16u : 0u) | (p.eye.clear ? 64u : 0u);
   pathStates[row + kRowShadowHit] = metBy(t);
   pathStates[row + kRowTMin].zw = uvec2(t.group, t.leaves);
-  pathStates[row + kRowSuspended] = uvec4(uint(t.node), uint(p.lightSampleIndex), flags, uint(t.visits));
+  pathStates[row + kRowSuspended] = uvec4(uint(t.node), 0u, flags, uint(t.visits));
   if (!kIterative && !kLiterals) saveStack(t.stack, row + kRowStack);
   suspendOwn(p, row + kRowOwn);
 }
@@ -147,10 +145,9 @@ void suspendPath(Path p, int row) {
 Path resumePath(int row, uint key) {
   Path p = loadShadow(loadPath(row, key), row);
   uvec4 a = readPathStates(row + kRowSuspended);
-  p.lightSampleIndex = int(a.y);
   p.next = int(a.z & 15u);
-  p.caught = (a.z & 16u) != 0u;
-  p.clear = (a.z & 64u) != 0u;
+  p.eye.caught = (a.z & 16u) != 0u;
+  p.eye.clear = (a.z & 64u) != 0u;
   if (kMoving) p.traversal.part = momentAt(p.time, frame.segments.x).part;
   p.traversal.node = int(a.x);
   p.traversal.visits = int(a.w);
@@ -162,7 +159,7 @@ Path resumePath(int row, uint key) {
   if (kInstances) p.traversal.instance = int(readPathStates(row + kRowInstances).z);
   p.traversal.extends = p.phase == kPhaseExtend;
   p.traversal.both = kLightPaths && p.phase == kPhaseExtend;
-  p.traversal.tie = p.phase == kPhaseExtend ? p.tie : 0.0;
+  p.traversal.tie = p.phase == kPhaseExtend ? p.ray.tie : 0.0;
   if (!kIterative && !kLiterals) p.traversal.stack = loadStack(row + kRowStack);
   return resumeOwn(p, row + kRowOwn);
 }

@@ -38,86 +38,90 @@ const bool kClearShadows = kShadowCatcher && kTransmission && kDrawsLight;
 /// from 0 on. All camera rays of a sample take one where they first scatter; the last alone goes on.
 float lightSamplesAt(int scattering) { return kCameraRays > 1 && scattering == 0 ? float(kCameraRays) : 1.0; }
 
-struct Path {
-  int phase;
-  int next;        // the phase that follows what the ray has met, and the shadow ray from there
-  int lightSampleIndex;
-  int bounce;      // scatterings so far, also one whose ray roulette ends
-  int freeBounces;  // the part of `bounce` at smooth glass (kTransmission) and in media, which --bounces does not limit
-  int straightBounces;  // the part of `bounce` that went straight through glass (kThroughGlass)
-  int rays;        // of the sample, see tracedRays
-  ivec2 pixel;     // the pixel in the film (kStoresReservoirs, kNeighbours), or the index of a light path's record
-  Sampler sampler;
-  float time;      // 0..1 while the shutter is open (kTimed)
-  bool oneChannel; // dispersion has left one of red, green and blue (kDispersion)
-  bool cameraRay;  // nothing but alpha has touched the path yet
+/// A path's own ray.
+struct Ray {
+  vec3 origin;
+  vec3 direction;
+  float pdf;    // of the last scattering over solid angle; 0: a delta lobe or the camera
+  uint medium;  // the solids that the ray is inside of, or kPrimitiveNone (media/solids.glsl)
+  uint normal;  // normal of the surface that the ray left, as light sampling used it (kLightTree)
+  uint cone;    // the width of the ray (kRayCones): packCone()
+  float tie;    // part by which hits on fronts count as nearer: 0, kTie or -kTie (kCreases)
+};
+
+/// What it has met.
+struct Hit {
+  int slot;      // leaf slot, or -1
+  float t;       // since the last scattering
+  int instance;  // instance that shows the slot, or -1
+  vec2 weights;  // barycentric (kWeights)
+};
+
+/// A shadow ray, and the light that it adds if it meets nothing.
+struct Connection {
+  vec3 origin;
+  vec3 direction;
+  float limit;
+  uint medium;        // the solids that it is inside of (kDims)
+  bool throughGlass;  // it passes glass that does not bend it (kThroughGlass)
+  vec3 light;         // of a caught path's own ray, what glass has let pass
+};
+
+/// What paths from the camera keep for parts of the picture.
+struct Eye {
+  vec3 aovWeight;  // the share of the light still to come that belongs to the AOV (kLightPart)
   bool clear;      // nothing but alpha and light's way through glass has touched the path yet (kTransparentGlass)
   bool caught;     // the path has met the shadow catcher (kShadowCatcher)
   vec3 before;     // its radiance when it met the catcher behind glass (kTransparentGlass)
-  bool throughGlass;  // the shadow ray passes glass that does not bend it (kThroughGlass)
-  int prefix;         // kPrefix* of caustics/form.glsl (kCaustics)
-  bool covered;    // a camera ray has hit a surface
+};
+
+struct Path {
+  int phase;
+  int next;             // the phase that follows what the ray has met, and the shadow ray from there
+  int bounce;           // scatterings so far, also one whose ray roulette ends
+  int freeBounces;      // those at smooth glass (kTransmission) and in media, which --bounces does not limit
+  int straightBounces;  // those that went straight through glass (kThroughGlass)
+  int rays;             // of the sample, see tracedRays
+  ivec2 pixel;          // the pixel in the film (kStoresReservoirs, kNeighbours), or the index of a light path's record
+  Sampler sampler;
+  float time;       // 0..1 while the shutter is open (kTimed)
+  bool oneChannel;  // dispersion has left one of red, green and blue (kDispersion)
+  bool cameraRay;   // nothing but alpha has touched the path yet
+  bool covered;     // a camera ray has hit a surface
+  int prefix;       // kPrefix* of caustics/form.glsl (kCaustics)
   vec3 radiance;
   vec3 throughput;
-  float etaScale;       // the product of squared indices by which refraction has scaled radiance down
-  float pdf;            // pdf of the last scattering over solid angle; 0: a delta lobe or the camera
-  uint normal;          // normal of the surface that the ray left, as light sampling used it (kLightTree)
-  uint medium;          // the solids that the ray is inside of, or kPrimitiveNone (media/solids.glsl)
-  vec3 origin;
-  vec3 direction;
-  uint cone;          // the width of the ray (kRayCones): packCone()
-  float tie;          // part by which hits on fronts count as nearer: 0, kTie or -kTie (kCreases)
-  vec3 shadowOrigin;
-  vec3 shadowDirection;
-  float shadowLimit;
-  uint shadowMedium;  // the solids that the shadow ray is inside of, as `medium` (kDims)
-  vec3 aovWeight;       // the share of the light still to come that belongs to the AOV (kLightPart)
-  vec3 contribution;  // added if the shadow ray meets nothing; of a caught path's own ray, what glass has let pass
-  int hitSlot;        // slot that the ray has hit, or -1
-  float hitT;         // since the last scattering
-  int hitInstance;  // instance that shows the slot, or -1
-  vec2 hitWeights;  // barycentric (kWeights)
+  float etaScale;  // the product of squared indices by which refraction has scaled radiance down
+  Ray ray;
+  Hit hit;
+  Connection connection;
+  Eye eye;
   Traversal traversal;
 };
 
-/// A path on which nothing has happened; its ray is still to be set.
-Path newPath() {
+/// A path on which nothing has happened.
+Path newPath(vec3 origin, vec3 direction, Sampler sampler) {
   Path p;
   p.phase = kPhaseBegin;
   p.next = kPhaseEnd;
-  p.lightSampleIndex = 0;
   p.bounce = 0;
   p.freeBounces = 0;
   p.straightBounces = 0;
   p.rays = 0;
   p.pixel = ivec2(0);
+  p.sampler = sampler;
   p.time = 0.0;
   p.oneChannel = false;
   p.cameraRay = true;
-  p.clear = true;
-  p.caught = false;
-  p.before = vec3(0.0);
-  p.throughGlass = false;
-  p.prefix = kPrefixNone;
   p.covered = false;
+  p.prefix = kPrefixNone;
   p.radiance = vec3(0.0);
   p.throughput = vec3(1.0);
   p.etaScale = 1.0;
-  p.pdf = 0.0;
-  p.normal = kNoNormal;
-  p.medium = kPrimitiveNone;
-  p.cone = 0u;
-  p.tie = 0.0;
-  p.shadowOrigin = vec3(0.0);
-  p.shadowDirection = vec3(0.0, 0.0, 1.0);
-  p.shadowLimit = 0.0;
-  p.shadowMedium = kPrimitiveNone;
-  p.aovWeight = vec3(kAov == kAovDiffuse || kAov == kAovSpecular ? 0.0 : 1.0);
-  p.contribution = vec3(0.0);
-  p.hitSlot = -1;
-  p.hitT = 0.0;
-  p.hitInstance = -1;
-  p.hitWeights = vec2(0.0);
+  p.ray = Ray(origin, direction, 0.0, kPrimitiveNone, kNoNormal, 0u, 0.0);
+  p.hit = Hit(-1, 0.0, -1, vec2(0.0));
+  p.connection = Connection(vec3(0.0), vec3(0.0, 0.0, 1.0), 0.0, kPrimitiveNone, false, vec3(0.0));
+  p.eye = Eye(vec3(kAov == kAovDiffuse || kAov == kAovSpecular ? 0.0 : 1.0), true, false, vec3(0.0));
   p.traversal = startTraversal(kFarAway, frame.leafCount);
   return p;
 }
@@ -133,9 +137,6 @@ int coveredRays(Path p) { return (kCameraRays > 1 ? p.rays >> 28 : 0) + (p.cover
 
 /// The path with the hit of its ray.
 Path withHit(Path p, Traversal hit) {
-  p.hitSlot = hit.slot;
-  p.hitInstance = hit.hitInstance;
-  p.hitT = hit.t;
-  p.hitWeights = hit.weights;
+  p.hit = Hit(hit.slot, hit.t, hit.hitInstance, hit.weights);
   return p;
 }

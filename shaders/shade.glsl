@@ -61,14 +61,14 @@ Scattering scatteringAt(Surface s, SurfaceMaterial m, vec3 normal, vec3 wo) {
 Path scatterGlass(Path p, Surface s, SurfaceMaterial m, vec3 normal, float choice) {
   Bsdf b = baseBsdf(m, s.front);
   Frame3 around = frameAround(normal);
-  BsdfSample next = sampleSmoothGlass(b, toFrame(around, -p.direction), choice);
+  BsdfSample next = sampleSmoothGlass(b, toFrame(around, -p.ray.direction), choice);
   vec3 direction = ontoSide(normalize(toWorld(around, next.wi)), s.geometricNormal, next.transmitted);
   return spawnRay(p, s, direction, next.weight, 0.0, next.transmitted, m);
 }
 
 /// Mirror reflection of the stages before global illumination, scaled by a share.
 Path scatterMirror(Path p, Surface s, SurfaceMaterial m, vec3 normal, float share) {
-  vec3 wo = -p.direction;
+  vec3 wo = -p.ray.direction;
   vec3 f0 = phongF0(m.baseColor, m.metallic, m.dielectricF0);
   vec3 weight = vec3(0.0);
   if (kReflections) weight = fresnelSchlick(f0, mix(m.specular, 1.0, m.metallic), dot(normal, wo)) * share;
@@ -127,7 +127,7 @@ float depthOf(Surface s, float time) {
 
 /// The surface that the path's ray has hit.
 Surface surfaceHit(Path p) {
-  Surface s = surfaceAt(p.hitSlot, p.hitInstance, p.origin, p.direction, p.hitT, p.hitWeights, p.time);
+  Surface s = surfaceAt(p.hit.slot, p.hit.instance, p.ray.origin, p.ray.direction, p.hit.t, p.hit.weights, p.time);
   if (kRayCones) coverSurface(p, s);
   return s;
 }

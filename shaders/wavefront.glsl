@@ -48,11 +48,11 @@ Path takeUp(inout Wave v, int k) {
   uint bit = 1u << k;
   bool waited = (v.waiting & bit) != 0u;
   bool arrives = waited && (v.blocked & bit) == 0u;
-  vec3 light = p.contribution;
+  vec3 light = p.connection.light;
   if (kDimsLate && arrives) {
     Path dimmed = loadShadowPast(loadShadow(p, rowOf(v, k)), rowOf(v, k));
-    dimmed = dimShadow(dimmed, innermost(p.shadowMedium), passedBefore(dimmed), dimmed.shadowLimit);
-    light = dimmed.contribution;
+    dimmed = dimShadow(dimmed, innermost(p.connection.medium), passedBefore(dimmed), dimmed.connection.limit);
+    light = dimmed.connection.light;
     p.traversal.steps += dimmed.traversal.steps;
   }
   p.radiance += arrives ? light : vec3(0.0);
@@ -79,11 +79,11 @@ Traversal beginRay(vec3 origin, vec3 direction, float limit, Traversal t, bool a
 Traversal beginExtension(Path p, TreeFrame tree) {
   Traversal t = p.traversal;
   t.node = frame.leafCount == 0 ? kTraversalDone : 0;
-  return beginRay(p.origin, p.direction, kFarAway, t, false, tree);
+  return beginRay(p.ray.origin, p.ray.direction, kFarAway, t, false, tree);
 }
 
 Traversal beginConnection(Path p, TreeFrame tree) {
-  return beginRay(p.shadowOrigin, p.shadowDirection, p.shadowLimit, p.traversal, true, tree);
+  return beginRay(p.connection.origin, p.connection.direction, p.connection.limit, p.traversal, true, tree);
 }
 
 /// A ray has met a surface, or may be scattered by a medium: it is shaded.
@@ -121,8 +121,8 @@ Wave passShadows(Wave v, uint left, TreeFrame tree) {
     if (kDimsLate) p = loadShadowPast(p, row);
     p.phase = kPhaseConnect;
     p = connect(p);
-    if (kThroughGlass || kDimsLate) pathStates[row + kRowContribution].xyz = floatBitsToUint(p.contribution);
-    if (kDimsLate) pathStates[row + kRowInstances].w = p.shadowMedium;
+    if (kThroughGlass || kDimsLate) pathStates[row + kRowContribution].xyz = floatBitsToUint(p.connection.light);
+    if (kDimsLate) pathStates[row + kRowInstances].w = p.connection.medium;
     uint bit = 1u << k;
     v.waiting |= bit;
     if (p.phase == kPhaseConnect) {

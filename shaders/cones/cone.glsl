@@ -20,14 +20,14 @@ uint cameraCone(Path p) {
   vec3 forward = frame.cameraForward;
   if (kMovingCamera) forward = turnedWith(cameraAt(p.time), forward);
   // A pixel at the border is farther away and seen at an angle.
-  float cosine = max(dot(p.direction, forward), 0.0);
+  float cosine = max(dot(p.ray.direction, forward), 0.0);
   return packCone(vec2(0.0, pixel * cosine * sqrt(cosine)));
 }
 
 /// The width of the path's ray where it has hit.
 float coneWidth(Path p) {
-  vec2 cone = unpackCone(p.cone);
-  return cone.x + cone.y * p.hitT;
+  vec2 cone = unpackCone(p.ray.cone);
+  return cone.x + cone.y * p.hit.t;
 }
 
 /// A cone holds this part of the lobe that drew its ray: the cones of 16 samples hold all of it.
@@ -37,7 +37,7 @@ const float kConeShare = 1.0 / 16.0;
 /// ray.
 uint coneBehind(Path p, float bent, float pdf) {
   float width = coneWidth(p);
-  float spread = unpackCone(p.cone).y + bent * width;
+  float spread = unpackCone(p.ray.cone).y + bent * width;
   if (pdf > 0.0) spread = max(spread, sqrt(kConeShare / pdf));
   return packCone(vec2(width, spread));
 }
@@ -45,10 +45,10 @@ uint coneBehind(Path p, float bent, float pdf) {
 /// The vertices of the triangle that the path's ray has hit, in local space.
 Corners cornersHit(Path p) {
   Corners c;
-  if (kMoving) c = movingTriangle(p.hitSlot, p.time).at;
-  if (!kMoving) c = cornersIn(loadLeaf(p.hitSlot / 2), p.hitSlot % 2 == 1);
-  if (kInstances && p.hitInstance >= 0) {
-    InstanceReturn back = loadInstanceReturn(p.hitInstance);
+  if (kMoving) c = movingTriangle(p.hit.slot, p.time).at;
+  if (!kMoving) c = cornersIn(loadLeaf(p.hit.slot / 2), p.hit.slot % 2 == 1);
+  if (kInstances && p.hit.instance >= 0) {
+    InstanceReturn back = loadInstanceReturn(p.hit.instance);
     c.v0 = timesRows(back.row0, back.row1, back.row2, c.v0);
     c.v1 = timesRows(back.row0, back.row1, back.row2, c.v1);
     c.v2 = timesRows(back.row0, back.row1, back.row2, c.v2);
@@ -56,19 +56,19 @@ Corners cornersHit(Path p) {
   return c;
 }
 
-bool hasHitSphere(Path p) { return kSpheres && (!kTriangles || (faceRow(p.hitSlot, 0).w & kFaceSphere) != 0u); }
+bool hasHitSphere(Path p) { return kSpheres && (!kTriangles || (faceRow(p.hit.slot, 0).w & kFaceSphere) != 0u); }
 
 /// The radius of the sphere that the path's ray has hit.
 float radiusHit(Path p) {
-  if (kMoving) return movingTriangle(p.hitSlot, p.time).at.v1.x;
-  return uintBitsToFloat(faceRow(p.hitSlot, 1).w);
+  if (kMoving) return movingTriangle(p.hit.slot, p.time).at.v1.x;
+  return uintBitsToFloat(faceRow(p.hit.slot, 1).w);
 }
 
 /// The angle by which the normal turns in a unit of length, on average over the edges.
 float curvatureHit(Path p) {
   if (hasHitSphere(p)) return 1.0 / radiusHit(p);
-  if (!kVertexNormals || (faceRow(p.hitSlot, 0).w & kFaceFlat) != 0u) return 0.0;
-  ivec3 v = ivec3(faceRow(p.hitSlot, 1).yzw);
+  if (!kVertexNormals || (faceRow(p.hit.slot, 0).w & kFaceFlat) != 0u) return 0.0;
+  ivec3 v = ivec3(faceRow(p.hit.slot, 1).yzw);
   vec3 n0 = unitOrZero(readNormalAt(v.x).xyz);
   vec3 n1 = unitOrZero(readNormalAt(v.y).xyz);
   vec3 n2 = unitOrZero(readNormalAt(v.z).xyz);
@@ -91,7 +91,7 @@ vec2 texcoordAreas(Path p) {
     return vec2(0.25 * kInversePi / (radius * radius));
   }
   if (!kTexcoords) return vec2(0.0);
-  ivec3 v = ivec3(faceRow(p.hitSlot, 1).yzw);
+  ivec3 v = ivec3(faceRow(p.hit.slot, 1).yzw);
   vec4 first = readTexcoordsAt(v.x);
   vec4 a = readTexcoordsAt(v.y) - first;
   vec4 b = readTexcoordsAt(v.z) - first;
@@ -104,7 +104,7 @@ vec2 texcoordAreas(Path p) {
 /// up to two levels of area larger, so that their mean is that of both levels between which it lies.
 void coverSurface(Path p, Surface s) {
   float width = coneWidth(p);
-  float cosine = max(abs(dot(s.geometricNormal, p.direction)), 1e-3);
+  float cosine = max(abs(dot(s.geometricNormal, p.ray.direction)), 1e-3);
   float chance = pathRandom(p, kLevelDimension);
   coveredAreas = texcoordAreas(p) * (width * width / cosine * exp2(2.0 * chance));
 }

@@ -57,13 +57,13 @@ Path sampleLd(Path p, Surface s, SurfaceMaterial m, Scattering at) {
   if (kCaustics) light.irradiance = irradianceLeft(p, s, light);
   vec3 wi = toFrame(at.around, light.direction);
   // Behind glass, a clear path sees the page instead of the surroundings.
-  bool hidden = kTransparentGlass && p.clear && m.transmission > 0.0 && wi.z * at.wo.z < 0.0;
+  bool hidden = kTransparentGlass && p.eye.clear && m.transmission > 0.0 && wi.z * at.wo.z < 0.0;
   if (hidden && light.pdf > 0.0 && light.distance == kFarAway) light.irradiance = vec3(0.0);
   bool sameSide = (dot(light.direction, s.geometricNormal) > 0.0) == (wi.z > 0.0);
   BsdfValue value = evaluateBsdf(at.b, at.wo, wi);
   float weight = lightWeight(light, value.pdf / lightSamplesAt(countedScatterings(p)));
-  if (kLightPart && p.bounce == 0) p.aovWeight = aovShare(at.b, at.wo, wi);
-  if (kThroughGlass) p.throughGlass = passesGlass(p, s, light.direction);
+  if (kLightPart && p.bounce == 0) p.eye.aovWeight = aovShare(at.b, at.wo, wi);
+  if (kThroughGlass) p.connection.throughGlass = passesGlass(p, s, light.direction);
   return spawnShadowRay(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
 }
 
@@ -111,7 +111,7 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
     p = disperse(p, m, s.material);
     if (m.solid) m.ior = dispersedIor(p, s.material);
   }
-  Scattering at = scatteringAt(s, m, normal, -p.direction);
+  Scattering at = scatteringAt(s, m, normal, -p.ray.direction);
   if (kCaustics) at.b.sharesGlass = sharesGlass(p);
   Frame3 around = at.around;
   Bsdf b = at.b;
@@ -133,7 +133,7 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   }
   if (kLightPart && p.bounce == 0) {
     bool delta = next.pdf == 0.0;
-    p.aovWeight = delta ? vec3(kAov == kAovSpecular ? 1.0 : 0.0) : aovShare(b, wo, next.wi);
+    p.eye.aovWeight = delta ? vec3(kAov == kAovSpecular ? 1.0 : 0.0) : aovShare(b, wo, next.wi);
   }
   vec3 direction = normalize(toWorld(around, next.wi));
   if (kSpecular && next.pdf == 0.0) direction = ontoSide(direction, s.geometricNormal, next.transmitted);
@@ -144,12 +144,12 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
 Path beginPath(ivec2 pixel, uint samples, int steps) { return cameraPath(pixel, samples, steps); }
 
 float interceptedAt(Path p) {
-  float t = kMedia && p.hitSlot < 0 ? p.hitT : kFarAway;
+  float t = kMedia && p.hit.slot < 0 ? p.hit.t : kFarAway;
   return kShadowCatcher ? catcherBefore(p, t) : t;
 }
 
 Path intercept(Path p, float t) {
-  if (kShadowCatcher && (!kMedia || t != p.hitT)) return meetCatcher(p, t);
+  if (kShadowCatcher && (!kMedia || t != p.hit.t)) return meetCatcher(p, t);
   if (kMedia) return scatterInMedium(p);
   return p;
 }
@@ -160,24 +160,24 @@ Path hit(Path p) {
   Surface s = surfaceHit(p);
   vec3 baseColor = vec3(baseColorAt(s.material, s.texcoords, s.color));
   if (kPassesLight) p = flyTo(p, s);
-  if (kMedia && p.hitSlot < 0) return scatterInMedium(p);
+  if (kMedia && p.hit.slot < 0) return scatterInMedium(p);
   if (!arrives(p, s, baseColor)) return p;
-  return shadeGlobal(p, s, materialAt(s.material, baseColor, s.texcoords), normalFacing(s, -p.direction));
+  return shadeGlobal(p, s, materialAt(s.material, baseColor, s.texcoords), normalFacing(s, -p.ray.direction));
 }
 
 void suspendOwn(Path p, int row) {
-  if (kLightPart) pathStates[row] = uvec4(floatBitsToUint(p.aovWeight), 0u);
-  if (kTransparentGlass) pathStates[row + 1] = uvec4(floatBitsToUint(p.before), 0u);
+  if (kLightPart) pathStates[row] = uvec4(floatBitsToUint(p.eye.aovWeight), 0u);
+  if (kTransparentGlass) pathStates[row + 1] = uvec4(floatBitsToUint(p.eye.before), 0u);
 }
 
 Path resumeOwn(Path p, int row) {
-  if (kLightPart) p.aovWeight = uintBitsToFloat(readPathStates(row).xyz);
-  if (kTransparentGlass) p.before = uintBitsToFloat(readPathStates(row + 1).xyz);
+  if (kLightPart) p.eye.aovWeight = uintBitsToFloat(readPathStates(row).xyz);
+  if (kTransparentGlass) p.eye.before = uintBitsToFloat(readPathStates(row + 1).xyz);
   return p;
 }
 
 FilmPixel record(FilmPixel film, Path p, ivec2 pixel) {
-  if (kShadowCatcher && p.caught && frame.shadowFade != vec2(0.0)) p.radiance *= shadowLeft(inPicture(pixel));
+  if (kShadowCatcher && p.eye.caught && frame.shadowFade != vec2(0.0)) p.radiance *= shadowLeft(inPicture(pixel));
   float alpha = coverageOf(p);
   if (kShadowCatcher) p = showShadow(p);
   if (kShadowCatcher && frame.backgroundShows < 0.0) film.flags |= kPixelOverWhite;

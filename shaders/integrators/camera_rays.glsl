@@ -13,7 +13,7 @@ Path cameraPath(ivec2 pixel, uint samples, int steps) {
 
 /// Nothing is in the way of the shadow ray.
 Path connected(Path p) {
-  p.radiance += p.contribution;
+  p.radiance += p.connection.light;
   return p;
 }
 

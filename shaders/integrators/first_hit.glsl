@@ -32,7 +32,7 @@ Path hit(Path p) {
   Surface s = surfaceHit(p);
   vec3 baseColor = vec3(baseColorAt(s.material, s.texcoords, s.color));
   p.covered = !kCountVisits;
-  p.radiance = aovAt(s, p.hitSlot, p.hitInstance, baseColor, -p.direction, p.time);
+  p.radiance = aovAt(s, p.hit.slot, p.hit.instance, baseColor, -p.ray.direction, p.time);
   return p;
 }
 

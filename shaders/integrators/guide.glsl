@@ -58,7 +58,7 @@ Path hit(Path p) {
   Surface s = surfaceHit(p);
   uint flags = materialFlags(s.material);
   vec4 base = baseColorAt(s.material, s.texcoords, s.color);
-  vec3 normal = facingNormal(mappedNormal(s), -p.direction);
+  vec3 normal = facingNormal(mappedNormal(s), -p.ray.direction);
   bool blends = kAlpha && (flags & (kMaterialMask | kMaterialBlend)) != 0u;
   float share = blends ? guideRest() * alphaAt(s.material, flags, base.a) : 1.0;
   if (blends && guideRest() - share > kGuideRest) {
@@ -81,14 +81,14 @@ Path hit(Path p) {
 
 /// A medium before all surfaces is a white surface at a distance, since its light is noisy, too.
 Path guideInMedium(Path p, float t) {
-  p = takeGuide(p, depthAlong(p.direction, t, p.time), -p.direction);
+  p = takeGuide(p, depthAlong(p.ray.direction, t, p.time), -p.ray.direction);
   return guideStop(p, vec3(1.0));
 }
 
 /// The guides of the catcher are white and level, so that a filter does not take it for empty surroundings.
 Path guideAtCatcher(Path p, float t) {
-  p = takeGuide(p, depthAlong(p.direction, t, p.time), vec3(0.0, 1.0, 0.0));
-  p.caught = true;
+  p = takeGuide(p, depthAlong(p.ray.direction, t, p.time), vec3(0.0, 1.0, 0.0));
+  p.eye.caught = true;
   return guideStop(p, vec3(1.0));
 }
 
@@ -97,7 +97,7 @@ Path guideAtCatcher(Path p, float t) {
 float gridBefore(Path p) {
   if (!p.cameraRay) return kFarAway;
   uint seed = hashBits(p.sampler, flightNumber(p));
-  Walk walk = walkVolume(volume, p.origin, p.direction, 0.0, p.hitT, false, seed);
+  Walk walk = walkVolume(volume, p.ray.origin, p.ray.direction, 0.0, p.hit.t, false, seed);
   return walk.end < kFarAway ? max(walk.entry, 0.0) : kFarAway;
 }
 
@@ -110,8 +110,8 @@ Path intercept(Path p, float t) { return kShadowCatcher ? guideAtCatcher(p, t) :
 
 /// Fog counts before the surroundings.
 Path miss(Path p) {
-  if (kFog && p.cameraRay && fogDepth(fog, p.origin, p.direction, 0.0, kFarAway) >= kGuideFog) {
-    p = guideInMedium(p, insideFog(fog, p.origin, p.direction, 0.0).y);
+  if (kFog && p.cameraRay && fogDepth(fog, p.ray.origin, p.ray.direction, 0.0, kFarAway) >= kGuideFog) {
+    p = guideInMedium(p, insideFog(fog, p.ray.origin, p.ray.direction, 0.0).y);
   }
   return p;
 }
@@ -131,7 +131,7 @@ Path resumeOwn(Path p, int row) {
 
 /// The last surface takes the rest of the ray. Where the catcher's shadow has ended, there is nothing to be filtered.
 FilmPixel record(FilmPixel film, Path p, ivec2 pixel) {
-  if (kShadowCatcher && p.caught && frame.shadowFade != vec2(0.0) && shadowLeft(inPicture(pixel)) <= 0.0) {
+  if (kShadowCatcher && p.eye.caught && frame.shadowFade != vec2(0.0) && shadowLeft(inPicture(pixel)) <= 0.0) {
     p.covered = false;
   }
   float alpha = p.covered ? 1.0 : kAlpha ? guide.share : 0.0;

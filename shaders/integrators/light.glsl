@@ -92,7 +92,7 @@ bool withinBounces(Path p) {
 Path traceSplat(Path p) {
   p.next = kPhaseEnd;
   p.phase = kPhaseConnect;
-  return beginTraversal(p, p.shadowLimit);
+  return beginTraversal(p, p.connection.limit);
 }
 
 /// f |wi.Ns| |wo.Ng| / |wi.Ng| of the path's light towards wo, which is towards the camera, and the pdf with which a
@@ -103,10 +103,10 @@ BsdfValue scatteredTowards(Path p, Surface s, SurfaceMaterial m, vec3 wo) {
   s.geometricNormal = through ? -s.geometricNormal : s.geometricNormal;
   s.shadingNormal = through ? -s.shadingNormal : s.shadingNormal;
   Scattering at = scatteringAt(s, m, normalFacing(s, wo), wo);
-  vec3 wi = toFrame(at.around, -p.direction);
-  bool sameSide = (dot(p.direction, s.geometricNormal) < 0.0) == (wi.z > 0.0);
+  vec3 wi = toFrame(at.around, -p.ray.direction);
+  bool sameSide = (dot(p.ray.direction, s.geometricNormal) < 0.0) == (wi.z > 0.0);
   BsdfValue value = evaluateBsdf(at.b, at.wo, wi);
-  float arriving = max(abs(dot(p.direction, s.geometricNormal)), kLeastCosine);
+  float arriving = max(abs(dot(p.ray.direction, s.geometricNormal)), kLeastCosine);
   value.value *= sameSide ? abs(dot(wo, s.geometricNormal)) / arriving : 0.0;
   return value;
 }
@@ -142,22 +142,22 @@ Path spawnSplatRay(Path p, Surface s, SurfaceMaterial m, bool first) {
   fromLight.waiting += first ? 0.0 : size;
   bool taken = first || pathRandom(p, kSplatDimension) * fromLight.waiting < size;
   if (!taken) return p;
-  p.contribution = first ? light : light / size;
+  p.connection.light = first ? light : light / size;
   fromLight.splatPixel = camera.place;
   // The shadow ray starts at the camera, since single-sided surfaces stop light from one side only.
   vec3 target = offsetOrigin(s.position, s.positionError, s.geometricNormal, camera.direction);
-  p.shadowOrigin = s.position + camera.distance * camera.direction;
-  vec3 towards = target - p.shadowOrigin;
+  p.connection.origin = s.position + camera.distance * camera.direction;
+  vec3 towards = target - p.connection.origin;
   float distance = length(towards);
-  p.shadowDirection = distance > 0.0 ? towards / distance : -camera.direction;
-  p.shadowLimit = distance * float(0.99999);
-  p.throughGlass = false;
+  p.connection.direction = distance > 0.0 ? towards / distance : -camera.direction;
+  p.connection.limit = distance * float(0.99999);
+  p.connection.throughGlass = false;
   return first ? traceSplat(p) : p;
 }
 
 /// Stores the light of the shadow ray, which nothing blocks.
 Path connected(Path p) {
-  storeRecord(p.pixel, fromLight.waiting < 0.0, p.contribution, fromLight.splatPixel);
+  storeRecord(p.pixel, fromLight.waiting < 0.0, p.connection.light, fromLight.splatPixel);
   return p;
 }
 
@@ -165,7 +165,7 @@ Path connected(Path p) {
 bool hasMoreRays(Path p) { return fromLight.waiting > 0.0; }
 
 Path nextRay(Path p, ivec2 pixel, uint samples) {
-  p.contribution *= fromLight.waiting;
+  p.connection.light *= fromLight.waiting;
   fromLight.waiting = -1.0;
   return traceSplat(p);
 }
@@ -180,9 +180,9 @@ bool isSingleSided(uint material, uint flags) {
 /// Continues behind the surface, as if it were not there.
 Path passOn(Path p, Surface s, float times) {
   p.throughput *= times;
-  fromLight.travelled += p.hitT;
-  p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.direction);
-  if (kCreases) p.tie = s.front ? -kTie : kTie;
+  fromLight.travelled += p.hit.t;
+  p.ray.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.ray.direction);
+  if (kCreases) p.ray.tie = s.front ? -kTie : kTie;
   p.next = kPhaseBegin;
   return p;
 }
@@ -227,18 +227,18 @@ Path hit(Path p) {
     p = disperse(p, m, s.material);
     if (m.solid) m.ior = dispersedIor(p, s.material);
   }
-  Scattering at = scatteringAt(s, m, normalFacing(s, -p.direction), -p.direction);
+  Scattering at = scatteringAt(s, m, normalFacing(s, -p.ray.direction), -p.ray.direction);
 
   // Step: find what the surface may do to the path.
   bool glass = kTransmission && at.b.glass > 0.0;
-  bool thin = kThinGlass && glass && !m.solid && isSmoothGlass(at.b) && p.medium == kPrimitiveNone;
+  bool thin = kThinGlass && glass && !m.solid && isSmoothGlass(at.b) && p.ray.medium == kPrimitiveNone;
   vec4 chances = lobeChances(at.b, at.wo.z);
   bool rough = !(mirror || thin) || !at.b.mirrorLike || chances.z + chances.w > 0.0;
 
   // Step: let the camera see it. The first surface that is all rough has a ray and a record of its own.
   bool first = p.prefix == kPrefixCaustic && !mirror && !thin && fromLight.waiting == 0.0;
   if (storesPhotons && rough && p.prefix == kPrefixCaustic) {
-    storePhoton(p.pixel, s.position, -p.direction, maxComponent(fromLight.flux * p.throughput), fromLight.chain);
+    storePhoton(p.pixel, s.position, -p.ray.direction, maxComponent(fromLight.flux * p.throughput), fromLight.chain);
     return p;
   }
   if (rough && scattered) p = spawnSplatRay(p, s, m, first);
@@ -254,7 +254,7 @@ Path hit(Path p) {
   if (delta) direction = ontoSide(direction, s.geometricNormal, next.transmitted);
   bool wrongSide = (dot(direction, s.geometricNormal) < 0.0) != next.transmitted;
   if (wrongSide || !lightScatters(p.prefix, delta, straight, delta ? mirror : glossy)) return p;
-  vec2 from = vec2(dot(p.direction, s.geometricNormal), at.wo.z);
+  vec2 from = vec2(dot(p.ray.direction, s.geometricNormal), at.wo.z);
   vec2 to = vec2(dot(direction, s.geometricNormal), next.wi.z);
   vec3 weight = next.weight * fluxFactor(from, to);
   if (!delta) weight = scatteredTowards(p, s, m, direction).value / (next.pdf * radianceScale(s, m, next.transmitted));
@@ -263,7 +263,7 @@ Path hit(Path p) {
   weight /= survival;
   // A ray that goes straight through a thin wall is still that of the lamp.
   if (!straight && p.bounce == p.straightBounces) {
-    float travelled = fromLight.travelled + p.hitT;
+    float travelled = fromLight.travelled + p.hit.t;
     fromLight.flux *= rangeWindow(travelled * travelled, fromLight.range);
   }
   if (p.bounce == 0) fromLight.glassFirst = glass && delta;

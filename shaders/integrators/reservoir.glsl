@@ -19,7 +19,7 @@ Path hit(Path p) {
   Surface s = surfaceHit(p);
   vec3 baseColor = vec3(baseColorAt(s.material, s.texcoords, s.color));
   if (kPassesLight) p = flyTo(p, s);
-  if (p.hitSlot < 0 || isUnlit(s.material) || lightSampleCount() == 0) return p;
+  if (p.hit.slot < 0 || isUnlit(s.material) || lightSampleCount() == 0) return p;
   SurfaceMaterial m = materialAt(s.material, baseColor, s.texcoords);
   LitSurface on = LitSurface(s.position, packNormal(s.geometricNormal), takesLightFromBehind(s, m));
   storeReservoir(p.pixel, makeReservoir(on, normalOfLight(s, m), p.sampler, kBounceDimensions + kLightDimension));

@@ -34,9 +34,9 @@ bool goesStraight(uint medium, Surface s, SurfaceMaterial m, bool deltaGlass, bo
 /// that scatters.
 float flightEnd(Path p, float from, float u) {
   float end = kFarAway;
-  if (kFog && p.medium == kPrimitiveNone) end = fogFlight(fog, p.origin, p.direction, from, u);
-  if (kScattering && p.medium != kPrimitiveNone) {
-    Medium m = mediumOf(innermost(p.medium));
+  if (kFog && p.ray.medium == kPrimitiveNone) end = fogFlight(fog, p.ray.origin, p.ray.direction, from, u);
+  if (kScattering && p.ray.medium != kPrimitiveNone) {
+    Medium m = mediumOf(innermost(p.ray.medium));
     if (scattersLight(m)) end = from + flightDistance(m, channelChances(p.throughput), u);
   }
   return end;
@@ -48,9 +48,9 @@ uint flightNumber(Path p) { return kFlightDimensions + (uint(p.bounce) << 12); }
 /// Limits the path's ray, which begins at `from`, to its flight.
 Path limitFlight(Path p, float from) {
   p.traversal.t = flightEnd(p, from, pathRandom(p, kFlightDimension));
-  if (kDensityGrid && p.medium == kPrimitiveNone) {
+  if (kDensityGrid && p.ray.medium == kPrimitiveNone) {
     uint seed = hashBits(p.sampler, flightNumber(p));
-    Walk walk = walkVolume(volume, p.origin, p.direction, from, p.traversal.t, false, seed);
+    Walk walk = walkVolume(volume, p.ray.origin, p.ray.direction, from, p.traversal.t, false, seed);
     p.traversal.t = min(p.traversal.t, walk.end);
     p.traversal.steps += walk.steps;
   }
@@ -63,9 +63,9 @@ float passedBefore(Path p) { return kPassing ? p.traversal.tMin : 0.0; }
 
 /// A flight has come to a surface.
 Path passMedium(Path p) {
-  if (!kAbsorption || p.medium == kPrimitiveNone) return p;
-  uint solid = innermost(p.medium);
-  float passed = p.hitT - passedBefore(p);
+  if (!kAbsorption || p.ray.medium == kPrimitiveNone) return p;
+  uint solid = innermost(p.ray.medium);
+  float passed = p.hit.t - passedBefore(p);
   if (kScattering) p.throughput *= passWeight(mediumOf(solid), channelChances(p.throughput), passed);
   if (!kScattering) p.throughput *= exp(-passed * materialFloats(solid, kMaterialVolume).rgb);
   return p;
@@ -74,14 +74,14 @@ Path passMedium(Path p) {
 /// The flight has come to a surface, or so it seemed: where it has not known of its solid, it is drawn once more. A
 /// flight that ends before the surface leaves no hit.
 Path flyTo(Path p, Surface s) {
-  uint solid = solidBefore(p.medium, s, p.cameraRay);
-  bool unknown = solid != innermost(p.medium);
+  uint solid = solidBefore(p.ray.medium, s, p.cameraRay);
+  bool unknown = solid != innermost(p.ray.medium);
   if (unknown) p = standInside(p, solid);
   float end = kFarAway;
   if (kScattering && unknown) end = flightEnd(p, passedBefore(p), hashFloat(p.sampler, kFlightDimensions + 0xfffu));
-  bool ends = end < p.hitT;
-  if (ends) p.hitT = end;
-  if (ends) p.hitSlot = -1;
+  bool ends = end < p.hit.t;
+  if (ends) p.hit.t = end;
+  if (ends) p.hit.slot = -1;
   if (!ends) p = passMedium(p);
   return p;
 }
@@ -91,16 +91,16 @@ Path flyTo(Path p, Surface s) {
 /// missed a face, as that of a path has (meetSurroundings).
 Path dimShadow(Path p, uint solid, float from, float to) {
   bool outside = solid == kPrimitiveNone;
-  if (kFog && outside) p.contribution *= exp(-fogDepth(fog, p.shadowOrigin, p.shadowDirection, from, to));
+  if (kFog && outside) p.connection.light *= exp(-fogDepth(fog, p.connection.origin, p.connection.direction, from, to));
   if (kDensityGrid && outside) {
     uint seed = hashBits(p.sampler, flightNumber(p) + kShadowFlights) ^ floatBitsToUint(from);
-    Walk walk = walkVolume(volume, p.shadowOrigin, p.shadowDirection, from, to, true, seed);
-    p.contribution *= walk.transmittance;
+    Walk walk = walkVolume(volume, p.connection.origin, p.connection.direction, from, to, true, seed);
+    p.connection.light *= walk.transmittance;
     p.traversal.steps += walk.steps;
   }
   bool ends = to < kFarAway || (kScattering && !outside && (materialFlags(solid) & kMaterialScatters) != 0u);
   if (kAbsorption && !outside && ends) {
-    p.contribution *= exp(-(to - from) * materialFloats(solid, kMaterialVolume).rgb);
+    p.connection.light *= exp(-(to - from) * materialFloats(solid, kMaterialVolume).rgb);
   }
   return p;
 }

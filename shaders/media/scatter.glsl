@@ -5,10 +5,10 @@
 Path sampleLdInMedium(Path p, vec3 point, float g) {
   uint dimension = kBounceDimensions * uint(p.bounce + 1) + kLightDimension;
   LightSample light = sampleLight(0, point, kNoNormal, p.sampler, dimension);
-  float value = phasePdf(g, dot(p.direction, light.direction));
+  float value = phasePdf(g, dot(p.ray.direction, light.direction));
   float weight = lightWeight(light, value);
-  if (kThroughGlass) p.throughGlass = isOpen(p.medium);
-  p.shadowMedium = p.medium;
+  if (kThroughGlass) p.connection.throughGlass = isOpen(p.ray.medium);
+  p.connection.medium = p.ray.medium;
   return spawnShadowRayFrom(p, point, point, light, p.throughput * light.irradiance * (value * weight));
 }
 
@@ -31,20 +31,20 @@ Path decideInMedium(Path p) {
 bool endsInGrid(Path p) {
   if (!kFog) return true;
   float from = passedBefore(p);
-  return p.hitT < flightEnd(p, from, pathRandom(p, kFlightDimension)) * float(1.0 - 1e-6);
+  return p.hit.t < flightEnd(p, from, pathRandom(p, kFlightDimension)) * float(1.0 - 1e-6);
 }
 
 /// The path's ray ends in its medium, and is scattered.
 Path scatterInMedium(Path p) {
-  bool outside = (kFog || kDensityGrid) && p.medium == kPrimitiveNone;
+  bool outside = (kFog || kDensityGrid) && p.ray.medium == kPrimitiveNone;
   bool inGrid = kDensityGrid && outside && endsInGrid(p);
-  vec3 point = p.origin + p.hitT * p.direction;
+  vec3 point = p.ray.origin + p.hit.t * p.ray.direction;
   vec4 scatter = vec4(0.0);
   if (kFog && outside) scatter = fog.medium;
   if (kDensityGrid && inGrid) scatter = volume.medium;
   if (kScattering && !outside) {
-    Medium m = mediumOf(innermost(p.medium));
-    scatter = vec4(scatterWeight(m, channelChances(p.throughput), p.hitT - passedBefore(p)), m.g);
+    Medium m = mediumOf(innermost(p.ray.medium));
+    scatter = vec4(scatterWeight(m, channelChances(p.throughput), p.hit.t - passedBefore(p)), m.g);
   }
   if (kDensityGrid && inGrid && volume.extinction.y > 0.0) {
     // Kirchhoff's law: it emits as much as it absorbs.
@@ -54,19 +54,19 @@ Path scatterInMedium(Path p) {
   p.throughput *= scatter.rgb;
   if (p.cameraRay) p.covered = true;
   if (kAov == kAovEmission) return p;
-  if (kLightPart && p.bounce == 0) p.aovWeight = vec3(kAov == kAovDiffuse ? 1.0 : 0.0);
+  if (kLightPart && p.bounce == 0) p.eye.aovWeight = vec3(kAov == kAovDiffuse ? 1.0 : 0.0);
   vec2 uv = drawPair(p.sampler, kBounceDimensions * uint(p.bounce + 1) + kDirectionDimension);
-  bool open = isOpen(p.medium) || (kScattering && holdsLamps(p.medium));
+  bool open = isOpen(p.ray.medium) || (kScattering && holdsLamps(p.ray.medium));
   if (open && lightSampleCount() > 0) p = sampleLdInMedium(p, point, scatter.w);
-  vec3 before = p.direction;
-  p.direction = samplePhase(scatter.w, before, uv.x, uv.y);
-  p.pdf = open ? phasePdf(scatter.w, dot(before, p.direction)) : 0.0;
-  if (kRayCones) p.cone = coneBehind(p, 0.0, max(phasePdf(scatter.w, dot(before, p.direction)), 1e-30));
-  p.origin = point;
-  p.normal = kNoNormal;
-  p.tie = 0.0;
+  vec3 before = p.ray.direction;
+  p.ray.direction = samplePhase(scatter.w, before, uv.x, uv.y);
+  p.ray.pdf = open ? phasePdf(scatter.w, dot(before, p.ray.direction)) : 0.0;
+  if (kRayCones) p.ray.cone = coneBehind(p, 0.0, max(phasePdf(scatter.w, dot(before, p.ray.direction)), 1e-30));
+  p.ray.origin = point;
+  p.ray.normal = kNoNormal;
+  p.ray.tie = 0.0;
   p.cameraRay = false;
-  p.clear = false;
+  p.eye.clear = false;
   p.bounce += 1;
   p.freeBounces += 1;
   return decideInMedium(p);

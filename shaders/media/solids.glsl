@@ -38,7 +38,7 @@ uint behindBoundary(uint solids, Surface s) {
 /// The solids of a ray that leaves a surface.
 uint solidsTowards(Path p, Surface s, vec3 direction) {
   bool crosses = dot(direction, s.geometricNormal) < 0.0 && isSolid(s.material);
-  return crosses ? behindBoundary(p.medium, s) : p.medium;
+  return crosses ? behindBoundary(p.ray.medium, s) : p.ray.medium;
 }
 
 /// The material of the solid before a point that a ray has met, or kPrimitiveNone. The back of a solid says what the
@@ -53,6 +53,6 @@ uint solidBefore(uint solids, Surface s, bool fromCamera) {
 Path standInside(Path p, uint material) {
   float ior = dispersedIor(p, material);
   if (p.cameraRay && kDrawsLight) p.etaScale *= ior * ior;
-  p.medium = entering(p.medium, material);
+  p.ray.medium = entering(p.ray.medium, material);
   return p;
 }

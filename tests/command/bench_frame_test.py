@@ -104,7 +104,7 @@ class FramePictures(Frame):
         text = (shaders / "integrators/camera.glsl").read_text()
         self.assertIn("Path hit(Path p) {", text)
         (shaders / "integrators/camera.glsl").write_text(
-            text.replace("Path hit(Path p) {", "Path hit(Path p) {\n  if (kFrontToBack && p.hitSlot == 0) p.throughput *= 0.0;"))
+            text.replace("Path hit(Path p) {", "Path hit(Path p) {\n  if (kFrontToBack && p.hit.slot == 0) p.throughput *= 0.0;"))
         result, _ = self.frame(*QUICK, "--spp", 4, "--traversal", "front-to-back", "--shader-folder", shaders, status=1)
         self.assertIn("although their samples are the same", result.stderr)
 
