@@ -185,16 +185,27 @@ BsdfSample drawLayered(Bsdf b, vec3 wo, float choice, float u, float v) {
   return s;
 }
 
-/// (u, v) picks the lobe and the direction, so that each lobe gets its share of points that are stratified together.
-/// choice decides between reflection and refraction at glass, and between both sides of diffuse light. Each is uniform
-/// in [0, 1).
-BsdfSample sampleBsdf(Bsdf b, vec3 wo, float choice, float u, float v) {
+/// Draws a direction. One of a delta lobe has its weight and a pdf of 0; others wait for weighed(), except those that
+/// are lost. (u, v) picks the lobe and the direction, so that each lobe gets its share of points that are stratified
+/// together. choice decides between reflection and refraction at glass, and between both sides of diffuse light. Each
+/// is uniform in [0, 1).
+BsdfSample drawBsdf(Bsdf b, vec3 wo, float choice, float u, float v) {
   BsdfSample s;
   if (kClearcoat || kSheen) s = drawLayered(b, wo, choice, u, v);
   if (!kClearcoat && !kSheen) s = drawBase(b, wo, choice, u, v);
-  if (s.pdf >= 0.0f) return s;
-  BsdfValue value = evaluateBsdf(b, wo, s.wi);
+  return s;
+}
+
+/// A direction with the weight and the pdf that evaluateBsdf() finds for it.
+BsdfSample weighed(BsdfSample s, BsdfValue value) {
   s.pdf = value.pdf;
   s.weight = value.pdf > 0.0f ? value.value / value.pdf : vec3(0.0f);
+  return s;
+}
+
+/// Draws a direction and weighs it.
+BsdfSample sampleBsdf(Bsdf b, vec3 wo, float choice, float u, float v) {
+  BsdfSample s = drawBsdf(b, wo, choice, u, v);
+  if (s.pdf < 0.0f) s = weighed(s, evaluateBsdf(b, wo, s.wi));
   return s;
 }

@@ -4,9 +4,9 @@
 #include "catcher.glsl"
 #include "integrators/camera_rays.glsl"
 
-/// The share of the light that a camera path's first surface scatters from `wi` that belongs to the AOV.
-vec3 aovShare(Bsdf b, vec3 wo, vec3 wi) {
-  vec3 all = evaluateBsdf(b, wo, wi).value;
+/// The share of the light that a camera path's first surface scatters from `wi` that belongs to the AOV. all:
+/// the BSDF's value for that direction.
+vec3 aovShare(Bsdf b, vec3 all, vec3 wo, vec3 wi) {
   vec3 diffuse = diffuseUnderLayers(b, wo, wi);
   vec3 share = clamp(diffuse / max(all, vec3(1e-30)), vec3(0.0), vec3(1.0));
   return kAov == kAovDiffuse ? share : vec3(1.0) - share;
@@ -51,18 +51,19 @@ vec3 irradianceLeft(Path p, Surface s, LightSample light) {
   return lamp ? vec3(0.0) : light.irradiance;
 }
 
-/// Takes one light sample, and sets up its shadow ray.
-Path sampleLd(Path p, Surface s, SurfaceMaterial m, Scattering at) {
-  LightSample light = lightAt(p, s, m);
-  if (kCaustics) light.irradiance = irradianceLeft(p, s, light);
-  vec3 wi = toFrame(at.around, light.direction);
+/// The light of a sample that this path is to find.
+vec3 irradianceWanted(Path p, Surface s, SurfaceMaterial m, LightSample light, bool behind) {
+  vec3 irradiance = kCaustics ? irradianceLeft(p, s, light) : light.irradiance;
   // Behind glass, a clear path sees the page instead of the surroundings.
-  bool hidden = kTransparentGlass && p.eye.clear && m.transmission > 0.0 && wi.z * at.wo.z < 0.0;
-  if (hidden && light.pdf > 0.0 && light.distance == kFarAway) light.irradiance = vec3(0.0);
+  bool hidden = kTransparentGlass && p.eye.clear && m.transmission > 0.0 && behind;
+  return hidden && light.pdf > 0.0 && light.distance == kFarAway ? vec3(0.0) : irradiance;
+}
+
+/// Sets up the shadow ray of a light sample for which the BSDF has this value.
+Path sampleLd(Path p, Surface s, Scattering at, LightSample light, vec3 wi, BsdfValue value) {
   bool sameSide = (dot(light.direction, s.geometricNormal) > 0.0) == (wi.z > 0.0);
-  BsdfValue value = evaluateBsdf(at.b, at.wo, wi);
   float weight = lightWeight(light, value.pdf / lightSamplesAt(countedScatterings(p)));
-  if (kLightPart && p.bounce == 0) p.eye.aovWeight = aovShare(at.b, at.wo, wi);
+  if (kLightPart && p.bounce == 0) p.eye.aovWeight = aovShare(at.b, value.value, at.wo, wi);
   if (kThroughGlass) p.connection.throughGlass = passesGlass(p, s, light.direction);
   return spawnShadowRay(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
 }
@@ -74,24 +75,46 @@ float guidingChance(Path p, Bsdf b, float cosine) {
   return guidable ? 0.5 * (b.mirrorLike ? min(1.0, chances.z + chances.w) : 1.0) : 0.0;
 }
 
-/// A guiding direction by that chance, or else the BSDF's own. Lobes that are no delta lobes are weighted by the
-/// pdf of both; next.pdf stays that of the BSDF, by which light samples are weighted.
-BsdfSample guided(inout Path p, Surface s, Scattering at, BsdfSample next, uint cell, float chance, vec2 uv) {
+/// How guiding takes part in drawing a direction.
+struct Guiding {
+  bool possible;  // in some cell
+  float chance;   // in this cell
+  uint cell;
+  bool taken;      // it has drawn the direction
+  vec3 direction;  // in local space
+};
+
+/// A guiding direction by its chance, or else the BSDF's own.
+Guiding guided(Path p, Surface s, Scattering at, inout BsdfSample next, vec2 uv) {
+  Guiding g;
+  g.chance = guidingChance(p, at.b, at.wo.z);
+  g.possible = g.chance > 0.0;
+  g.cell = 0u;
+  // llvmpipe executes a branch that no lane takes, but not an iteration.
+  for (int i = g.chance > 0.0 ? 0 : 1; i < 1; ++i) g.cell = guidingCell(s.position);
+  if (!hasGuiding(g.cell)) g.chance = 0.0;
   float choice = pathRandom(p, kGuidingDimension);
-  bool taken = choice < chance;
-  bool delta = !taken && next.pdf == 0.0;
-  vec3 direction = toWorld(at.around, next.wi);
-  if (taken) {
-    direction = guidingDirection(s.position, cell, choice / chance, uv);
-    next.wi = toFrame(at.around, direction);
-    BsdfValue value = evaluateBsdf(at.b, at.wo, next.wi);
+  g.taken = choice < g.chance;
+  g.direction = toWorld(at.around, next.wi);
+  for (int i = g.taken ? 0 : 1; i < 1; ++i) {
+    g.direction = guidingDirection(s.position, g.cell, choice / g.chance, uv);
+    next.wi = toFrame(at.around, g.direction);
     next.transmitted = next.wi.z < 0.0;
-    next.pdf = max(value.pdf, float(1e-30));
-    next.weight = value.pdf > 0.0 ? value.value / value.pdf : vec3(0.0);
+    next.pdf = kUnweighed;
   }
-  float pdf = (1.0 - chance) * next.pdf + chance * guidingPdf(s.position, cell, direction);
-  next.weight *= delta ? 1.0 / (1.0 - chance) : next.pdf / pdf;
-  if (!delta) p.prefix = taken ? kPrefixGuided : kPrefixNone;
+  return g;
+}
+
+/// Lobes that are no delta lobes are weighted by the pdf of both; next.pdf stays that of the BSDF, by which light
+/// samples are weighted.
+BsdfSample weighedByBoth(inout Path p, Surface s, BsdfSample next, Guiding g) {
+  bool delta = !g.taken && next.pdf == 0.0;
+  if (g.taken) next.pdf = max(next.pdf, float(1e-30));
+  if (g.possible && !delta) p.prefix = g.taken ? kPrefixGuided : kPrefixNone;
+  for (int i = g.chance > 0.0 ? 0 : 1; i < 1; ++i) {
+    float pdf = (1.0 - g.chance) * next.pdf + g.chance * guidingPdf(s.position, g.cell, g.direction);
+    next.weight *= delta ? 1.0 / (1.0 - g.chance) : next.pdf / pdf;
+  }
   return next;
 }
 
@@ -113,29 +136,33 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   }
   Scattering at = scatteringAt(s, m, normal, -p.ray.direction);
   if (kCaustics) at.b.sharesGlass = sharesGlass(p);
-  Frame3 around = at.around;
-  Bsdf b = at.b;
-  vec3 wo = at.wo;
   uint dimension = kBounceDimensions * uint(p.bounce + 1);
   // The numbers of this bounce are drawn before it is counted.
   float choice = kPassesLight ? pathRandom(p, kLobeDimension) : 0.0;
   vec2 uv = drawPair(p.sampler, dimension + kDirectionDimension);
-  if (lightSampleCount() > 0) p = sampleLd(p, s, m, at);
-  BsdfSample next = sampleBsdf(b, wo, choice, uv.x, uv.y);
-  if (kGuided) {
-    // llvmpipe executes a branch that no lane takes, but not an iteration.
-    float chance = guidingChance(p, b, wo.z);
-    if (chance > 0.0 && next.pdf > 0.0) p.prefix = kPrefixNone;
-    uint cell = 0u;
-    for (int i = chance > 0.0 ? 0 : 1; i < 1; ++i) cell = guidingCell(s.position);
-    if (!hasGuiding(cell)) chance = 0.0;
-    for (int i = chance > 0.0 ? 0 : 1; i < 1; ++i) next = guided(p, s, at, next, cell, chance, uv);
+  LightSample light = noLight();
+  if (lightSampleCount() > 0) light = lightAt(p, s, m);
+  vec3 wi = toFrame(at.around, light.direction);
+  light.irradiance = irradianceWanted(p, s, m, light, wi.z * at.wo.z < 0.0);
+  BsdfSample next = drawBsdf(at.b, at.wo, choice, uv.x, uv.y);
+  Guiding g;
+  if (kGuided) g = guided(p, s, at, next, uv);
+  // One loop evaluates the BSDF for both directions: compilers inline each call, with all of the layers.
+  BsdfValue towards = BsdfValue(vec3(0.0), 0.0);
+  BsdfValue along = towards;
+  for (int i = maxComponent(light.irradiance) > 0.0 ? 0 : 1; i < (next.pdf < 0.0 ? 2 : 1); ++i) {
+    along = evaluateBsdf(at.b, at.wo, i == 0 ? wi : next.wi);
+    if (i == 0) towards = along;
   }
+  if (lightSampleCount() > 0) p = sampleLd(p, s, at, light, wi, towards);
+  if (next.pdf < 0.0) next = weighed(next, along);
+  if (kGuided) next = weighedByBoth(p, s, next, g);
   if (kLightPart && p.bounce == 0) {
     bool delta = next.pdf == 0.0;
-    p.eye.aovWeight = delta ? vec3(kAov == kAovSpecular ? 1.0 : 0.0) : aovShare(b, wo, next.wi);
+    vec3 share = vec3(kAov == kAovSpecular ? 1.0 : 0.0);
+    p.eye.aovWeight = delta ? share : aovShare(at.b, along.value, at.wo, next.wi);
   }
-  vec3 direction = normalize(toWorld(around, next.wi));
+  vec3 direction = normalize(toWorld(at.around, next.wi));
   if (kSpecular && next.pdf == 0.0) direction = ontoSide(direction, s.geometricNormal, next.transmitted);
   bool wrongSide = (dot(direction, s.geometricNormal) < 0.0) != next.transmitted;
   return spawnRay(p, s, direction, wrongSide ? vec3(0.0) : next.weight, next.pdf, next.transmitted, m);
