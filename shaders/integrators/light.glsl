@@ -117,20 +117,22 @@ float radianceScale(Surface s, SurfaceMaterial m, bool transmitted) {
   return transmitted && m.solid ? (s.front ? squared : 1.0 / squared) : 1.0;
 }
 
-/// Sets the shadow ray for the light that the camera sees of the path at a rough surface. With wi towards the path and
-/// wo towards the camera it is flux * throughput * f(wo, wi) |wi.Ns| * |wo.Ng| / |wi.Ng| * etaScale * importance. The
-/// quotient of cosines is there because particles carry flux (Veach, section 5.3). At the first rough surface the ray
-/// is traced at once. Later ones share one ray: each takes it with a probability in proportion to its light (reservoir
-/// sampling; Chao, A general purpose unequal probability sampling plan, 1982), and the ray then carries the sum.
-Path spawnSplatRay(Path p, Surface s, SurfaceMaterial m, bool first) {
+/// The camera as seen from a surface; with a lens from a random point of it.
+SeenFrom cameraSeen(Path p, Surface s) {
   vec2 lens = vec2(0.0);
   if (kLens && frame.lens.x > 0.0) {
     vec2 uv = drawPair(p.sampler, kBounceDimensions * uint(p.bounce + 1) + kSplatLensDimensions);
     lens = frame.lens.x * sampleAperture(uv.x, uv.y, int(frame.lens.z));
   }
-  SeenFrom camera = cameraFrom(s.position, lens);
-  if (camera.importance <= 0.0 || !withinBounces(p)) return p;
-  BsdfValue value = scatteredTowards(p, s, m, camera.direction);
+  return cameraFrom(s.position, lens);
+}
+
+/// Sets the shadow ray for the light that the camera sees of the path at a rough surface. With wi towards the path and
+/// wo towards the camera it is flux * throughput * f(wo, wi) |wi.Ns| * |wo.Ng| / |wi.Ng| * etaScale * importance. The
+/// quotient of cosines is there because particles carry flux (Veach, section 5.3). At the first rough surface the ray
+/// is traced at once. Later ones share one ray: each takes it with a probability in proportion to its light (reservoir
+/// sampling; Chao, A general purpose unequal probability sampling plan, 1982), and the ray then carries the sum.
+Path spawnSplatRay(Path p, Surface s, SeenFrom camera, BsdfValue value, bool first) {
   if (value.pdf > kNarrow) return p;
   vec3 light = fromLight.flux * p.throughput * value.value * (p.etaScale * camera.importance);
   uint solid = innermost(solidsTowards(p, s, camera.direction));
@@ -241,10 +243,10 @@ Path hit(Path p) {
     storePhoton(p.pixel, s.position, -p.ray.direction, maxComponent(fromLight.flux * p.throughput), fromLight.chain);
     return p;
   }
-  if (rough && scattered) p = spawnSplatRay(p, s, m, first);
-  if (!caster && !thin && !scattered) return p;
+  SeenFrom camera = cameraSeen(p, s);
+  bool seen = rough && scattered && camera.importance > 0.0 && withinBounces(p);
 
-  // Step: continue. Until a rough surface is met, it scatters at casters alone.
+  // Step: draw where it goes. Until a rough surface is met, it scatters at casters alone.
   float choice = pathRandom(p, kLobeDimension);
   vec2 uv = drawPair(p.sampler, kBounceDimensions * uint(p.bounce + 1) + kDirectionDimension);
   BsdfSample next = sampleBsdf(at.b, at.wo, choice, uv.x, uv.y);
@@ -253,11 +255,24 @@ Path hit(Path p) {
   vec3 direction = normalize(toWorld(at.around, next.wi));
   if (delta) direction = ontoSide(direction, s.geometricNormal, next.transmitted);
   bool wrongSide = (dot(direction, s.geometricNormal) < 0.0) != next.transmitted;
-  if (wrongSide || !lightScatters(p.prefix, delta, straight, delta ? mirror : glossy)) return p;
+  bool mayGoOn = (caster || thin || scattered) && !wrongSide;
+  bool goesOn = mayGoOn && lightScatters(p.prefix, delta, straight, delta ? mirror : glossy);
+
+  // Step: one loop evaluates the surface towards the camera, and along the next direction.
+  BsdfValue towards = BsdfValue(vec3(0.0), 0.0);
+  BsdfValue along = towards;
+  for (int i = seen ? 0 : 1; i < (goesOn && !delta ? 2 : 1); ++i) {
+    along = scatteredTowards(p, s, m, i == 0 ? camera.direction : direction);
+    if (i == 0) towards = along;
+  }
+  if (seen) p = spawnSplatRay(p, s, camera, towards, first);
+  if (!goesOn) return p;
+
+  // Step: continue.
   vec2 from = vec2(dot(p.ray.direction, s.geometricNormal), at.wo.z);
   vec2 to = vec2(dot(direction, s.geometricNormal), next.wi.z);
   vec3 weight = next.weight * fluxFactor(from, to);
-  if (!delta) weight = scatteredTowards(p, s, m, direction).value / (next.pdf * radianceScale(s, m, next.transmitted));
+  if (!delta) weight = along.value / (next.pdf * radianceScale(s, m, next.transmitted));
   float survival = delta ? 1.0 : min(1.0, maxComponent(weight));
   if (!delta && pathRandom(p, kSurvivalDimension) >= survival) return p;
   weight /= survival;
