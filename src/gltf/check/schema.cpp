@@ -283,7 +283,7 @@ void noteExtensions(const json& value, std::set<std::string, std::less<>>& names
 }
 
 /// The extension that a pattern leads into; empty: none.
-std::string_view extensionOf(std::string_view pattern) {
+std::string_view extensionOfPattern(std::string_view pattern) {
   constexpr std::string_view kExtensions = "/extensions/";
   const size_t at = pattern.find(kExtensions);
   if (at == std::string_view::npos) return {};
@@ -303,7 +303,7 @@ IsUsed applySchema(json& root, const SceneSelection& selection, Diagnostics& dia
   std::set<std::string, std::less<>> extensions{""};
   noteExtensions(root, extensions);
   for (const Rule& rule : rules())
-    if (extensions.contains(extensionOf(rule.pattern))) applyRule(rule, root, context);
+    if (extensions.contains(extensionOfPattern(rule.pattern))) applyRule(rule, root, context);
   return isUsed;
 }
 
