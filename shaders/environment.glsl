@@ -20,7 +20,7 @@ vec3 environmentDirection(vec2 uv) {
   return vec3(r.x * c + r.z * s, r.y, -r.x * s + r.z * c);
 }
 
-/// Radiance and pdf of a texel, as src/pack/environment_texel.h packs them.
+/// Radiance and pdf of a texel, as src/pack/pack_environment.h packs them.
 vec4 environmentTexel(ivec2 p, ivec2 size, int first) {
   uvec2 texel = readEnvironmentTexel(2 * first + p.y * size.x + p.x);
   uvec3 digits = uvec3(texel.x & 4095u, (texel.x >> 12u) & 4095u, ((texel.x >> 24u) << 4u) | (texel.y & 15u));
@@ -100,7 +100,7 @@ TablePlace placeInTable(uint bits, uint count) {
   return place;
 }
 
-/// The place that bits draw, by the `count` steps of a table from row `firstRow` on (src/pack/inversion_table.h).
+/// The place that bits draw, by the `count` steps of a table from row `firstRow` on (src/pack/pack_environment.h).
 float invertTable(int firstRow, uint count, uint bits) {
   TablePlace place = placeInTable(bits, count);
   uvec4 row = readEnvironmentInversion(firstRow + place.index);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The light of the environment in the stages before global illumination: the same for each sample, and without shadows
-// (docs/design/surfaces.md). Its rows lie behind the map and its backdrop (src/pack/environment_light.h).
+// (docs/design/surfaces.md). Its rows lie behind the map and its backdrop (src/pack/pack_environment.h).
 
 const bool kEnvironmentLight = kEnvironment && kPhong && !kGi;
 

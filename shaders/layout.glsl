@@ -16,11 +16,11 @@ const uint kMaterialsBinding = 7u;     // kMaterialRows uvec4 per material
 const uint kBricksBinding = 8u;
 const uint kEmittersBinding = 9u;      // kEmitterRows uvec4 per emitter
 const uint kLightsBinding = 10u;       // kLightRows vec4 per punctual light
-// 1 uvec4 per two texels (src/pack/environment_texel.h): radiance, pdf over the area of the map (mean 1). Those of the
+// 1 uvec4 per two texels (src/pack/pack_environment.h): radiance, pdf over the area of the map (mean 1). Those of the
 // backdrop follow, if camera rays see one instead of the map, and before gi the environment's light: factors of the
-// irradiance; width, height and first row of each level of lobes; the levels (src/pack/environment_light.h)
+// irradiance; width, height and first row of each level of lobes; the levels (src/pack/pack_environment.h)
 const uint kEnvironmentBinding = 11u;
-// 1 uvec4 per step: of the rows, then of each row (src/pack/inversion_table.h)
+// 1 uvec4 per step: of the rows, then of each row (src/pack/pack_environment.h)
 const uint kEnvironmentInversionBinding = 12u;
 const uint kSceneBufferCount = 13u;
 
@@ -56,7 +56,7 @@ const uint kFogBinding = 1u;
 const uint kVolumeBinding = 2u;
 const uint kShutterBinding = 3u;
 
-// A program draws an AOV in place of radiance (kAov); as enum Aov of src/shader/aov.h.
+// A program draws an AOV in place of radiance (kAov); as enum Aov of src/shader/render_options.h.
 const int kAovNone = 0;
 const int kAovAlbedo = 1;
 const int kAovNormal = 2;
@@ -232,12 +232,12 @@ const uint kEmitterRows = 4u;
 const uint kEmitterPunctual = 0x80000000u;     // flag of a light's index; without it a triangle's leaf slot
 const uint kEmitterDoubleSided = 0x80000000u;  // flag of the material's index
 
-// Behind the emitters, where they are chosen by a tree (src/pack/light_tree.h): a row with the number of its nodes; the
-// nodes, the root first; their parents, four per row; the leaves of emissive triangles, four per row, one per leaf slot
-// of the scene. Node rows: middle, intensity; axis as three 10-bit numbers, cosine of the spread as a 16-bit number
-// and, above it, the thickness along the axis in parts of the radius, radius or -1 for what shines everywhere, first
-// child or kLightLeaf and the first emitter, with flags. A leaf has up to kMostLightsOfLeaf emitters, one after the
-// other, which are chosen alike.
+// Behind the emitters, where they are chosen by a tree (src/pack/pack_lights.h): a row with the number of its nodes;
+// the nodes, the root first; their parents, four per row; the leaves of emissive triangles, four per row, one per leaf
+// slot of the scene. Node rows: middle, intensity; axis as three 10-bit numbers, cosine of the spread as a 16-bit
+// number and, above it, the thickness along the axis in parts of the radius, radius or -1 for what shines everywhere,
+// first child or kLightLeaf and the first emitter, with flags. A leaf has up to kMostLightsOfLeaf emitters, one after
+// the other, which are chosen alike.
 const uint kLightNodeRows = 2u;
 const uint kLightLeaf = 0x80000000u;
 const uint kLightBothSides = 0x40000000u;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Materials as packed by src/pack/pack_scene.cpp, evaluated at a point.
+// Materials as packed by src/pack/gpu_scene.cpp, evaluated at a point.
 
 uvec4 materialRow(uint material, uint row) {
   return kLiterals ? literalMaterial(material, row) : readMaterials(int(material * kMaterialRows + row));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Also read by src/image/display/dither.cpp.
+// Also read by src/image/display/tone_map.cpp.
 
 /// A bijective mix of 32 bits (Wellons, 2018: lowbias32).
 uint mixBits(uint x) {

@@ -5,7 +5,7 @@
 #include <array>
 #include <memory>
 
-#include "options/command.h"
+#include "cli/command_line.h"
 
 namespace fragtrace {
 

@@ -7,10 +7,9 @@
 #include <iterator>
 #include <map>
 
-#include "options/choose.h"
 #include "options/library/option_facts.h"
 #include "options/option_text.h"
-#include "options/parse_words.h"
+#include "options/parse_render.h"
 #include "session/outputs.h"
 
 namespace fragtrace {

@@ -16,12 +16,12 @@
 #include "image/compare/difference.h"
 #include "image/compare/flip.h"
 #include "image/display/tone_map.h"
-#include "options/choose.h"
 #include "options/numbers.h"
+#include "options/option_text.h"
 #include "render/adaptive.h"
 #include "session/picture/denoising.h"
 #include "session/picture/draw_samples.h"
-#include "session/progress_bar.h"
+#include "session/say.h"
 #include "session/tracer.h"
 
 namespace fragtrace {

@@ -19,12 +19,12 @@
 #include "image/compare/difference.h"
 #include "image/compare/flip.h"
 #include "image/display/tone_map.h"
-#include "options/choose.h"
 #include "options/library/option_facts.h"
 #include "options/numbers.h"
+#include "options/option_text.h"
 #include "render/film/film_pixels.h"
 #include "session/interrupt.h"
-#include "session/progress_bar.h"
+#include "session/say.h"
 #include "session/tracer.h"
 
 namespace fragtrace {

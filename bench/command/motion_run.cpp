@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "base/errors.h"
-#include "base/thread_name.h"
+#include "base/parallel.h"
 #include "base/timeline.h"
 #include "gltf/edit/factors.h"
 #include "options/command_text.h"

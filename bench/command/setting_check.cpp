@@ -6,8 +6,8 @@
 #include "base/errors.h"
 #include "bench/report/picture_check.h"
 #include "image/channels.h"
-#include "options/same_picture.h"
-#include "session/progress_bar.h"
+#include "options/check_render.h"
+#include "session/say.h"
 
 namespace fragtrace {
 

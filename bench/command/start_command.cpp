@@ -29,7 +29,7 @@
 #include "options/option_text.h"
 #include "options/parse_render.h"
 #include "session/interrupt.h"
-#include "session/progress_bar.h"
+#include "session/say.h"
 
 namespace fragtrace {
 

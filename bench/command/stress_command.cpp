@@ -8,9 +8,9 @@
 #include "bench/command/commands.h"
 #include "bench/command/configurations.h"
 #include "bench/command/results.h"
-#include "options/choose.h"
 #include "options/numbers.h"
-#include "session/progress_bar.h"
+#include "options/option_text.h"
+#include "session/say.h"
 #include "session/setup.h"
 #include "tests/instruments/stress/stress.h"
 

@@ -7,7 +7,7 @@
 
 #include "base/errors.h"
 #include "options/numbers.h"
-#include "session/progress_bar.h"
+#include "session/say.h"
 
 namespace fragtrace {
 

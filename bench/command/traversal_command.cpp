@@ -19,7 +19,7 @@
 #include "options/library/option_facts.h"
 #include "options/numbers.h"
 #include "pack/literals.h"
-#include "session/progress_bar.h"
+#include "session/say.h"
 #include "session/setup.h"
 #include "tests/instruments/rays/hit_check.h"
 #include "tests/instruments/rays/plain_scene.h"

@@ -4,7 +4,6 @@
 #include "gl/program.h"
 #include "image/channels.h"
 #include "render/picture_passes.h"
-#include "render/picture_texture.h"
 #include "render/renderer.h"
 
 namespace fragtrace {

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "base/message.h"
-#include "image/limits.h"
+#include "image/image.h"
 #include "image/worker/library.h"
 
 namespace fragtrace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Chooses a light by what it may send to a point, with a tree over all of them (src/pack/light_tree.h).
+// Chooses a light by what it may send to a point, with a tree over all of them (src/pack/pack_lights.h).
 
 /// A unit vector as three numbers of 8 bits each; of those, kNoNormal is none.
 uint packNormal(vec3 n) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Noise before a display value is rounded to 8 bits, so that a gradient shows no bands. Also read by
-// src/image/display/dither.cpp.
+// src/image/display/tone_map.cpp.
 #include "mix_bits.glsl"
 
 /// Triangular noise between -1 and 1 of a pixel's channel: the error of rounding then has the mean 0 and the same

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Takes from a past picture its values at the points that the present one shows (src/render/seen_picture.h). Places and
-// points are relative to the present camera's position.
+// Takes from a past picture its values at the points that the present one shows (src/render/picture_passes.h). Places
+// and points are relative to the present camera's position.
 #include "picture/picture.glsl"
 #include "sampling.glsl"
 #include "camera.glsl"

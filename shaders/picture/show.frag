@@ -13,7 +13,7 @@ layout(location = 0) out vec4 shown;
 
 const float kRounding = 1e-6;  // rounding of alpha: it counts as 0
 
-/// The same as liftedFromWhite() of src/image/over_white.h.
+/// The same as liftedFromWhite() of src/image/image.h.
 vec4 liftedFromWhite(vec4 own, vec3 seen) {
   float alpha = 1.0 - luminance(seen);
   if (own.rgb == vec3(0.0)) return vec4(own.rgb, alpha > kRounding ? alpha : 0.0);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -10,6 +12,10 @@
 #include <vector>
 
 namespace fragtrace {
+
+/// Names this thread for profilers and debuggers: at most 15 characters. Main threads keep the program's
+/// name, by which ps and killall know the process.
+inline void nameThread(const char* name) { ::pthread_setname_np(::pthread_self(), name); }
 
 /// A launch policy for std::async: a new thread, or if there is none (ulimit -u, ulimit -v), the call runs in
 /// get() instead of failing.

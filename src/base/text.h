@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Numbers and lists as text, and text as numbers.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +8,11 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace fragtrace {
+
+// Numbers and lists as text, and text as numbers.
 
 /// A text as printf writes it.
 template <typename... Values>
@@ -61,5 +63,36 @@ std::optional<Number> numberOfAll(std::string_view text) {
   const auto [rest, error] = std::from_chars(text.data(), end, number);
   return error == std::errc{} && rest == end ? std::optional(number) : std::nullopt;
 }
+
+/// The parts of a text that end with the separator or with the text, as std::getline reads them. A stream
+/// would take a lack of memory for the end of the text; this throws std::bad_alloc.
+inline std::vector<std::string_view> splitText(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  while (!text.empty()) {
+    const size_t end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    text = end == text.npos ? std::string_view() : text.substr(end + 1);
+  }
+  return parts;
+}
+
+/// The words of a text, between spaces. splitWords() of options/option_text.h knows quotes, too.
+inline std::vector<std::string_view> wordsIn(std::string_view text) {
+  std::vector<std::string_view> words = splitText(text, ' ');
+  std::erase_if(words, [](std::string_view word) { return word.empty(); });
+  return words;
+}
+
+// The name that was most likely meant by one that does not exist.
+
+/// The most similar name; empty if more than a third of the letters differ.
+std::string nearestName(std::string_view unknown, const std::vector<std::string>& known);
+
+/// The indices of the names: first those that hold the unknown one, then by how similar they are, whatever
+/// the case of letters is.
+std::vector<size_t> nearestFirst(std::string_view unknown, const std::vector<std::string>& known);
+
+/// "; did you mean NAME?" for the end of a message; empty if no name is near.
+std::string didYouMean(std::string_view unknown, const std::vector<std::string>& known);
 
 }  // namespace fragtrace

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Other people's libraries in a process of their own, fragtrace_worker: the distribution's decoders carry
-// known faults, so the work that they do on files from anywhere is limited in time and memory and cannot harm
-// us. A run that needs no such library does not load it.
 #pragma once
+
+#include <sys/types.h>
 
 #include <condition_variable>
 #include <cstdint>
@@ -13,12 +12,57 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "base/child.h"
-#include "base/shared_memory.h"
+#include "base/message.h"
 
 namespace fragtrace {
+
+inline constexpr int kNoFile = -1;  ///< /dev/null
+
+/// Starts a program, by its path or its name on PATH, with the words of its command line, the first of which
+/// is its own name. Each pair of `files` is a descriptor of the new process and one of ours that it gets, or
+/// kNoFile. Other descriptors are inherited. Signals of the terminal do not reach it. Sets `process`. Returns
+/// the error of posix_spawnp, or 0 if the program was started.
+int spawnProcess(const std::string& program, std::vector<std::string> words,
+                 const std::vector<std::pair<int, int>>& files, pid_t& process);
+
+// A process of our own, with a socket to it, that can be limited and ended.
+
+/// The process is ended and waited for when this is destroyed.
+struct Child {
+  pid_t process = -1;
+  int socket = -1;
+  Child() = default;
+  ~Child();
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+};
+
+/// endChild says this of a process that has used up its processor time.
+inline constexpr const char* kOutOfTime = "out of time";
+/// endChild says this of a process that lacks a shared library.
+inline constexpr const char* kLibraryMissing = "a library that it needs is not installed";
+
+/// Starts an executable with the path of another file as its argument, and with a sequential-packet socket as
+/// its descriptor kWorkerSocket. Both are looked for in the folder FRAGTRACE_LIBRARY_PATH, then beside our
+/// own. Throws std::runtime_error naming what is missing.
+std::unique_ptr<Child> startChild(const std::string& name, const std::string& argument);
+
+/// Sets how much data it may have, and how many more seconds of processor time it may take (0: any number).
+void limitChild(const Child& child, uint64_t dataBytes, unsigned cpuSeconds);
+
+/// Waits for a message of exactly that size; false if none comes in that time, or if the process has ended.
+bool awaitReply(const Child& child, std::span<uint8_t> reply, int patienceMs);
+
+/// Ends the process if it is still running, and says how it ended: kOutOfTime, kLibraryMissing, "signal 11
+/// (Segmentation fault)", "status 1", or that memory ran out, where the system gives processes little of it.
+std::string endChild(Child& child);
+
+// Other people's libraries in a process of their own, fragtrace_worker: the distribution's decoders carry
+// known faults, so the work that they do on files from anywhere is limited in time and memory and cannot harm
+// us. A run that needs no such library does not load it.
 
 /// Each kind of work has a process of its own, so that a missing library stops no other kind.
 struct WorkerKind {

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
-// A bounding-volume hierarchy. It is built, refitted and walked on the host as a binary one: inner nodes hold
-// the boxes of both children, leaves hold one or two primitives. Shaders walk the same leaves by nodes of up
-// to four children.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
-#include "base/bounds.h"
+#include "base/vectors.h"
 #include "scene/scene.h"
 
 namespace fragtrace {
+
+// A bounding-volume hierarchy. It is built, refitted and walked on the host as a binary one: inner nodes hold
+// the boxes of both children, leaves hold one or two primitives. Shaders walk the same leaves by nodes of up
+// to four children.
 
 /// Set in BvhNode::child when the child is a leaf (the rest is the index into Bvh::leaves).
 inline constexpr uint32_t kBvhLeafBit = 0x80000000u;
@@ -58,11 +59,11 @@ struct BvhMesh {
 struct Bvh {
   std::vector<BvhNode> nodes;
   std::vector<BvhLeaf> leaves;
-  /// The boxes of each node at the end of its segment, if surfaces move (bvh/moving_tree.h).
+  /// The boxes of each node at the end of its segment, if surfaces move (bvh/scene_tree.h).
   std::vector<std::array<Bounds, 2>> endBounds{};
   std::vector<WideNode>
       wide{};  ///< none for a list of leaves; the root is node 0, and children come after their parent
-  uint32_t besideTree = 0;  ///< leaves at the end to which no node refers: see large_first.h
+  uint32_t besideTree = 0;  ///< leaves at the end to which no node refers: see scene_tree.h
   uint32_t depth = 0;  ///< inner nodes on the longest path from the root, at most kMaxBvhDepth; with meshes
                        ///< kMaxTwoLevelDepth
   uint32_t stackNeed = 0;  ///< the most entries that a walk of `wide` has on its stack, less than depth
@@ -118,5 +119,11 @@ bool fitsTwoLevels(uint64_t topPrimitives, uint64_t meshTriangles);
 /// Without instances it has one level, as buildBvh(primitiveBounds()) builds it. Meshes of instances must
 /// fulfil fitsTwoLevels().
 Bvh buildSceneBvh(const Scene& scene);
+
+// A tree of which some primitives are left out.
+
+/// Leaves out primitives, the marked ones of the first. Nodes, leaves and slots keep their numbers: a child
+/// that holds nothing has an empty box (BvhLeaf: kMissIndex), and rays do not visit it.
+Bvh pruned(Bvh bvh, const std::vector<bool>& leftOut);
 
 }  // namespace fragtrace

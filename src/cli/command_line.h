@@ -1,12 +1,61 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "options/command.h"
+#include <CLI/CLI.hpp>
+
+namespace CLI {
+class App;
+}
+namespace CLI {
+class App;
+}
 
 namespace fragtrace {
+
+// A command: one row of a table.
+
+/// Settles the options of a command that was parsed, and runs it. Returns the exit status, and throws what
+/// main.cpp maps to one.
+using RunCommand = std::function<int()>;
+
+struct CommandRow {
+  const char* name;
+  const char* sentence;              ///< the sentence in --help
+  RunCommand (*add)(CLI::App& app);  ///< declares the command's options
+};
+
+// The text of --help.
+
+/// "fragtrace bench frame"
+std::string fullName(const CLI::App& app);
+
+/// "fragtrace diff [options] picture reference"
+std::string usageOf(const CLI::App& app);
+
+/// The forms of an option, short ones first: "-o", "--output".
+std::vector<std::string> formsOf(const CLI::Option& option);
+
+/// "0.01 to 1e+07", of a number that has a range; else empty.
+std::string rangeText(const CLI::Option& option);
+
+/// Writes help by topic, wrapped to the width of the terminal.
+class HelpText : public CLI::FormatterBase {
+ public:
+  /// Shows all options, not the everyday ones alone.
+  bool all = false;
+
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;
+};
+
+// `help --json`: the table of options for programs (docs/options-json.md).
+
+/// The commands of this app, with those that they group, and all options of them.
+std::string helpJson(const CLI::App& app, const char* version);
 
 /// Returns true if the words, not parsed yet, ask for JSON on stderr. Errors in them are then JSON, too.
 bool asksForJson(std::span<const char* const> words);

@@ -5,7 +5,7 @@
 #include <array>
 #include <span>
 
-#include "options/command.h"
+#include "cli/command_line.h"
 
 namespace fragtrace {
 

@@ -13,14 +13,14 @@
 #include "image/channels.h"
 #include "image/files/video_format.h"
 #include "image/format.h"
-#include "options/choose.h"
 #include "options/library/option_facts.h"
 #include "options/option_row.h"
+#include "options/option_text.h"
 #include "options/parse_render.h"
 #include "session/outputs.h"
-#include "session/picture/denoised_file.h"
+#include "session/picture/denoising.h"
+#include "session/picture/joined_parts.h"
 #include "session/picture/picture_file.h"
-#include "session/picture/provenance.h"
 #include "session/say.h"
 
 namespace fragtrace {

@@ -14,9 +14,9 @@
 #include "image/compare/difference.h"
 #include "image/compare/flip.h"
 #include "image/image.h"
-#include "options/choose.h"
 #include "options/library/option_facts.h"
 #include "options/numbers.h"
+#include "options/option_text.h"
 #include "session/outputs.h"
 
 namespace fragtrace {

@@ -9,10 +9,10 @@
 #include "cli/commands.h"
 #include "cli/program.h"
 #include "image/format.h"
-#include "options/choose.h"
+#include "options/option_text.h"
 #include "options/parse_render.h"
 #include "session/outputs.h"
-#include "session/picture/denoised_file.h"
+#include "session/picture/denoising.h"
 #include "session/picture/joined_parts.h"
 #include "session/picture/picture_file.h"
 

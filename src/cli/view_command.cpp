@@ -10,8 +10,8 @@
 
 #include "advice.h"
 #include "base/errors.h"
+#include "base/parallel.h"
 #include "base/plugin.h"
-#include "base/thread_name.h"
 #include "base/timeline.h"
 #include "cli/commands.h"
 #include "cli/program.h"

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Choices by driver, such as the stage of the pipeline that runs the tracer fastest.
 #pragma once
 
 #include <string>
@@ -8,6 +7,8 @@
 #include "shader/variant.h"
 
 namespace fragtrace {
+
+// Choices by driver, such as the stage of the pipeline that runs the tracer fastest.
 
 /// Chooses fragments, except in two cases: compute on software for scenes that are literals, where it was
 /// measured to be faster (docs/design/architecture.md, "The shader"); and compute on NVIDIA's data-centre
@@ -41,5 +42,18 @@ int vectorWidthOf(const std::string& renderer);
 /// once: it holds for all their contexts, and must be called before the first one is made. A GALLIVM_PERF
 /// that is already set stays. Returns true if llvmpipe was told.
 bool preferQuickCompilation(double paths);
+
+// Chooses the schedule that draws a variant: the megakernel, or the wavefront of shaders/wavefront.glsl.
+
+/// The amount of work, by which a schedule is chosen.
+struct ScheduleWork {
+  bool software = false;  ///< a rasteriser on the processor
+  double paths = 0.0;     ///< paths in the whole picture
+  size_t nodes = 0;       ///< nodes in the tree
+};
+
+/// Chooses the megakernel or the wavefront, once reads and dispatch are known. Returns the reason for the
+/// megakernel, or nothing.
+std::string chooseSchedule(ShaderVariant& variant, const RenderOptions& options, const ScheduleWork& work);
 
 }  // namespace fragtrace

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// OpenGL, for the files of src/gl and src/render only.
 #pragma once
-
-#include <glad/gl.h>
 
 #include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
+
+#include <glad/gl.h>
 
 namespace fragtrace {
+
+// OpenGL, for the files of src/gl and src/render only.
 
 /// Throws RenderError that names `where` and every pending OpenGL error; ContextLost if the context is lost.
 void checkGl(const char* where);
@@ -79,5 +81,22 @@ GlVertexArray makeVertexArray();
 GlFramebuffer makeFramebuffer();
 /// GL_TIME_ELAPSED: the time that draws take; GL_TIMESTAMP: the device's clock.
 GlQuery makeQuery(GLenum target);
+
+/// Collects the driver's messages through KHR_debug while it lives (errors always; in debug builds everything
+/// above notifications). Call take() where the messages can be shown.
+class DebugLog {
+ public:
+  DebugLog();
+  DebugLog(const DebugLog&) = delete;
+  DebugLog& operator=(const DebugLog&) = delete;
+  ~DebugLog();
+  std::vector<std::string> take();
+
+ private:
+  std::vector<std::string> messages_;
+};
+
+/// Does the same as checkGl(), with the driver's message about the error.
+void checkGl(const char* where, DebugLog& log);
 
 }  // namespace fragtrace

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "image/limits.h"
+#include "image/image.h"
+#include "scene/parts.h"
 #include "scene/scene.h"
-#include "scene/selection.h"
 
 namespace fragtrace {
 

@@ -5,11 +5,9 @@
 #include <utility>
 
 #include "base/errors.h"
-#include "options/config_file.h"
 #include "options/option_row.h"
 #include "options/option_text.h"
 #include "options/parse_render.h"
-#include "options/parse_words.h"
 #include "options/view_options.h"
 
 namespace fragtrace {

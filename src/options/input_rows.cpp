@@ -4,14 +4,13 @@
 #include <utility>
 
 #include "base/errors.h"
-#include "base/near_name.h"
 #include "base/text.h"
 #include "gltf/edit/factors.h"
 #include "image/display/page_color.h"
-#include "options/light_words.h"
 #include "options/option_row.h"
+#include "options/parse_render.h"
 #include "options/row_makers.h"
-#include "scene/up_axis.h"
+#include "scene/camera.h"
 
 namespace fragtrace {
 

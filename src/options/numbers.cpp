@@ -6,10 +6,8 @@
 #include <utility>
 
 #include "base/errors.h"
-#include "base/near_name.h"
 #include "base/text.h"
 #include "image/display/page_color.h"
-#include "options/choose.h"
 #include "options/library/option_facts.h"
 #include "options/option_text.h"
 

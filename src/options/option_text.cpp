@@ -68,4 +68,18 @@ std::vector<std::string> splitWords(const std::string& text) {
   return words;
 }
 
+std::vector<std::string> stageNames(bool cumulativeOnly) {
+  std::vector<std::string> names;
+  for (const StageRow& row : stageRows()) {
+    if (row.cumulative || !cumulativeOnly) names.emplace_back(row.name);
+  }
+  return names;
+}
+
+Stage stageNamed(const char* option, const std::string& name) {
+  const std::optional<Stage> stage = parseStage(name);
+  if (!stage) throw UsageError(std::string(option) + ": " + whyNoneOf(name, stageNames(false)));
+  return *stage;
+}
+
 }  // namespace fragtrace

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "options/choose.h"
 #include "options/numbers.h"
 #include "options/option_row.h"
 #include "options/option_text.h"

@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/errors.h"
-#include "options/config_file.h"
+#include "options/parse_render.h"
 
 namespace fragtrace {
 

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/glm.hpp>
-#include <glm/gtc/constants.hpp>
 #include <map>
 #include <mutex>
 #include <utility>
 
-#include "pack/visible_normals.h"
+#include <glm/glm.hpp>
+#include <glm/gtc/constants.hpp>
 
 namespace fragtrace {
 

@@ -1,22 +1,28 @@
 // SPDX-License-Identifier: MIT
-// The scene as the arrays the shader reads (shaders/layout.glsl), in upload order; no OpenGL here.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
+
+#include <glm/glm.hpp>
 
 #include "bvh/bvh.h"
 #include "image/image.h"
 #include "pack/textures/texture_plan.h"
 #include "scene/scene.h"
-#include "scene/sky/map_sun.h"
+#include "scene/sky/map_filter.h"
 #include "scene/sky/sky.h"
+#include "scene/volume/grid.h"
 #include "shader/layout.h"
 #include "shader/variant.h"
 
 namespace fragtrace {
+
+// The scene as the arrays the shader reads (shaders/layout.glsl), in upload order; no OpenGL here.
 
 using Words = std::vector<uint32_t>;
 
@@ -109,5 +115,37 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
 /// Packs the surroundings alone, for a scene that is there: all other arrays are unchanged.
 GpuScene packSurroundings(const Bvh& bvh, const Environment& environment, const ShaderVariant& variant,
                           KeptArrays& kept);
+
+// The pictures of textures and environment, which stay on the device and need not be packed again for the
+// next picture of a sequence.
+
+struct KeptArrays {
+  std::vector<std::pair<std::string, size_t>> images;  ///< names and sizes of the images packed
+  TexturePlan textures;
+  std::vector<PictureFacts> pictures;  ///< by the index of the scene's image; empty: none was packed
+  const VolumeGrid* grid = nullptr;    ///< grid behind the arrays; it is only compared
+  PackedGrid densities;
+  struct KeptEnvironment {
+    glm::ivec2 size{0};
+    glm::ivec2 backdropSize{0};
+    glm::vec3 upwardIrradiance{0.0f};
+    double power = 0.0;
+    int draws = 0;            ///< EnvironmentDraws
+    bool forCatcher = false;  ///< upwardIrradiance is known
+    bool light = false;       ///< appendEnvironmentLight()
+    bool suns = false;        ///< appendSuns()
+    double sunPower = 0.0;    ///< the part of the power of the sun that light paths begin at
+  };
+  std::optional<KeptEnvironment> environment;  ///< the environment map; a sequence has only one
+  bool geometry = false;     ///< tree, leaves, faces and vertices are as packed before, as are all pictures
+  std::vector<bool> cutOut;  ///< the triangles that the tree was packed without (cutOutTriangles)
+};
+
+/// Texels of 8 bytes that a grid takes on the device.
+size_t texelsOf(const VolumeGrid& grid);
+
+/// Fills an array with the grid's table, which is larger by a brick before the first along each axis, and its
+/// bricks (shaders/media/volume.glsl).
+PackedGrid packGrid(const VolumeGrid& grid, Words& texels);
 
 }  // namespace fragtrace

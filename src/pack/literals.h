@@ -1,12 +1,60 @@
 // SPDX-License-Identifier: MIT
-// Scenes so small that they become part of the shader's text: no tree, no reads.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
+#include <vector>
 
+#include <glm/glm.hpp>
+
+#include "bvh/bvh.h"
 #include "pack/gpu_scene.h"
+#include "scene/scene.h"
 
 namespace fragtrace {
+
+// The triangles of a small scene as a mesh of shared vertices, neighbours merged to quadrilaterals.
+
+/// One test of a ray: a triangle or a convex quadrilateral.
+struct LiteralFace {
+  std::array<uint32_t, 4> corner{};  ///< indices of points, counter-clockwise seen from the front
+  bool quad = false;                 ///< else the fourth corner is not there
+  bool parallelogram = false;        ///< a quadrilateral that is one
+  bool culled = false;               ///< its back is not there
+  uint32_t slot = 0;        ///< leaf slot of the triangle; of a quadrilateral, of its first three corners
+  uint32_t otherSlot = 0;   ///< leaf slot of a quadrilateral's other triangle
+  uint32_t first = 0;       ///< the vertex of the triangle in `slot` that is the first corner
+  uint32_t otherFirst = 0;  ///< the vertex of the other triangle that is the third corner
+};
+
+struct LiteralMesh {
+  std::vector<glm::vec3> points;  ///< each place once
+  std::vector<LiteralFace> faces;
+};
+
+/// The shapes that two triangles of the same plane, material and sides may form.
+enum class Joining : uint8_t { None, Parallelograms, ConvexQuadrilaterals };
+
+/// The triangles in the leaves from firstLeaf on. emissiveApart: triangles that emit light are not joined.
+LiteralMesh literalMesh(const Scene& scene, const Bvh& bvh, uint32_t firstLeaf, Joining joining,
+                        bool emissiveApart = false);
+
+struct LiteralOptions {
+  bool weights = false;  ///< barycentric ones are kept; the faces must be triangles or parallelograms then
+  bool whole = false;    ///< there is nothing else to test
+  bool passing =
+      false;  ///< rays pass through surfaces: hits are ordered as by isNearer() of shaders/tree/leaf.glsl
+  bool backFaces = false;  ///< light paths ask for the backs of single-sided faces
+};
+
+/// Returns the text of traverseLiterals() of shaders/literals.glsl for this mesh: the test of Woop, Benthin
+/// and Wald (shaders/intersect.glsl) of all its faces, unrolled. Points are projected once for all faces that
+/// share them, and an edge function is computed once for both faces of its edge. So no ray passes between
+/// neighbours, even if the compiler fuses operations.
+std::string literalTraversal(const LiteralMesh& mesh, const LiteralOptions& options);
+
+// Scenes so small that they become part of the shader's text: no tree, no reads.
 
 /// Why a scene cannot be literals: spheres, nothing, or too many triangles, materials or emitters. Empty when
 /// it can.

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
 #include "pack/gpu_scene.h"
+#include "pack/textures/pack_textures.h"
+#include "shader/traits.h"
 
 namespace fragtrace {
 
@@ -47,5 +51,25 @@ uint32_t firstInstanceBlock(const Bvh& bvh);
 
 /// Appends the instances to the packed nodes.
 void appendInstances(const Scene& scene, const Bvh& bvh, Words& nodes);
+
+/// The plane of a triangle: unit normal, and its distance from the origin along it, (0, 0, 0, 0) when there
+/// is no area. The distance belongs to the rounded normal, in the middle of the triangle.
+glm::vec4 planeOf(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2);
+
+/// Packs the data of each primitive that shading needs, in the order of the tree's leaf slots (layout.glsl:
+/// face rows), with insets where `creases`. Throws InputError when there are more materials than a face word
+/// can name.
+Words packFaces(const Scene& scene, const Bvh& bvh, bool creases);
+
+/// Appends numbers of glTF nodes, four in a row: first of the nodes that show the primitives, in the order of
+/// leaf slots, then of those that show the instances. Numbers begin with 1; 0 means that there is no node
+/// (shaders/layout.glsl).
+void appendObjectNumbers(const Scene& scene, const Bvh& bvh, Words& words);
+
+// Triangles that alpha cuts out wholly: no ray meets them, so the tree does without them.
+
+/// Says of each triangle of the scene if its alpha is certain to let all rays pass: below the cutoff of MASK,
+/// or 0 of BLEND, in all texels that a variant of these traits may read on it. Empty: none is.
+std::vector<bool> cutOutTriangles(const Scene& scene, const TraitSet& traits, const TexturePacker& textures);
 
 }  // namespace fragtrace

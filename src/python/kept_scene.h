@@ -1,18 +1,51 @@
 // SPDX-License-Identifier: MIT
-// A scene that stays on the device between its pictures. All of this belongs to the drawing thread
-// (draw_thread.h).
 #pragma once
 
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <functional>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "python/draw_thread.h"
-#include "session/picture/finished_picture.h"
+#include "session/picture/draw_samples.h"
 
 namespace fragtrace {
+
+// The one thread of a Python process that draws. The OpenGL context belongs to a thread, its table of
+// functions to the process, and a draw uses all processors, so scenes of all Python threads take turns here.
+
+/// Work for the drawing thread, and its progress. The waiting thread and the drawing thread share it.
+struct DrawJob {
+  std::function<void(DrawJob&)> work;
+  std::atomic<int> interrupts = 0;   ///< interrupts() of the work
+  std::atomic<double> fraction = 0;  ///< share of the samples
+  std::vector<std::string> said;     ///< lines of say(); read them when the job has ended
+  std::exception_ptr error;          ///< likewise
+
+  void end();
+  /// Returns true if it has ended within that time.
+  bool wait(int milliseconds);
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool ended_ = false;
+};
+
+/// Puts work into the queue. Throws std::runtime_error in a process that was forked from one that has drawn.
+std::shared_ptr<DrawJob> postJob(std::function<void(DrawJob&)> work);
+
+/// Interrupts all work and waits for its end; later work is dropped. It must be called before Python ends.
+void stopDrawing();
+bool isDrawingStopped();
+
+// A scene that stays on the device between its pictures. All of this belongs to the drawing thread
+// (kept_scene.h).
 
 /// A scene on the device.
 struct KeptScene {

@@ -8,7 +8,7 @@
 
 #include "base/errors.h"
 #include "image/channels.h"
-#include "render/picture_texture.h"
+#include "render/picture_passes.h"
 #include "shader/layout.h"
 
 namespace fragtrace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "render/renderer.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -8,8 +9,9 @@
 #include <deque>
 
 #include "base/errors.h"
+#include "pack/guiding.h"
 #include "pack/pack_tree.h"
-#include "scene/projection.h"
+#include "scene/camera.h"
 
 namespace fragtrace {
 
@@ -422,6 +424,314 @@ double Renderer::compile(const ShaderVariant& variant, Film& film, const View& v
   compileLightPaths(film, view);
   film.clear();
   return millisecondsBetween(start, Clock::now());
+}
+
+// The part of the renderer that cuts samples into passes over the picture, by the time that draws took
+// before.
+
+/// Counts of work take a plan that no time changes: so many samples of a pixel in a draw, at most.
+constexpr int kMostCountedSamples = 4;
+
+void Renderer::adaptPace(int samples) {
+  int& most = pace_->mostSamplesPerDraw;
+  most = overBudget_ ? std::max(1, samples / 2) : std::max(most, samples * 2);
+}
+
+bool Renderer::addSamples(Film& film, const View& view, std::span<const Work> parts, RenderTimes& times,
+                          const Progress& progress) {
+  const double drawnBefore = drawnMs_;
+  const WorkCounts workBefore = work_;
+  const auto start = Clock::now();
+  const bool complete = addParts(film, view, parts, times, progress);
+  times.renderMs += millisecondsBetween(start, Clock::now());
+  times.drawMs += drawnMs_ - drawnBefore;
+  times.work = times.work + (work_ - workBefore);
+  if (complete) progress(1.0);
+  return complete;
+}
+
+bool Renderer::addParts(Film& film, const View& view, std::span<const Work> parts, RenderTimes& times,
+                        const Progress& progress) {
+  double total = 0.0;
+  for (const Work& part : parts) total += pixelSamples(part);
+  double done = 0.0;  // pixel-samples
+  double doneMs = 0.0;
+  const GoOn goOn = [&](double more) { return progress((done + more) / total); };
+  const GoOn stays = [&](double) { return goOn(0.0); };
+  if (!chooseLightPaths(film, view, stays)) return false;
+  ShaderVariant& variant = pace_->drawn;
+  for (const Work& part : parts) {
+    for (Work pass = part; pass.from < part.to; pass.from = pass.to) {
+      // Step: plan a pass. Where pixels take light samples of others in the same sample, these are stored
+      // for one sample at a time.
+      int left = variant.neighbours ? 1 : part.to - pass.from;
+      if (!trainGuiding(film, view, pass.from, times, stays)) return false;
+      if (usesGuiding(variant) && !guides_ && film.pixelsPerPath() != kNoLightPaths) left = 1;
+      const int mostPixels = software_ || variant.resumable ? kMaxTilePixels : kMaxGpuTilePixels;
+      const DrawPlan plan =
+          variant.wavefront    ? planWaves(part.size, software_ ? kWaveTile : kGpuWaveTile, pass.from, left)
+          : variant.countsWork ? planDraws(part.size, left, kMostCountedSamples, mostPixels, 0.0, targetMs_)
+                               : planDraws(part.size, left, pace_->mostSamplesPerDraw, mostPixels,
+                                           pace_->msPerSample * part.busy, targetMs_);
+      pass.to = pass.from + plan.samples;
+      const auto start = Clock::now();
+
+      // Step: draw it.
+      if (!storeReservoirs(film, view, pass.from, stays)) return false;
+      const auto drawStart = Clock::now();
+      if (!drawPass({variant, film, view, tilesOf(pass, plan.tile)}, goOn)) return false;
+      done += pixelSamples(pass);
+      doneMs += millisecondsBetween(drawStart, Clock::now());
+      pace_->msPerSample = doneMs / done;
+      adaptPace(plan.samples);
+      const bool lit = addLightPaths(film, view, pass.to, stays);
+
+      // Step: note its time, if it is that of whole frames.
+      const double frameMs = millisecondsBetween(start, Clock::now()) / plan.samples;
+      if (part.size == film.size() && part.busy == 1.0) {
+        if (times.frameMs.empty()) times.firstFrameMs = frameMs;
+        times.frameMs.insert(times.frameMs.end(), size_t(plan.samples), frameMs);
+      }
+      if (!lit) return false;
+    }
+  }
+  return true;
+}
+
+// The part of the renderer that draws caustics: passes of light paths.
+
+namespace {
+
+/// A lane draws at most this many light paths of a column one after the other, so that no lane waits for the
+/// longest path of the others. A row of lanes is as wide as the tile, since llvmpipe's threads share squares
+/// of 64 pixels, and rows are even, since it draws two at a time.
+constexpr int kSoftwarePathsPerLane = 16;
+constexpr int kMargin = 4;  // pixels about the film; filters reach 2
+
+/// Samples of a sequence that have kPixelsPerPath: a picture that moves has few more.
+constexpr int kFirstLightSamples = 4;
+/// The small picture in which measurePixelsPerPath() measures.
+constexpr double kPilotPixels = 1024.0;
+constexpr int kPilotSamples = 16;
+constexpr uint32_t kPilotSeed = 0x70696c6fu;
+
+int partsOf(int whole, int part) { return (whole + part - 1) / part; }
+
+glm::ivec2 pilotSize(glm::ivec2 picture) {
+  const double scale = std::sqrt(kPilotPixels / (double(picture.x) * picture.y));
+  return glm::max(glm::ivec2(glm::round(glm::dvec2(picture) * std::min(scale, 1.0))), 1);
+}
+
+}  // namespace
+
+bool canSplat() {
+  GLint blends = GL_NONE;
+  glGetInternalformativ(GL_TEXTURE_2D, GL_RGBA32F, GL_FRAMEBUFFER_BLEND, 1, &blends);
+  GLfloat sizes[2] = {1.0f, 1.0f};
+  glGetFloatv(GL_POINT_SIZE_RANGE, sizes);
+  checkGl("asking what can be blended");
+  return blends == GL_FULL_SUPPORT && sizes[1] >= 5.0f;
+}
+
+void Renderer::compileLightPaths(Film& film, const View& view) {
+  const std::optional<ShaderVariant> light = lightPathVariant(pace_->drawn);
+  if (!light) return;
+  if (!lightPathFilm_) lightPathFilm_.emplace(glm::ivec2(kRecordSide, 2 * kRecordSide));
+  const Work tiny{{0, 0}, glm::ivec2(8), 0, 1};
+  ShaderVariant& variant = drawn(*light);
+  drawPass({variant, *lightPathFilm_, view, {tiny}}, toTheEnd);
+  splat({variant, film, view, {}}, glm::ivec2(1), 1.0f);
+}
+
+bool Renderer::addLightPaths(Film& film, const View& view, int passes, const GoOn& goOn) {
+  const std::optional<ShaderVariant> light = lightPathVariant(pace_->drawn);
+  // What they bring takes a bounce.
+  if (!light || view.bounces == 0 || film.pixelsPerPath() == kNoLightPaths) return true;
+  const glm::ivec2 whole = view.placement ? view.placement->whole : film.size();
+  uint64_t before = 0;  // paths of the tiles before this one
+  for (int pass = 0; pass < passes; ++pass) {
+    const bool first = view.sampleOffset + pass < kFirstLightSamples;
+    if (!first && film.pixelsPerPath() == 0) {
+      film.setPixelsPerPath(view.pixelsPerPath > 0 ? view.pixelsPerPath
+                                                   : measurePixelsPerPath(view, whole, goOn, false));
+      if (film.pixelsPerPath() == 0) return false;
+    }
+    const glm::ivec2 paths(whole.x, partsOf(whole.y, first ? kPixelsPerPath : film.pixelsPerPath()));
+    const float weight = float(partsOf(whole.y, kPixelsPerPath)) / float(paths.y);
+    const uint64_t after = before + uint64_t(paths.x) * uint64_t(paths.y);
+    if (after <= film.lightPaths().count) {
+      before = after;
+      continue;
+    }
+    for (const Work& tile : tilesOf({{0, 0}, paths, 0, 1}, glm::ivec2(kRecordSide))) {
+      // Tiles of a pass that was stopped may be there already.
+      const bool there = before < film.lightPaths().count;
+      const RenderPass drawing{drawn(*light), film, view, {tile}};
+      if (!there && !addLightTile(drawing, {whole, pass, weight}, goOn)) return false;
+      before += uint64_t(tile.size.x) * uint64_t(tile.size.y);
+    }
+  }
+  return true;
+}
+
+bool Renderer::chooseLightPaths(Film& film, const View& view, const GoOn& goOn) {
+  const bool chosen = film.pixelsPerPath() > 0 || film.lightPaths().count > 0;
+  if (chosen || !weighsLightPaths(view)) return true;
+  int pixels = view.pixelsPerPath;
+  guides_ = false;
+  if (pixels == 0)
+    pixels = measurePixelsPerPath(view, view.placement ? view.placement->whole : film.size(), goOn, true);
+  if (pixels == kNoLightPaths) film.setPixelsPerPath(pixels);
+  return pixels > 0;
+}
+
+int Renderer::measurePixelsPerPath(const View& view, glm::ivec2 picture, const GoOn& goOn, bool weighs) {
+  Film film(pilotSize(picture));
+  film.setPixelsPerPath(1);
+  View pilot = view;
+  pilot.placement.reset();
+  pilot.seed = kPilotSeed;
+  pilot.sampleOffset = kFirstLightSamples;
+  const GoOn stays = [&](double) { return goOn(0.0); };
+  const auto drawCameraPaths = [&] {
+    for (int i = 0; i < kPilotSamples; ++i) {
+      const std::vector<Work> tiles = tilesOf({{0, 0}, film.size(), i, i + 1}, kWaveTile);
+      if (!storeReservoirs(film, pilot, i, stays)) return false;
+      if (!drawPass({pace_->drawn, film, pilot, tiles}, stays)) return false;
+    }
+    return true;
+  };
+  if (!drawCameraPaths()) return 0;
+  const FilmPixels camera = film.read();
+  if (!addLightPaths(film, pilot, kPilotSamples / 4, stays)) return 0;
+  const FilmTotals paths = totalsOf(lightPathFilm_->read());  // those of the last tile
+  const double raysOfPath = double(paths.rays) / double(paths.samples);
+  const int pixels = pixelsPerPath(camera, film.read(), raysOfPath);
+  if (!weighs) return pixels;
+  // Few light paths may land in the picture, so there are more of them.
+  if (!addLightPaths(film, pilot, kPilotSamples, stays)) return 0;
+  const FilmPixels both = film.read();
+  film.clear();
+  film.setPixelsPerPath(kNoLightPaths);
+  if (!drawCameraPaths()) return 0;
+  return cameraPathsSuffice(camera, both, raysOfPath, pixels, film.read()) ? kNoLightPaths : pixels;
+}
+
+bool Renderer::addLightTile(const RenderPass& pass, const LightPass& of, const GoOn& goOn) {
+  const Work& tile = pass.work.front();
+  View seen = pass.view;
+  seen.sampleOffset += of.index;
+  // The film of records holds the part of the paths that begins at the tile.
+  seen.placement = Placement{{tile.corner.x, of.whole.y - tile.corner.y - 2 * kRecordSide}, of.whole};
+  lightPathFilm_->clearCounts();
+  if (!drawPass({pass.variant, *lightPathFilm_, seen, {rowsOfPaths(tile.size)}}, goOn)) return false;
+  splat(pass, tile.size, of.weight);
+  pass.film.countLightPaths(uint64_t(tile.size.x) * uint64_t(tile.size.y), of.weight);
+  return true;
+}
+
+Work Renderer::rowsOfPaths(glm::ivec2 paths) const {
+  const int rows = software_ ? 2 * partsOf(paths.y, 2 * kSoftwarePathsPerLane) : paths.y;
+  return {{0, 0}, {paths.x, rows}, 0, partsOf(paths.y, rows)};
+}
+
+void Renderer::splat(const RenderPass& pass, glm::ivec2 tile, float weight) {
+  Film& film = pass.film;
+  const glm::ivec2 size = film.size();
+  const Placement placed = pass.view.placement.value_or(Placement{{0, 0}, size});
+  const GLuint program = programs_.splatter(pass.variant).name();
+  const DrawTarget target;
+  glNamedFramebufferTexture(target.framebuffer.name(), GL_COLOR_ATTACHMENT0, film.splats().name(), 0);
+  target.bind();
+  // If no viewport can be larger than the film, points beside it are lost.
+  const int margin = std::max(size.x, size.y) + 2 * kMargin <= Film::mostSide() ? kMargin : 0;
+  const glm::ivec2 viewport = size + 2 * margin;
+  glViewport(-margin, -margin, viewport.x, viewport.y);
+  glProgramUniform2f(program, 0, float(placed.corner.x), float(placed.whole.y - placed.corner.y - size.y));
+  glProgramUniform2f(program, 1, float(viewport.x), float(viewport.y));
+  glProgramUniform1f(program, 2, float(margin));
+  glProgramUniform2i(program, 3, tile.x, tile.y);
+  glProgramUniform1f(program, 4, weight);
+  lightPathFilm_->bindTextures(0);
+  glUseProgram(program);
+  glEnable(GL_PROGRAM_POINT_SIZE);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE);
+  glDrawArrays(GL_POINTS, 0, 2 * tile.x * tile.y);
+  glDisable(GL_BLEND);
+  glDisable(GL_PROGRAM_POINT_SIZE);
+  waitForDevice();
+  checkGl("adding light paths to the film");
+}
+
+// The part of the renderer that stores light samples for the pixels near them.
+
+bool Renderer::storeReservoirs(const Film& film, const View& view, int index, const GoOn& goOn) {
+  const std::optional<ShaderVariant> records = reservoirVariant(pace_->drawn);
+  if (!records) return true;
+  const glm::ivec2 size = film.size();
+  const glm::ivec2 tile(software_ ? 256 : 2048);  // pixels of a draw
+  if (!reservoirs_ || reservoirs_->size() != size) reservoirs_.emplace(size);
+  reservoirs_->clear();
+  View sample = view;
+  sample.sampleOffset += index;
+  return drawPass({drawn(*records), *reservoirs_, sample, tilesOf({{0, 0}, size, 0, 1}, tile)}, goOn);
+}
+
+// The part of the renderer that trains guiding (shaders/caustics/guiding.glsl).
+
+namespace {
+
+/// All seeds have the same lobes: random numbers of its own keep it apart from what it guides.
+constexpr uint32_t kSeed = 0x6775696du;
+
+/// The lobes for a picture of so many pixels are fitted to this many photons. A larger picture takes longer,
+/// and pays for more.
+size_t photonsFor(glm::ivec2 picture) {
+  return std::clamp(size_t(picture.x) * size_t(picture.y) * 4, size_t(1) << 12, size_t(1) << 17);
+}
+/// At most this many light paths are traced for each of the photons, where few land.
+constexpr size_t kMostPathsPerPhoton = 8;
+
+}  // namespace
+
+bool Renderer::trainGuiding(const Film& film, const View& view, int sample, RenderTimes& times,
+                            const GoOn& goOn) {
+  const auto start = std::chrono::steady_clock::now();
+  guides_ = usesGuiding(pace_->drawn) && film.pixelsPerPath() != kNoLightPaths && view.bounces > 0 &&
+            view.sampleOffset + sample > 0;
+  const size_t wanted = photonsFor(view.placement ? view.placement->whole : film.size());
+  if (!guides_ || guidingPhotons_ == wanted) return true;
+  std::vector<Photon> photons;
+  const int rows = int(std::min(wanted / kRecordSide, size_t(kRecordSide)));
+  const int height = int(wanted * kMostPathsPerPhoton / kRecordSide);
+  for (int row = 0; row < height && photons.size() < wanted; row += rows) {
+    if (!tracePhotons(view, {{0, row}, {kRecordSide, rows}, 0, 1}, height, photons, goOn)) return false;
+  }
+  lobes_ = fitGuiding(photons, casters_);
+  buffers_.writeLastLights(lobes_);
+  guidingPhotons_ = wanted;
+  times.guidingMs += millisecondsBetween(start, std::chrono::steady_clock::now());
+  return true;
+}
+
+bool Renderer::tracePhotons(const View& view, const Work& paths, int height, std::vector<Photon>& photons,
+                            const GoOn& goOn) {
+  ShaderVariant& variant = drawn(*lightPathVariant(pace_->drawn));
+  View seen = view;
+  seen.seed = kSeed;
+  seen.sampleOffset = 0;
+  seen.placement = Placement{{0, height - paths.corner.y - lightPathFilm_->size().y}, {kRecordSide, height}};
+  lightPathFilm_->clearCounts();
+  if (!drawPass({variant, *lightPathFilm_, seen, {rowsOfPaths(paths.size)}, true}, goOn)) return false;
+  const FilmState records = lightPathFilm_->save();
+  for (size_t i = 0; i < size_t(paths.size.x) * size_t(paths.size.y) * 4; i += 4) {
+    const float* at = &records.sum[i];
+    const float* from = &records.compensation[i];
+    if (at[3] > 0.0f)
+      photons.push_back({{at[0], at[1], at[2]}, {from[0], from[1], from[2]}, at[3], uint32_t(from[3])});
+  }
+  return true;
 }
 
 }  // namespace fragtrace

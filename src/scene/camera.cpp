@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include <glm/glm.hpp>
 #include <glm/gtc/constants.hpp>
 
 #include "base/errors.h"
@@ -12,6 +14,96 @@
 #include "scene/parts.h"
 
 namespace fragtrace {
+
+namespace {
+
+/// The smallest sine of the angle between two sides of a triangle that has a plane of its own.
+constexpr double kLeastUpSine = 1e-3;
+constexpr double kUnitsOfUp = 1e6;
+
+}  // namespace
+
+glm::dmat3 turnToY(const glm::dvec3& up) {
+  // The largest part is 1 first, since squares of large numbers overflow.
+  const glm::dvec3 size = glm::abs(up);
+  const glm::dvec3 unit = glm::normalize(up / std::max({size.x, size.y, size.z}));
+  const double across = std::hypot(unit.x, unit.z);
+  if (unit.y < 0.0 && across == 0.0) return {{-1, 0, 0}, {0, -1, 0}, {0, 0, 1}};
+  // Rodrigues' formula with the part of the direction across Y, which is of length 1 for the lower half: 1 +
+  // y would be cancelled there.
+  const double length = unit.y < 0.0 ? across : 1.0;
+  const double k = unit.y < 0.0 ? 1.0 - unit.y : 1.0 / (1.0 + unit.y);
+  const double x = unit.x / length;
+  const double z = unit.z / length;
+  // A difference from 0 is never -0.
+  const double xz = 0.0 - k * x * z;
+  return {{unit.y + k * z * z, unit.x, xz},
+          {0.0 - unit.x, unit.y, 0.0 - unit.z},
+          {xz, unit.z, unit.y + k * x * x}};
+}
+
+std::optional<glm::dvec3> levelUp(const std::array<glm::dvec3, 3>& points, const glm::dvec3& up) {
+  const glm::dvec3 a = points[1] - points[0];
+  const glm::dvec3 b = points[2] - points[0];
+  const glm::dvec3 c = points[2] - points[1];
+  const glm::dvec3 normal = glm::cross(a, b);
+  const double longest = std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
+  if (!(glm::length(normal) > kLeastUpSine * longest)) return std::nullopt;
+  const glm::dvec3 unit = glm::normalize(normal.y < 0.0 ? -normal : normal);
+  // The rotation's transpose turns back to the file's space.
+  return glm::round(kUnitsOfUp * (unit * turnToY(up))) / kUnitsOfUp + 0.0;
+}
+
+glm::dvec2 halfExtents(const Camera& camera, double width, double height, double unit) {
+  if (camera.type == CameraType::Panorama) return {glm::pi<double>(), glm::half_pi<double>()};
+  if (camera.type == CameraType::Fisheye) {
+    const double nearer = std::min(width, height);
+    return 0.5 * camera.fovY * glm::dvec2(width / nearer, height / nearer);
+  }
+  const bool perspective = camera.type == CameraType::Perspective;
+  const double half = perspective ? std::tan(0.5 * camera.fovY) : camera.halfHeight / unit;
+  return {half * width / height, half};
+}
+
+Projection projectionOf(const Camera& camera, double aspectRatio) {
+  const glm::dvec2 half = halfExtents(camera, aspectRatio, 1.0);
+  const glm::dvec3 right = glm::normalize(glm::cross(camera.forward, camera.up));
+  const glm::dvec3 up = glm::cross(right, camera.forward);
+  return {camera.position, half.x * right, half.y * up, camera.forward, 2.0 * camera.shift, camera.type};
+}
+
+std::optional<Ray> rayThrough(const Projection& projection, const LocalSpace& space,
+                              const glm::dvec2& place) {
+  constexpr float kFar = 1e30f;
+  const glm::dvec3 position = space.localOf(projection.position);
+  const glm::dvec2 shifted = place + projection.shift;
+  const glm::dvec3 offset = shifted.x * projection.right + shifted.y * projection.up;
+  if (projection.type == CameraType::Orthographic)
+    return Ray{glm::vec3(position + offset / space.unit), glm::vec3(projection.forward), kFar};
+  glm::dvec3 direction = projection.forward + offset;
+  // Shaders/camera.glsl computes the same.
+  if (projection.type == CameraType::Panorama) {
+    const glm::dvec2 angles = glm::dvec2(glm::pi<double>(), glm::half_pi<double>()) * shifted;
+    direction = std::cos(angles.y) * (std::cos(angles.x) * projection.forward +
+                                      std::sin(angles.x) * glm::normalize(projection.right)) +
+                std::sin(angles.y) * glm::normalize(projection.up);
+  } else if (projection.type == CameraType::Fisheye) {
+    const double angle = glm::length(offset);
+    if (angle > std::min(glm::length(projection.right), glm::length(projection.up))) return std::nullopt;
+    const double aside = angle > 0.0 ? std::sin(angle) / angle : 1.0;
+    direction = std::cos(angle) * projection.forward + aside * offset;
+  }
+  return Ray{glm::vec3(position), glm::vec3(glm::normalize(direction)), kFar};
+}
+
+glm::dvec3 projected(const Projection& projection, const glm::dvec3& point) {
+  const glm::dvec3 view = point - projection.position;
+  const double x = glm::dot(view, projection.right) / glm::dot(projection.right, projection.right);
+  const double y = glm::dot(view, projection.up) / glm::dot(projection.up, projection.up);
+  const double w = projection.type == CameraType::Perspective ? glm::dot(view, projection.forward) : 1.0;
+  return {x - w * projection.shift.x, y - w * projection.shift.y, w};
+}
+
 namespace {
 
 double radiusOf(const BoundsDouble& bounds) {
@@ -213,6 +305,89 @@ Camera chooseCamera(std::span<const Camera> cameras, std::optional<int> index,
   if (overrides.orbit || first)
     return orbiting(camera, overrides.orbit.value_or(kFirstView), overrides, bounds, aspectRatio);
   return withOverrides(camera, overrides, bounds);
+}
+
+namespace {
+
+/// The sum of area * n * n^T over the triangles, n being the unit normal. Seen along d, the mean squared
+/// cosine of the surfaces is d^T * sum * d / trace(sum).
+struct Facing {
+  glm::dmat3 sum{0.0};
+
+  /// Adds a surface whose `normal` is as long as its area.
+  void add(const glm::dvec3& normal) {
+    const double area = glm::length(normal);
+    if (area > 0.0) sum += glm::outerProduct(normal, normal) / area;
+  }
+};
+
+Facing facingOf(const Scene& scene, size_t first, size_t count) {
+  Facing facing;
+  for (size_t i = first; i < first + count; ++i) {
+    const auto& corner = scene.triangles[i].vertex;
+    const glm::dvec3 a(scene.vertices.position[corner[0]]);
+    facing.add(0.5 * glm::cross(glm::dvec3(scene.vertices.position[corner[1]]) - a,
+                                glm::dvec3(scene.vertices.position[corner[2]]) - a));
+  }
+  return facing;
+}
+
+/// Sums up the scene without strokes, which face the camera anyway. The space is local, its axes are the
+/// world's.
+Facing facingOf(const Scene& scene) {
+  Facing facing = facingOf(scene, 0, flatTriangleCount(scene) - scene.strokeTriangles);
+  std::vector<Facing> meshes;
+  for (const SharedMesh& mesh : scene.sharedMeshes)
+    meshes.push_back(facingOf(scene, mesh.firstTriangle, mesh.triangleCount));
+  for (const Instance& instance : scene.instances) {
+    const glm::dmat3 linear(instance.toLocal);
+    // The cofactors transform areas, exactly if the scale is the same along all axes.
+    const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                               glm::cross(linear[0], linear[1]));
+    const double scale = std::cbrt(std::abs(glm::determinant(cofactors)));
+    if (scale > 0.0) facing.sum += cofactors * meshes[instance.mesh].sum * glm::transpose(cofactors) / scale;
+  }
+  for (const Sphere& sphere : scene.spheres)
+    facing.sum += glm::dmat3(double(sphere.radius) * sphere.radius);  // alike from all sides
+  return facing;
+}
+
+/// 0 if all surfaces are seen along their edges, 1 if they face the camera.
+double meanSquaredCosine(const Facing& facing, const Orbit& orbit) {
+  const glm::dvec3 d = outwardsOf(orbit);
+  const double trace = facing.sum[0][0] + facing.sum[1][1] + facing.sum[2][2];
+  return trace > 0.0 ? glm::dot(d, facing.sum * d) / trace : 1.0;
+}
+
+}  // namespace
+
+Orbit firstView(const Scene& scene) {
+  // The limit for a view along the edge: 14 degrees or less to the surface. A level floor is seen at 20.
+  constexpr double kEdge = 0.06;
+  constexpr std::array<Orbit, 3> kOthers{
+      {{.azimuthDegrees = -kFirstView.azimuthDegrees, .elevationDegrees = kFirstView.elevationDegrees},
+       {.azimuthDegrees = kFirstView.azimuthDegrees, .elevationDegrees = 55.0},
+       {.azimuthDegrees = 180.0 + kFirstView.azimuthDegrees,
+        .elevationDegrees = kFirstView.elevationDegrees}}};
+  const Facing facing = facingOf(scene);
+  const auto seen = [&](const Orbit& orbit) { return meanSquaredCosine(facing, orbit); };
+  return seen(kFirstView) >= kEdge ? kFirstView : *std::ranges::max_element(kOthers, {}, seen);
+}
+
+CameraOverrides settledOverrides(CameraOverrides asked, const Scene& scene) {
+  const bool fits = asked.asksForFit();
+  const bool isChosen = asked.fit || asked.fitShadow || !asked.fitTo.empty();
+  asked.fit = fits;
+  if (!scene.cameras.empty() || asked.position || asked.orbit) return asked;
+  if (asked.type == CameraType::Panorama) {
+    asked.position = scene.bounds.empty() ? glm::dvec3(0.0) : scene.bounds.center();
+    return asked;
+  }
+  asked.orbit = firstView(scene);
+  if (asked.type == CameraType::Fisheye) return asked;
+  asked.fit = fits || (!asked.focalPoint && !asked.parallelScale);
+  asked.leavesStrays = asked.fit && !isChosen;
+  return asked;
 }
 
 }  // namespace fragtrace

@@ -1,16 +1,71 @@
 // SPDX-License-Identifier: MIT
-// The camera that frames a scene, and single properties of a camera replaced by the command line's.
 #pragma once
 
-#include <glm/glm.hpp>
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
-#include "base/bounds.h"
+#include <glm/glm.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include "base/vectors.h"
+#include "scene/local_space.h"
 #include "scene/scene.h"
 
 namespace fragtrace {
+
+// The direction of a file that points up, and the turn that makes it +Y.
+
+/// Directions that have a name, in the order of the names.
+inline constexpr std::array<std::string_view, 6> kUpAxisNames{"x", "y", "z", "-x", "-y", "-z"};
+inline constexpr std::array<glm::dvec3, 6> kUpAxes{glm::dvec3{1, 0, 0},  glm::dvec3{0, 1, 0},
+                                                   glm::dvec3{0, 0, 1},  glm::dvec3{-1, 0, 0},
+                                                   glm::dvec3{0, -1, 0}, glm::dvec3{0, 0, -1}};
+
+/// The shortest rotation that turns a direction of any length but 0 to +Y; of -Y it is half a turn about Z.
+/// It is exact for axes, and moves no bit of a number then.
+glm::dmat3 turnToY(const glm::dvec3& up);
+
+/// The direction that points up in a file where three points are level, which are in the space that `up` of
+/// the file is turned to +Y in: of the two that are possible the one that is nearer to `up`. It is rounded to
+/// a millionth. None if the points lie on a line.
+std::optional<glm::dvec3> levelUp(const std::array<glm::dvec3, 3>& points, const glm::dvec3& up);
+
+// Maps between places in a camera's picture and rays and points of the scene. A place is -1..1 from left to
+// right and from the bottom to the top.
+
+/// World space, metres.
+struct Projection {
+  glm::dvec3 position{0.0};
+  /// Half of the view's width: at distance 1 of a perspective, in metres of an orthographic view, in radians
+  /// of a panorama and a fisheye.
+  glm::dvec3 right{1.0, 0.0, 0.0};
+  glm::dvec3 up{0.0, 1.0, 0.0};  ///< half of its height
+  glm::dvec3 forward{0.0, 0.0, -1.0};
+  glm::dvec2 shift{0.0};  ///< the place that would be the middle without the lens's shift is at -shift
+  CameraType type = CameraType::Perspective;
+
+  bool operator==(const Projection&) const = default;
+};
+
+/// Half of a picture's width and height as in Projection, in `unit` metres where these are metres. Only the
+/// ratio of `width` to `height` counts.
+glm::dvec2 halfExtents(const Camera& camera, double width, double height, double unit = 1.0);
+
+/// The projection of a picture of that width / height.
+Projection projectionOf(const Camera& camera, double aspectRatio);
+
+/// The ray through a place, without a limit, in local space. Outside of a fisheye's circle there is none.
+std::optional<Ray> rayThrough(const Projection& projection, const LocalSpace& space, const glm::dvec2& place);
+
+/// A point as x, y, w of a rectilinear camera: its place is (x, y) / w where w > 0. For a perspective, w is
+/// metres along the view's axis; an orthographic view has w = 1 everywhere, also behind the camera.
+glm::dvec3 projected(const Projection& projection, const glm::dvec3& point);
+
+// The camera that frames a scene, and single properties of a camera replaced by the command line's.
 
 /// A place on a sphere around the point at which an upright camera looks.
 struct Orbit {

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Counts the content of a scene, for `fragtrace info` and the statistics, and says where little of it is
-// seen.
 #pragma once
 
 #include <cstddef>
-#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
-#include "base/bounds.h"
+#include <glm/glm.hpp>
+
+#include "base/vectors.h"
+#include "scene/parts.h"
 #include "scene/scene.h"
-#include "scene/selection.h"
 
 namespace fragtrace {
+
+// Counts the content of a scene, for `fragtrace info` and the statistics, and says where little of it is
+// seen.
 
 struct SceneDescription {
   size_t triangles = 0;

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Bounds on the places and directions of lights, and on the light that they send to a point (Conty Estevez
-// and Kulla, Importance Sampling of Many Lights with Adaptive Tree Splitting, 2018; Pharr, Jakob and
-// Humphreys, Physically Based Rendering, 4th edition, 12.6.3).
 #pragma once
 
 #include <array>
@@ -9,6 +6,10 @@
 #include "scene/scene.h"
 
 namespace fragtrace {
+
+// Bounds on the places and directions of lights, and on the light that they send to a point (Conty Estevez
+// and Kulla, Importance Sampling of Many Lights with Adaptive Tree Splitting, 2018; Pharr, Jakob and
+// Humphreys, Physically Based Rendering, 4th edition, 12.6.3).
 
 /// Bounds on the places and directions of lights, in local space. Their intensity falls with the cosine of
 /// the angle beyond `spread` of the axis, and is 0 from `spread` + `falloff` on (radians).
@@ -41,5 +42,15 @@ double powerOf(const LightBounds& lights, double radius);
 
 LightBounds boundsOfTriangle(const std::array<glm::dvec3, 3>& corners, double radiance, bool bothSides);
 LightBounds boundsOfLight(const Light& light);
+
+// Decides if a scene's lights are so far apart that it pays to choose among them by place.
+
+/// The factor by which the second moment of a light sample would fall, over places in the scene, if lights
+/// were chosen by what they send there (importanceOf) and not by power alone. Shadows and emissive textures
+/// are left out. 1 with less than two lights.
+double gainByPlace(const Scene& scene);
+
+/// From this gain on, a tree over the lights pays for its descent.
+inline constexpr double kLeastGainByPlace = 1.25;
 
 }  // namespace fragtrace

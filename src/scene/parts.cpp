@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "base/errors.h"
-#include "base/near_name.h"
 #include "base/text.h"
 
 namespace fragtrace {

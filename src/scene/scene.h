@@ -1,26 +1,54 @@
 // SPDX-License-Identifier: MIT
-// The scene as plain structs joined by indices. Units are metres and radians, colours linear Rec.709. World
-// space is y up; shaders see "local" space (LocalSpace).
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <glm/glm.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "base/bounds.h"
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "base/vectors.h"
 #include "scene/local_space.h"
-#include "scene/shutter_motion.h"
 #include "scene/solids.h"
 #include "scene/volume/grid.h"
 
 namespace fragtrace {
+
+// Fog in a ball round the scene (shaders/media/fog.glsl).
+
+/// World space. The extinction is that at `base` and below; above, it falls by e every `height` metres.
+struct Fog {
+  double extinction = 0.0;                                  ///< 1/m
+  glm::vec3 albedo{1.0f};                                   ///< albedo of one scattering
+  float anisotropy = 0.0f;                                  ///< mean cosine of a scattering; above 0 forward
+  double height = std::numeric_limits<double>::infinity();  ///< metres
+  double base = 0.0;                                        ///< Y, metres
+  glm::dvec3 center{0.0};                                   ///< middle of the ball
+  double radius = 0.0;                                      ///< metres
+
+  bool operator==(const Fog&) const = default;
+};
+
+/// The motion of a scene while the shutter is open. Surfaces move in straight pieces of equal time, the
+/// segments: there is a pose where each begins and where the last one ends. Vertices and spheres of a scene
+/// hold one pose after the other. Triangles and the tree hold one segment after the other, and refer to the
+/// pose in which their segment begins (scene/motion/moving_scene.h, bvh/scene_tree.h).
+struct ShutterMotion {
+  uint32_t segments = 0;   ///< 0: surfaces stand still, and there is one pose
+  uint32_t vertices = 0;   ///< number of vertices of one pose
+  uint32_t triangles = 0;  ///< number of triangles of one segment
+  uint32_t spheres = 0;    ///< number of spheres of one pose
+  bool camera = false;     ///< the camera moves
+};
+
+// The scene as plain structs joined by indices. Units are metres and radians, colours linear Rec.709. World
+// space is y up; shaders see "local" space (LocalSpace).
 
 /// The one value that means "no such index".
 inline constexpr uint32_t kMissIndex = 0xffffffffu;

@@ -7,7 +7,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "base/bounds.h"
+#include "base/vectors.h"
 
 namespace fragtrace {
 

@@ -8,8 +8,8 @@
 #include <map>
 #include <utility>
 
+#include "scene/camera.h"
 #include "scene/creases.h"
-#include "scene/projection.h"
 #include "scene/tangents.h"
 
 namespace fragtrace {

@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "base/report.h"
-#include "base/written.h"
+#include "image/files/whole_file.h"
 
 namespace fragtrace {
 

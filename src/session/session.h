@@ -7,10 +7,10 @@
 #include <optional>
 #include <utility>
 
-#include "bvh/refit.h"
+#include "bvh/scene_tree.h"
 #include "gl/context.h"
-#include "gl/debug_log.h"
-#include "image/denoise/oidn_library.h"
+#include "gl/gl.h"
+#include "image/denoise/oidn.h"
 #include "options/option_row.h"
 #include "render/denoise.h"
 #include "session/setup.h"

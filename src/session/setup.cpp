@@ -2,42 +2,44 @@
 #include "session/setup.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <future>
 #include <iterator>
+#include <limits>
 #include <ranges>
+#include <vector>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtx/component_wise.hpp>
 
 #include "base/errors.h"
 #include "base/parallel.h"
 #include "base/text.h"
 #include "bvh/build.h"
 #include "bvh/bvh.h"
-#include "bvh/large_first.h"
-#include "bvh/long_triangles.h"
-#include "bvh/moving_tree.h"
+#include "bvh/scene_tree.h"
 #include "image/files/process.h"
 #include "image/files/video_format.h"
 #include "image/format.h"
 #include "image/image.h"
+#include "options/check_render.h"
 #include "options/option_row.h"
-#include "options/vain_options.h"
 #include "pack/literals.h"
 #include "pack/pack_tree.h"
 #include "pack/textures/pack_textures.h"
 #include "scene/camera.h"
 #include "scene/describe.h"
 #include "scene/fit.h"
-#include "scene/projection.h"
+#include "scene/scene.h"
 #include "scene/solids.h"
 #include "scene/strokes.h"
-#include "session/caught_light.h"
+#include "scene/volume/read_grid.h"
 #include "session/environment.h"
-#include "session/file_light.h"
-#include "session/ground.h"
 #include "session/outputs.h"
-#include "session/picture_memory.h"
 #include "session/shutter.h"
+#include "session/tracer.h"
 
 namespace fragtrace {
 
@@ -485,6 +487,162 @@ void releaseGeometry(LoadedScene& loaded) {
   loaded.scene.images = std::vector<EncodedImage>();
   loaded.scene.volume.grid.reset();
   loaded.bvh = Bvh();
+}
+
+namespace {
+
+bool sameGrid(const VolumeSource& a, const VolumeSource& b) {
+  return a.file == b.file && a.grid == b.grid && a.emits() == b.emits();
+}
+
+/// Replaces the members that the other sets.
+void takeOver(VolumeSource& source, const VolumeSource& other) {
+  const auto take = [](auto& value, const auto& from) {
+    if (from) value = from;
+  };
+  if (!other.file.empty()) {
+    source.file = other.file;
+    source.grid = other.grid;
+  }
+  take(source.position, other.position);
+  take(source.scale, other.scale);
+  take(source.density, other.density);
+  take(source.color, other.color);
+  take(source.anisotropy, other.anisotropy);
+  take(source.emission, other.emission);
+}
+
+/// The first option that says something of a grid but which; empty: none does.
+std::string firstGiven(const RenderOptions& options) {
+  for (const char* name : {"--volume-position", "--volume-scale", "--volume-density", "--volume-color",
+                           "--volume-anisotropy", "--volume-emission"}) {
+    if (!rowOf(name).isDefault(options)) return name;
+  }
+  return {};
+}
+
+/// Warns of grids that are not seen as their numbers promise, or that take long.
+void warnOfVolume(const RenderOptions& options, Scene& scene) {
+  constexpr double kMostDepth = 100.0;  // mean free paths
+  const Volume& volume = scene.volume;
+  const std::string name = volume.source.file.string() + ": ";
+  if (!has(options.stages, Stage::Gi)) {
+    scene.warnings.push_back(name + "only stage gi has grids of densities");
+    return;
+  }
+  const glm::vec3 albedo = volume.source.color.value_or(glm::vec3(1.0f));
+  if (volume.source.emits() && glm::compMin(albedo) >= 1.0f)
+    scene.warnings.push_back(name + "only what absorbs light glows, and the color 1,1,1 absorbs none");
+  const double extinction = volume.source.density.value_or(1.0) * volume.grid->largest;
+  const std::array<glm::dvec3, 8> corners = volume.corners();
+  double size = std::numeric_limits<double>::infinity();
+  for (const size_t side : {1, 2, 4}) size = std::min(size, glm::distance(corners[0], corners[side]));
+  if (extinction * size <= kMostDepth) return;
+  scene.warnings.push_back(
+      name + formatted("light goes %.2g m on average where the grid is densest, and the grid is %.3g m deep: "
+                       "paths are long",
+                       1.0 / extinction, size));
+}
+
+}  // namespace
+
+void placeVolume(Scene& scene, const RenderOptions& options, const Volume* before) {
+  Volume& volume = scene.volume;
+  // A grid of the options replaces the scene's, its node's place included.
+  if (!options.volume.file.empty()) volume = Volume();
+  const std::string given = firstGiven(options);
+  if (!given.empty() && options.volume.file.empty() && volume.source.file.empty())
+    throw UsageError(given + ": goes with --volume, or with a scene that brings a grid");
+  takeOver(volume.source, options.volume);
+  const VolumeSource& source = volume.source;
+  if (source.file.empty()) return;
+  if (options.light.shadowCatcher)
+    throw UsageError("--shadow-catcher: its plane stands in clear air, but the scene brings a grid: " +
+                     source.file.string());
+  volume.toWorld = glm::translate(volume.toWorld, source.position.value_or(glm::dvec3(0.0)));
+  volume.toWorld = glm::scale(volume.toWorld, glm::dvec3(source.scale.value_or(1.0)));
+  volume.grid =
+      before != nullptr && before->grid && sameGrid(before->source, source)
+          ? before->grid
+          : std::make_shared<const VolumeGrid>(readGrid(source, volume.file, options.limits.memoryBytes));
+  volume.file = {};
+  const bool hasSize = std::abs(glm::determinant(volume.voxelsToWorld())) > 0.0;
+  if (volume.grid->empty() || !hasSize) {
+    scene.warnings.push_back(source.file.string() + (hasSize ? ": the grid has no density above 0"
+                                                             : ": the grid's node has no size"));
+    volume.grid.reset();
+    return;
+  }
+  for (const glm::dvec3& corner : volume.corners()) scene.bounds.include(corner);
+  warnOfVolume(options, scene);
+}
+
+namespace {
+
+/// Frame::cameraSolids of a camera at this point of local space.
+uint32_t cameraSolids(const Solids& solids, const glm::dvec3& point) {
+  const std::vector<uint32_t> around = solidsAround(solids, point);
+  if (around.empty()) return layout::kPrimitiveNone;
+  constexpr uint32_t kNoOuter = 0xffff;
+  return solids.nested ? around[0] | (around.size() > 1 ? around[1] : kNoOuter) << 16 : around[0];
+}
+
+Lens lensOf(const RenderOptions& options, const Camera& camera, const BoundsDouble& bounds,
+            const LocalSpace& space) {
+  Lens lens;
+  if (!options.camera.lens.fStop || camera.type != CameraType::Perspective) return lens;
+  lens.radius = 0.5 * focalLengthOf(camera.fovY) / *options.camera.lens.fStop;
+  const glm::dvec3 focalPoint = options.camera.overrides.focalPoint.value_or(focalPointOf(camera, bounds));
+  lens.focusDistance =
+      options.camera.lens.focusDistance.value_or(glm::dot(focalPoint - camera.position, camera.forward));
+  // Beyond, rays are parallel, and the squares of longer ones are no floats.
+  constexpr double kParallel = 0x1p50;  // local space
+  lens.focusDistance = std::min(lens.focusDistance, kParallel * space.unit);
+  lens.blades = options.camera.lens.blades;
+  return lens;
+}
+
+}  // namespace
+
+Fog fogOf(const FogOptions& options, const BoundsDouble& bounds) {
+  constexpr double kReach = 1.5;  // the reach in radii of the ball round the scene's box
+  Fog fog;
+  fog.extinction = options.density;
+  fog.albedo = options.color.value_or(glm::vec3(1.0f));
+  fog.anisotropy = float(options.anisotropy);
+  fog.height = options.height.value_or(fog.height);
+  fog.base = options.base.value_or(bounds.empty() ? 0.0 : bounds.minimum.y);
+  if (!bounds.empty()) fog.center = bounds.center();
+  fog.radius = options.distance.value_or(kReach * 0.5 * glm::length(bounds.extent()));
+  return fog;
+}
+
+View makeView(const RenderOptions& options, const LoadedScene& loaded, const Camera& camera) {
+  const Scene& scene = loaded.scene;
+  View view;
+  view.camera = camera;
+  view.motion = loaded.motion;
+  view.lens = lensOf(options, camera, loaded.framed, scene.space);
+  view.space = scene.space;
+  view.hdriRotation = glm::radians(environmentTurn(options.light));
+  view.hdriIntensity = options.light.hdriIntensity;
+  if (options.light.background) view.background = options.light.backgroundColor.value_or(glm::vec3(0.0f));
+  const bool map = loaded.environment.kind == Surroundings::Map;
+  view.showEnvironment = map && options.light.background && !options.light.backgroundColor;
+  view.seesNothing = !options.light.background;
+  view.cameraSolids = cameraSolids(scene.solids, scene.space.localOf(camera.position));
+  view.volume = scene.volume;
+  view.volume.grid.reset();
+  view.fog = fogOf(options.fog, scene.bounds);
+  view.catcherHeight = catcherHeightOf(options, scene.bounds);
+  view.shadowFade = options.light.shadowFade.value_or(loaded.shadowFade);
+  view.bounces = options.sampling.bounces;
+  view.rouletteDepth = options.sampling.rouletteDepth;
+  view.seed = options.sampling.seed;
+  view.sampleOffset = options.sampling.sampleOffset;
+  view.needsLightPaths = options.light.caustics == Caustics::On;
+  view.clampIndirect = float(options.sampling.clampIndirect);
+  return view;
 }
 
 }  // namespace fragtrace

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
-// From options to a scene that is ready to be drawn: what every front end does before its first draw.
 #pragma once
 
 #include <chrono>
 #include <memory>
 #include <span>
 
-#include "bvh/refit.h"
+#include "bvh/scene_tree.h"
 #include "gltf/gltf.h"
 #include "pack/own_light.h"
 #include "render/renderer.h"
-#include "scene/motion/camera_motion.h"
+#include "scene/motion/moving_scene.h"
 #include "scene/scene.h"
 #include "session/say.h"
 #include "session/statistics.h"
 #include "shader/render_options.h"
 
 namespace fragtrace {
+
+// From options to a scene that is ready to be drawn: what every front end does before its first draw.
 
 /// A scene with all that is seen around it and from where; no OpenGL yet.
 struct LoadedScene {
@@ -42,7 +43,7 @@ struct LoadedScene {
 /// that is behind, 0..1; what it throws ends loading.
 using LoadProgress = GltfProgress;
 
-/// One film holds all of a picture, or a part at a time (session/picture/picture_parts.h).
+/// One film holds all of a picture, or a part at a time (session/picture/draw_parts.h).
 enum class FilmOf : uint8_t { Picture, Part };
 
 /// Results that one picture of an animation leaves to the next; each may be none.

@@ -1,12 +1,43 @@
 // SPDX-License-Identifier: MIT
-// Opens the shutter: a scene that is loaded at one time of its animation gets the motion around that time.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <vector>
 
+#include "gltf/gltf.h"
+#include "scene/motion/moving_scene.h"
 #include "session/setup.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
+
+// The errors of motion in straight segments, as the picture shows them.
+
+/// The scene at a time while the shutter is open, and the camera that sees it.
+struct Moment {
+  Pose pose;
+  Camera camera;
+};
+
+/// Moments by their time, 0 where the shutter opens and 1 where it closes.
+using Moments = std::map<double, Moment>;
+
+/// Pixels by which the most distant point that the camera sees is off its way at any of these moments, if
+/// surfaces move in `segments` straight segments; the moments between which they move are among them. Points
+/// of triangles that reach beyond the picture count where they are in it. `camera` is that of the picture.
+double surfacesOff(const Moments& moments, uint32_t segments, const Scene& scene, const Camera& camera,
+                   glm::ivec2 size);
+
+/// The largest part of its area that an emissive triangle loses, or gains, since it moves straight.
+double lampsOff(const Moments& moments, uint32_t segments, const Scene& scene);
+
+/// Pixels by which a camera that moves in such segments shows something in another place than at any of these
+/// moments: vertices of the scene, or what is far away.
+double cameraOff(const Moments& moments, std::span<const CameraSegment> segments, const Scene& scene,
+                 glm::ivec2 size);
+
+// Opens the shutter: a scene that is loaded at one time of its animation gets the motion around that time.
 
 /// Seconds for which the shutter of a picture is open; 0 where it opens for none.
 double shutterSeconds(const RenderOptions& options);
@@ -17,5 +48,20 @@ double shutterSeconds(const RenderOptions& options);
 /// and strokes; `document` is what it was read from. Throws as loadGltf().
 void openShutter(LoadedScene& loaded, const RenderOptions& options, std::shared_ptr<KeptDocument>& document,
                  Statistics& stats);
+
+// A camera as options, and one for all pictures of an animation.
+
+/// Seconds that the animation of the options takes; none where its file does not say.
+std::optional<double> animationLength(const Scene& scene, const SceneSelection& selection);
+
+/// A camera as options that place it so.
+CameraOverrides asPlaced(const Camera& camera, const BoundsDouble& bounds);
+
+/// Returns the options with one camera by its numbers, where it stands by what the scene holds (no camera in
+/// the file, --camera-orbit, --fit), which moves: one that shows the scene as it is over the whole animation,
+/// so that machines that draw some of the frames each have the same. Otherwise returns them as they are.
+/// Poses the scene some 50 times at the most. `kept` is as loadGltf() wants it. Throws InputError;
+/// UsageError, also where there is no animation.
+RenderOptions placedForAllPoses(RenderOptions options, std::shared_ptr<KeptDocument>& kept);
 
 }  // namespace fragtrace

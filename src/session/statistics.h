@@ -4,14 +4,23 @@
 #include <optional>
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "base/timeline.h"
 #include "bvh/bvh.h"
 #include "render/film/film_pixels.h"
 #include "render/renderer.h"
 #include "scene/describe.h"
-#include "scene/sky/sun_place.h"
+#include "scene/sky/sky.h"
 
 namespace fragtrace {
+
+/// Scene counts as `info --json` and `--stats` spell them.
+nlohmann::ordered_json sceneJson(const SceneDescription& scene);
+nlohmann::ordered_json bvhJson(const BvhQuality& bvh);
+
+/// JSON text; bytes that are no UTF-8 (file names) are replaced, so that the text is always valid.
+std::string jsonText(const nlohmann::ordered_json& json);
 
 /// Statistics of a render with --noise or --time.
 struct AdaptiveStatistics {

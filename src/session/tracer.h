@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: MIT
-// A loaded scene on the device, with the programs that draw it.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
-#include "pack/kept_arrays.h"
+#include <glm/glm.hpp>
+
+#include "pack/gpu_scene.h"
 #include "session/setup.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
+
+// A loaded scene on the device, with the programs that draw it.
 
 /// Hashes of the packed arrays, and of all pictures.
 using ArrayHashes = std::array<uint64_t, layout::kSceneBufferCount + 1>;
@@ -61,5 +66,17 @@ void replaceScene(Tracer& tracer, const Context& context, const LoadedScene& loa
 
 /// Packs and uploads other surroundings of the same kind. Throws RenderError.
 void replaceSurroundings(Tracer& tracer, const LoadedScene& loaded);
+
+// The memory that a picture takes while it is drawn, filtered and written.
+
+/// The number of channels of the picture in an .exr; an upper bound for other formats.
+size_t channelsOf(const RenderOptions& options);
+
+/// Throws UsageError where the film of a picture of that size would take more than --memory-limit.
+void checkFilmMemory(const RenderOptions& options, glm::ivec2 size);
+
+/// The largest film beside a picture of that size within --memory-limit, in pixels, at least 1; as many as
+/// the picture has where all of it fits. Throws UsageError where not even a small film does.
+uint64_t mostFilmPixels(const RenderOptions& options, glm::ivec2 size);
 
 }  // namespace fragtrace

@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "base/errors.h"
-#include "base/split.h"
 #include "base/text.h"
 #include "image/display/tone_map.h"
 #include "shader/layout.h"

@@ -1,16 +1,31 @@
 // SPDX-License-Identifier: MIT
-// The stages and switches: one table row each, which the parser, the statistics, the shader prelude and the
-// documents iterate over.
 #pragma once
 
+#include <bitset>
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
 
-#include "base/set_of.h"
-
 namespace fragtrace {
+
+/// A set of members of an enumeration that ends with Count. Sets have an order, so that they can stand in a
+/// key whose comparison is defaulted.
+template <typename Member>
+struct SetOf : std::bitset<size_t(Member::Count)> {
+  using Bits = std::bitset<size_t(Member::Count)>;
+
+  using Bits::Bits;
+  SetOf(const Bits& bits) : Bits(bits) {}  // NOLINT(google-explicit-constructor): what its operators return
+
+  std::strong_ordering operator<=>(const SetOf& other) const {
+    return this->to_string() <=> other.to_string();
+  }
+};
+
+// The stages and switches: one table row each, which the parser, the statistics, the shader prelude and the
+// documents iterate over.
 
 /// The kind of change that a change of an option or a stage makes.
 enum class Effect : uint8_t {

@@ -6,7 +6,7 @@
 #include "bvh/bvh.h"
 #include "scene/casters.h"
 #include "scene/hit_error.h"
-#include "scene/light_spread.h"
+#include "scene/light_bounds.h"
 
 namespace fragtrace {
 

@@ -10,7 +10,7 @@
 #include <thread>
 #include <utility>
 
-#include "base/thread_name.h"
+#include "base/parallel.h"
 
 namespace fragtrace {
 

@@ -15,7 +15,7 @@
 #include <variant>
 #include <vector>
 
-#include "bvh/tree_boxes.h"
+#include "bvh/outlines.h"
 #include "image/image.h"
 #include "pack/own_light.h"
 #include "scene/describe.h"

@@ -5,7 +5,7 @@
 #include <array>
 #include <utility>
 
-#include "shader/aov.h"
+#include "shader/render_options.h"
 #include "shader/stage.h"
 
 namespace fragtrace {

@@ -10,7 +10,7 @@
 
 #include "image/files/header.h"
 #include "image/files/pfm.h"
-#include "image/limits.h"
+#include "image/image.h"
 #ifdef FRAGTRACE_FUZZ_KTX2
 #include "base/message.h"
 #include "base/worker/module.h"

@@ -22,7 +22,7 @@ from memory import Memory, function_of
 from mutants import SOURCE, arguments, chosen_of, try_all
 
 FILES = ("src/pack/*.cpp", "src/render/film/noise.cpp", "src/render/film/film_pixels.cpp", "src/render/film/path_share.cpp", "src/render/adaptive.cpp",
-         "src/render/guiding.cpp", "src/image/display/*.cpp", "src/scene/camera*.cpp")
+         "src/render/renderer.cpp", "src/image/display/*.cpp", "src/scene/camera*.cpp")
 HEADER = """#pragma once
 #include <cstdlib>
 #include <type_traits>

@@ -9,7 +9,7 @@
 #include "bench/command/window_picture.h"
 #include "gl_probe.h"
 #include "probe_program.h"
-#include "render/picture_texture.h"
+#include "render/picture_passes.h"
 
 namespace fragtrace {
 namespace {

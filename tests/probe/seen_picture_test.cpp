@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The past of a camera that moves, joined with the present on the driver.
-#include "render/seen_picture.h"
+#include "render/picture_passes.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include "gl/program.h"
 #include "gl_probe.h"
 #include "image/channels.h"
-#include "render/noisy_image.h"
-#include "scene/projection.h"
+#include "render/denoise.h"
+#include "scene/camera.h"
 
 namespace fragtrace {
 namespace {

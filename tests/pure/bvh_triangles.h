@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "base/bounds.h"
+#include "base/vectors.h"
 #include "scene/scene.h"
 
 namespace fragtrace {

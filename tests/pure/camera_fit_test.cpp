@@ -9,7 +9,6 @@
 #include <random>
 
 #include "scene/camera.h"
-#include "scene/projection.h"
 
 namespace fragtrace {
 namespace {

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "base/errors.h"
-#include "options/parse_words.h"
+#include "options/parse_render.h"
 #include "view/camera_controller.h"
 
 namespace fragtrace {

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
-// bvh/collapse.h: the wide nodes, which hold the leaves of the binary tree once each.
-#include "bvh/collapse.h"
+// bvh/build.h: the wide nodes, which hold the leaves of the binary tree once each.
+#include "bvh/build.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "bvh/build.h"
-#include "bvh/split.h"
 #include "bvh_triangles.h"
 
 namespace fragtrace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "image/cryptomatte.h"
+#include "image/channels.h"
 
 #include <gtest/gtest.h>
 

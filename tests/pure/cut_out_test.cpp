@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Triangles that alpha cuts out wholly (src/pack/cut_out.h): none of these has a point that stops a ray.
-#include "pack/cut_out.h"
+// Triangles that alpha cuts out wholly (src/pack/pack_tree.h): none of these has a point that stops a ray.
+#include "pack/pack_tree.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "bvh/pruned.h"
-#include "pack/kept_arrays.h"
+#include "bvh/bvh.h"
+#include "pack/gpu_scene.h"
 
 namespace fragtrace {
 namespace {

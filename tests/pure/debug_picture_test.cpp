@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "render/film/debug_picture.h"
+#include "render/film/film_pixels.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "render/draw_plan.h"
+#include "render/renderer.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The light of the environment in the stages before global illumination: shaders/environment_light.glsl over
-// rows of src/pack/environment_light.cpp.
-#include "pack/environment_light.h"
+// rows of src/pack/pack_environment.cpp.
+#include "pack/pack_environment.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "glsl_lights.h"
-#include "pack/pack_environment.h"
 #include "shader_statistics.h"
 
 namespace fragtrace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "film_samples.h"
-#include "image/over_white.h"
+#include "image/image.h"
 #include "shader/layout.h"
 
 namespace fragtrace {

@@ -2,11 +2,9 @@
 // Numbers in place of the file's: as they are loaded, set in a scene that is there, and written.
 #include <gtest/gtest.h>
 
-#include "gltf/build/named_numbers.h"
 #include "gltf/build/numbers.h"
 #include "gltf/edit/changed_file.h"
 #include "gltf/edit/factors.h"
-#include "gltf/edit/json_text.h"
 #include "gltf_builder.h"
 #include "image/files/whole_file.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Tests which meshes the scene holds once, and that they stand where their copies would.
-#include "gltf/build/sharing.h"
+#include "gltf/build/meshes.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "bvh/bvh.h"
-#include "bvh/pick.h"
+#include "bvh/exact_tracer.h"
 #include "gltf_builder.h"
 
 namespace fragtrace::gltf_test {

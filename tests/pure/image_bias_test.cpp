@@ -9,7 +9,6 @@
 #include <string>
 
 #include "base/errors.h"
-#include "image/compare/student_t.h"
 
 namespace fragtrace {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "image/files/decode_each.h"
+#include "image/files/process.h"
 
 #include <gtest/gtest.h>
 

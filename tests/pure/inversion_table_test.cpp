@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tables that invert distributions, and how the shader (shaders/environment.glsl, lights.glsl) draws from
 // them.
-#include "pack/inversion_table.h"
+#include "pack/pack_environment.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Alpha that hides nothing (src/gltf/build/least_alpha.h).
-#include "gltf/build/least_alpha.h"
+// Alpha that hides nothing (src/gltf/build/textures.h).
+#include "gltf/build/textures.h"
 
 #include <string>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The tree over lights: what src/pack builds of it, and what shaders/lights.glsl chooses by it.
-#include "pack/light_tree.h"
+#include "pack/pack_lights.h"
 
 #include <gtest/gtest.h>
 

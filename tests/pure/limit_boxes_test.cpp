@@ -5,7 +5,7 @@
 // where its area, as the ray sees it, is less than a 2048th of the square of its longest side.
 #include <gtest/gtest.h>
 
-#include "bvh/collapse.h"
+#include "bvh/build.h"
 #include "bvh_triangles.h"
 #include "climb.h"
 #include "pack/pack_tree.h"

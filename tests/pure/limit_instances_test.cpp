@@ -34,7 +34,7 @@ struct Shown {
 };
 
 /// Meshes are copied where the Frobenius norms of both matrices have a larger product (isWellConditioned of
-/// gltf/build/sharing.cpp).
+/// gltf/build/meshes.cpp).
 bool isShared(const dmat3& m) {
   const auto frobenius = [](const dmat3& a) {
     return std::sqrt(glm::dot(a[0], a[0]) + glm::dot(a[1], a[1]) + glm::dot(a[2], a[2]));

@@ -7,9 +7,8 @@
 #include <algorithm>
 #include <set>
 
-#include "bvh/large_first.h"
+#include "bvh/scene_tree.h"
 #include "bvh_triangles.h"
-#include "pack/literal_faces.h"
 
 namespace fragtrace {
 namespace {

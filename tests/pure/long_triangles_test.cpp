@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Long triangles in pieces (src/bvh/long_triangles.h): the boxes of the pieces hold all of the triangle.
-#include "bvh/long_triangles.h"
+// Long triangles in pieces (src/bvh/scene_tree.h): the boxes of the pieces hold all of the triangle.
+#include "bvh/scene_tree.h"
 
 #include <gtest/gtest.h>
 

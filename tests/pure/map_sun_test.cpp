@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/sky/map_sun.h"
+#include "scene/sky/map_filter.h"
 
 #include <gtest/gtest.h>
 

@@ -11,11 +11,9 @@
 #include <map>
 
 #include "options/command_text.h"
-#include "options/config_file.h"
 #include "options/help_rows.h"
 #include "options/option_text.h"
 #include "options/parse_render.h"
-#include "options/parse_words.h"
 
 namespace fragtrace {
 namespace {

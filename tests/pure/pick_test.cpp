@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bvh/pick.h"
+#include "bvh/exact_tracer.h"
 
 #include <cmath>
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "bvh/refit.h"
+#include "bvh/scene_tree.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
-#include "bvh/large_first.h"
 #include "bvh_triangles.h"
 
 namespace fragtrace {

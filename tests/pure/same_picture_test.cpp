@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "options/same_picture.h"
+#include "options/check_render.h"
 
 #include <gtest/gtest.h>
 

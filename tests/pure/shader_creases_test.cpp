@@ -9,7 +9,7 @@
 
 #include "bvh_triangles.h"
 #include "glsl.h"
-#include "pack/pack_faces.h"
+#include "pack/pack_tree.h"
 #include "scene/creases.h"
 #include "scene/hit_error.h"
 #include "shader_statistics.h"

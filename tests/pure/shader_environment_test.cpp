@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "glsl_lights.h"
-#include "pack/environment_texel.h"
 #include "pack/pack_environment.h"
 #include "shader_statistics.h"
 

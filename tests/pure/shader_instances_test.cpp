@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "bvh/exact_tracer.h"
-#include "pack/pack_faces.h"
+#include "pack/pack_tree.h"
 #include "scene/hit_error.h"
 #include "shader_shared_meshes.h"
 

@@ -6,7 +6,7 @@
 
 #include "base/words.h"
 #include "glsl.h"
-#include "pack/pack_faces.h"
+#include "pack/pack_tree.h"
 #include "scene/hit_error.h"
 
 namespace fragtrace {

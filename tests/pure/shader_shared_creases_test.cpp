@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pack/pack_faces.h"
+#include "pack/pack_tree.h"
 #include "scene/creases.h"
 #include "scene/hit_error.h"
 #include "shader_shared_meshes.h"

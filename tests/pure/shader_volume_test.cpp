@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "glsl.h"
-#include "pack/pack_grid.h"
+#include "pack/gpu_scene.h"
 #include "shader_statistics.h"
 
 namespace fragtrace {

@@ -5,10 +5,9 @@
 #include <cmath>
 #include <glm/gtx/rotate_vector.hpp>
 
-#include "bvh/moving_tree.h"
+#include "bvh/scene_tree.h"
 #include "glsl.h"
 #include "pack/pack_tree.h"
-#include "scene/motion/camera_motion.h"
 #include "scene/motion/moving_scene.h"
 
 namespace fragtrace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bvh/silhouette.h"
+#include "bvh/outlines.h"
 
 #include <algorithm>
 #include <cmath>

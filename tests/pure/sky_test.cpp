@@ -9,8 +9,6 @@
 #include <cmath>
 
 #include "base/vectors.h"
-#include "scene/sky/daylight.h"
-#include "scene/sky/sun_place.h"
 
 namespace fragtrace {
 namespace {

@@ -9,7 +9,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/constants.hpp>
 
-#include "scene/sky/blurred_map.h"
+#include "scene/sky/map_filter.h"
 
 namespace fragtrace {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bvh/tree_boxes.h"
+#include "bvh/outlines.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "bvh_triangles.h"
-#include "image/display/lines.h"
+#include "image/display/heatmap.h"
 
 namespace fragtrace {
 namespace {

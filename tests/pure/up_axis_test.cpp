@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/up_axis.h"
+#include "scene/camera.h"
 
 #include <gtest/gtest.h>
 

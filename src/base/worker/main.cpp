@@ -14,7 +14,6 @@
 #include <string>
 
 #include "base/message.h"
-#include "base/shared_memory.h"
 #include "base/worker/confine.h"
 #include "base/worker/leaves_first.h"
 #include "base/worker/module.h"

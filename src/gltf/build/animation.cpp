@@ -11,7 +11,7 @@
 #include "base/text.h"
 #include "gltf/build/numbers.h"
 #include "gltf/read/accessor.h"
-#include "gltf/read/json_parts.h"
+#include "gltf/read/json.h"
 
 namespace fragtrace {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "gltf/check/extensions.h"
-#include "gltf/read/value.h"
+#include "gltf/read/document.h"
 
 namespace fragtrace {
 namespace {

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The node tree in double precision.
 #pragma once
 
-#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
+#include <glm/glm.hpp>
+
 #include "gltf/read/document.h"
-#include "scene/selection.h"
+#include "scene/parts.h"
 
 namespace fragtrace {
+
+// The node tree in double precision.
 
 /// Metres. Smaller things are left out: squares of their sizes underflow.
 inline constexpr double kSmallest = 1e-75;

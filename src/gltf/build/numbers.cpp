@@ -2,19 +2,27 @@
 #include "gltf/build/numbers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/glm.hpp>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "base/errors.h"
-#include "base/near_name.h"
 #include "base/text.h"
-#include "gltf/build/named_numbers.h"
-#include "gltf/check/schema_checker.h"
+#include "gltf/check/schema.h"
+#include "scene/camera.h"
 #include "scene/parts.h"
 
 namespace fragtrace {
+
 namespace {
 
 using nlohmann::json;
@@ -296,6 +304,342 @@ const char* whatIsBright(const SetNumber& set) {
   if (!isColor || set.values.empty() || std::ranges::max(set.values) <= 1.0) return nullptr;
   return isLight ? "is above 1, and drawn so, but glTF has the light's intensity for that"
                  : "is above 1, and drawn so, but glTF has KHR_materials_emissive_strength for that";
+}
+
+namespace {
+
+/// Words of people for members of glTF.
+constexpr auto kWords = std::to_array<std::pair<std::string_view, std::string_view>>({
+    {"color", "baseColorFactor"},
+    {"colour", "baseColorFactor"},
+    {"metalness", "metallicFactor"},
+    {"emission", "emissiveFactor"},
+    {"emissive", "emissiveFactor"},
+    {"strength", "emissiveStrength"},
+    {"emissionStrength", "emissiveStrength"},
+    {"index", "ior"},
+    {"sheen", "sheenColorFactor"},
+    {"anisotropy", "anisotropyStrength"},
+    {"texture", "baseColorTexture"},
+});
+/// Members of a material that hold a word or a flag.
+constexpr std::array kModes{"alphaMode", "doubleSided"};
+/// An older description of materials, whose members have the same names.
+constexpr std::string_view kOlder = "/KHR_materials_pbrSpecularGlossiness/";
+/// A number that each use of a texture may have.
+constexpr const char* kTurn = "/extensions/KHR_texture_transform/rotation";
+
+/// The place of a material's value by the name of a member, or by a word for it.
+std::optional<std::string> placeIn(const std::string& material, const std::string& name) {
+  if (std::ranges::find(kModes, name) != kModes.end()) return material + "/" + name;
+  const auto* word = std::ranges::find(kWords, name, &std::pair<std::string_view, std::string_view>::first);
+  const std::string member = word == kWords.end() ? name : std::string(word->second);
+  for (const std::string& one : {member, member + "Factor"}) {
+    const std::string direct = std::string(material).append("/").append(one);
+    if (numberRuleAt(direct) || isTextureAt(direct)) return direct;
+    std::vector<std::string> places = numbersBelow(material, "/" + one);
+    if (places.empty() && one.ends_with("Texture")) {
+      places = numbersBelow(material, "/" + one + kTurn);
+      for (std::string& place : places) place.resize(place.size() - std::string_view(kTurn).size());
+    }
+    std::erase_if(places, [](const std::string& place) { return place.find(kOlder) != std::string::npos; });
+    if (!places.empty()) return places.front();
+  }
+  return std::nullopt;
+}
+
+/// The names that placeIn() knows.
+std::vector<std::string> knownNames(const std::string& material) {
+  std::vector<std::string> names(kModes.begin(), kModes.end());
+  for (const auto& [word, member] : kWords) names.emplace_back(word);
+  std::vector<std::string> objects{material, material + "/pbrMetallicRoughness"};
+  for (const std::string& extension : numberMembersAt(material + "/extensions"))
+    objects.push_back(std::string(material).append("/extensions/").append(extension));
+  for (const std::string& object : objects) {
+    for (std::string name : numberMembersAt(object)) {
+      if (name.ends_with("Factor")) name.resize(name.size() - std::string_view("Factor").size());
+      if (placeIn(material, name)) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+/// Returns true if the user says which colour the material has, not what its texture is multiplied by.
+bool isColorItself(std::string_view name) { return name == "color" || name == "colour"; }
+
+/// The indices of the materials that a name or pattern says: those that it fits, else the one whose index it
+/// is, else those that it fits but for the case of letters, if all of these have the same name.
+std::vector<size_t> materialsCalled(const std::string& pattern, const std::vector<std::string>& names) {
+  const auto fitting = [&](const std::string& wanted, const auto& asWritten) {
+    std::vector<size_t> found;
+    for (size_t i = 0; i < names.size(); ++i)
+      if (!names[i].empty() && matchesPattern(wanted, asWritten(names[i]))) found.push_back(i);
+    return found;
+  };
+  std::vector<size_t> found = fitting(pattern, [](const std::string& name) { return name; });
+  if (!found.empty()) return found;
+  if (const auto index = numberOfAll<size_t>(pattern); index && *index < names.size()) return {*index};
+  found = fitting(lowered(pattern), [](const std::string& name) { return lowered(name); });
+  const auto differs = [&](size_t i) { return names[i] != names[found.front()]; };
+  return std::ranges::any_of(found, differs) ? std::vector<size_t>() : found;
+}
+
+/// The value at its place. A colour of three numbers keeps the alpha that is there.
+SetNumber valueAt(const json& root, const std::string& place, const SetNumber& set) {
+  SetNumber placed{place, set.values, set.word};
+  constexpr size_t kColor = 3;
+  const std::optional<NumberRule> rule = numberRuleAt(place);
+  if (rule && rule->width == kColor + 1 && placed.values.size() == kColor) {
+    const json::json_pointer at(place + "/3");
+    placed.values.push_back(root.contains(at) && root[at].is_number() ? root[at].get<double>() : 1.0);
+  }
+  return placed;
+}
+
+/// Returns true if the material's texture, or colours of vertices, may say by alpha where there is something.
+bool holdsOutline(const json& material) { return material.value("alphaMode", "OPAQUE") != "OPAQUE"; }
+
+/// The texture that a colour at that place multiplies: baseColorTexture for baseColorFactor.
+std::string textureFor(const std::string& place) {
+  return place.substr(0, place.size() - std::string_view("Factor").size()) + "Texture";
+}
+
+/// Sets the colour itself of the material with that index. What would multiply it, its texture and the
+/// colours of vertices, is taken out, unless that may hold an outline.
+void appendColor(const json& root, size_t index, const SetNumber& set, std::vector<SetNumber>& placed) {
+  const std::string material = "/materials/" + std::to_string(index);
+  const std::string older = material + "/extensions" + std::string(kOlder);
+  const bool isOlder = root.contains(json::json_pointer(older.substr(0, older.size() - 1)));
+  const std::string place = isOlder ? older + "diffuseFactor" : *placeIn(material, "baseColorFactor");
+  placed.push_back(valueAt(root, place, set));
+  if (holdsOutline(root["materials"][index])) return;
+  const auto takeOut = [&](const std::string& at) {
+    if (root.contains(json::json_pointer(at))) placed.push_back({at, {}, kNoValue});
+  };
+  takeOut(textureFor(place));
+  const json meshes = root.value("meshes", json::array());
+  for (size_t mesh = 0; mesh < meshes.size(); ++mesh) {
+    const json primitives = meshes[mesh].value("primitives", json::array());
+    for (size_t i = 0; i < primitives.size(); ++i) {
+      if (primitives[i].value("material", json()) != index) continue;
+      const std::string primitive = formatted("/meshes/%zu/primitives/%zu", mesh, i);
+      takeOut(primitive + "/attributes/COLOR_0");
+      takeOut(primitive + "/extensions/KHR_draco_mesh_compression/attributes/COLOR_0");
+    }
+  }
+}
+
+void appendPlaced(const json& root, const SetNumber& set, std::vector<SetNumber>& placed) {
+  const size_t colon = set.pointer.rfind(':');
+  const std::string pattern = set.pointer.substr(0, colon);
+  const std::string name = set.pointer.substr(colon + 1);
+  std::vector<std::string> names;
+  const json materials = root.value("materials", json::array());
+  for (const json& material : materials) names.push_back(material.value("name", std::string()));
+  const std::vector<size_t> called = materialsCalled(pattern, names);
+  for (const size_t i : called) {
+    const std::string material = "/materials/" + std::to_string(i);
+    const std::optional<std::string> place = placeIn(material, name);
+    if (!place)
+      throw UsageError("--set: " + set.pointer + ": '" + name + "' is no value of a material" +
+                       didYouMean(name, knownNames(material)));
+    isColorItself(name) ? appendColor(root, i, set, placed) : placed.push_back(valueAt(root, *place, set));
+  }
+  if (!called.empty()) return;
+  throw NotInFile(
+      "--set: " + set.pointer + ": no material is called '" + pattern + "'" +
+      (names.empty() ? ", and the file has none" : "; the file has " + listOfParts(names, pattern)));
+}
+
+/// The place after the letter (UTF-8) at that place.
+size_t nextLetter(std::string_view text, size_t at) {
+  do ++at;
+  while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0u) == 0x80u);
+  return at;
+}
+
+}  // namespace
+
+bool isTextureAt(std::string_view pointer) {
+  return pointer.ends_with("Texture") && numberRuleAt(std::string(pointer) + kTurn);
+}
+
+bool tintsTexture(const json& root, const SetNumber& set, const std::string& place) {
+  return namesMaterials(set) && place.ends_with("Factor") &&
+         root.contains(json::json_pointer(textureFor(place))) &&
+         isColorItself(set.pointer.substr(set.pointer.rfind(':') + 1));
+}
+
+bool namesMaterials(const SetNumber& set) { return !set.pointer.starts_with('/'); }
+
+bool matchesPattern(std::string_view pattern, std::string_view text) {
+  size_t at = 0;                         // in the pattern
+  size_t star = std::string_view::npos;  // after the last *
+  size_t taken = 0;                      // the end of what that one stands for
+  for (size_t i = 0; i < text.size() || at < pattern.size();) {
+    const bool isQuoted = at + 1 < pattern.size() && pattern[at] == '\\';
+    if (at < pattern.size() && pattern[at] == '*') {
+      star = ++at;
+      taken = i;
+    } else if (at < pattern.size() && i < text.size() && pattern[at] == '?') {
+      ++at;
+      i = nextLetter(text, i);
+    } else if (at < pattern.size() && i < text.size() && pattern[at + (isQuoted ? 1 : 0)] == text[i]) {
+      at += isQuoted ? 2 : 1;
+      ++i;
+    } else if (star != std::string_view::npos && taken < text.size()) {
+      at = star;
+      i = ++taken;
+    } else {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::vector<SetNumber> placedValues(const json& root, std::span<const SetNumber> set) {
+  std::vector<SetNumber> placed;
+  for (const SetNumber& one : set) {
+    if (namesMaterials(one))
+      appendPlaced(root, one, placed);
+    else
+      placed.push_back(one);
+  }
+  return placed;
+}
+
+std::string extensionIn(std::string_view pointer) {
+  constexpr std::string_view kExtensions = "/extensions/";
+  const size_t at = pointer.rfind(kExtensions);
+  if (at == std::string_view::npos || !pointer.starts_with("/materials/")) return "";
+  const std::string_view rest = pointer.substr(at + kExtensions.size());
+  return std::string(rest.substr(0, rest.find('/')));
+}
+
+namespace {
+
+/// The array, for one more element; one of a wrong type is left to the checks, and gets none.
+json* arrayOf(json& object, const char* name) {
+  if (!object.contains(name)) object[name] = json::array();
+  return object[name].is_array() ? &object[name] : nullptr;
+}
+
+/// Appends the element, and returns its index.
+size_t append(json& object, const char* name, json element) {
+  json* array = arrayOf(object, name);
+  if (array == nullptr) return 0;
+  array->push_back(std::move(element));
+  return array->size() - 1;
+}
+
+void useExtension(json& root, const char* name) {
+  json* used = arrayOf(root, "extensionsUsed");
+  if (used != nullptr && std::ranges::find(*used, json(name)) == used->end()) used->push_back(name);
+}
+
+/// The matrix of a node at a place of the space that is drawn, whose Z axis has this direction there.
+json matrixOf(const glm::dvec3& place, const glm::dvec3& direction, const glm::dvec3& up) {
+  const glm::dvec3 z = glm::normalize(direction);
+  const glm::dvec3 upward = std::abs(z.y) < 0.999 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -1);
+  const glm::dvec3 x = glm::normalize(glm::cross(upward, z));
+  const glm::dmat3 toFile = glm::transpose(turnToY(up));
+  json numbers = json::array();
+  for (const glm::dvec3& axis : {x, glm::cross(z, x), z}) {
+    const glm::dvec3 turned = toFile * axis;
+    for (const double number : {turned.x, turned.y, turned.z, 0.0}) numbers.push_back(number);
+  }
+  const glm::dvec3 turned = toFile * place;
+  for (const double number : {turned.x, turned.y, turned.z, 1.0}) numbers.push_back(number);
+  return numbers;
+}
+
+/// The bytes of floats as a data URI.
+std::string uriOf(std::span<const float> values) {
+  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<uint8_t> bytes(values.size_bytes());
+  std::memcpy(bytes.data(), values.data(), bytes.size());
+  std::string text = "data:application/octet-stream;base64,";
+  for (size_t i = 0; i + 2 < bytes.size(); i += 3) {  // a multiple of three: triangles have nine floats
+    const uint32_t word = uint32_t(bytes[i]) << 16 | uint32_t(bytes[i + 1]) << 8 | bytes[i + 2];
+    for (const int shift : {18, 12, 6, 0}) text += kDigits[word >> shift & 63];
+  }
+  return text;
+}
+
+/// A material that is black but for the light that it sends, the same in all directions of one side.
+json shining(const AddedLight& light, const std::string& name) {
+  const double most = std::max({light.color.x, light.color.y, light.color.z});
+  const double radiance = light.strength / (glm::pi<double>() * light.size.x * light.size.y);
+  const glm::dvec3 color = light.color / most;
+  return {{"name", name},
+          {"pbrMetallicRoughness",
+           {{"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 1}}},
+          {"emissiveFactor", {color.x, color.y, color.z}},
+          {"extensions",
+           {{"KHR_materials_emissive_strength", {{"emissiveStrength", radiance * most}}},
+            {"KHR_materials_specular", {{"specularFactor", 0}}}}}};
+}
+
+/// The mesh of an area.
+size_t addArea(json& root, const AddedLight& light, const std::string& name) {
+  const auto x = float(0.5 * light.size.x);
+  const auto y = float(0.5 * light.size.y);
+  const std::array<float, 18> corners{-x, -y, 0, x, -y, 0, x, y, 0, -x, -y, 0, x, y, 0, -x, y, 0};
+  const size_t bytes = sizeof corners;
+  const size_t buffer = append(root, "buffers", {{"byteLength", bytes}, {"uri", uriOf(corners)}});
+  const size_t view = append(root, "bufferViews", {{"buffer", buffer}, {"byteLength", bytes}});
+  const size_t positions = append(root, "accessors",
+                                  {{"bufferView", view},
+                                   {"componentType", 5126u},
+                                   {"count", corners.size() / 3},
+                                   {"type", "VEC3"},
+                                   {"min", {-x, -y, 0}},
+                                   {"max", {x, y, 0}}});
+  const size_t material = append(root, "materials", shining(light, name));
+  for (const char* used : {"KHR_materials_emissive_strength", "KHR_materials_specular"})
+    useExtension(root, used);
+  json primitive = {{"attributes", {{"POSITION", positions}}}, {"material", material}};
+  return append(root, "meshes", {{"primitives", json::array({primitive})}});
+}
+
+/// The index of the light of a sun.
+size_t addSun(json& root, const AddedLight& light, const std::string& name) {
+  constexpr const char* kPunctual = "KHR_lights_punctual";
+  useExtension(root, kPunctual);
+  if (!root["extensions"].is_object()) root["extensions"] = json::object();
+  json& punctual = root["extensions"][kPunctual];
+  if (!punctual.is_object()) punctual = json::object();
+  return append(punctual, "lights",
+                {{"name", name},
+                 {"type", "directional"},
+                 {"color", {light.color.x, light.color.y, light.color.z}},
+                 {"intensity", light.strength}});
+}
+
+json nodeOf(json& root, const AddedLight& light, const std::string& name, const glm::dvec3& up) {
+  if (!light.isSun) {
+    const glm::dvec3 faces = light.target ? *light.target - light.at : glm::dvec3(0, -1, 0);
+    return {{"name", name}, {"mesh", addArea(root, light, name)}, {"matrix", matrixOf(light.at, faces, up)}};
+  }
+  const glm::dvec2 angles = glm::radians(light.from);
+  const glm::dvec3 towards(std::cos(angles.y) * std::sin(angles.x), std::sin(angles.y),
+                           std::cos(angles.y) * std::cos(angles.x));
+  json node = {{"name", name}, {"matrix", matrixOf(glm::dvec3(0.0), towards, up)}};
+  node["extensions"]["KHR_lights_punctual"]["light"] = addSun(root, light, name);
+  return node;
+}
+
+}  // namespace
+
+void addLights(json& root, std::span<const AddedLight> lights, const glm::dvec3& up) {
+  for (size_t i = 0; i < lights.size(); ++i) {
+    const std::string name = (lights[i].isSun ? "added sun " : "added area ") + std::to_string(i + 1);
+    const size_t node = append(root, "nodes", nodeOf(root, lights[i], name, up));
+    if (!root.contains("scenes")) continue;  // then all nodes are drawn
+    for (json& scene : root["scenes"]) {
+      if (scene.is_object()) append(scene, "nodes", node);
+    }
+  }
 }
 
 }  // namespace fragtrace

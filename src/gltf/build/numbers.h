@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Numbers in the JSON of a document that stand in place of the file's: those of an animation, or the user's.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include <glm/vec3.hpp>
+#include <nlohmann/json_fwd.hpp>
+
 #include "gltf/check/schema.h"
 #include "gltf/read/diagnostics.h"
-#include "scene/selection.h"
+#include "scene/parts.h"
 
 namespace fragtrace {
+
+// Numbers in the JSON of a document that stand in place of the file's: those of an animation, or the user's.
 
 /// Says what is wrong with a colour above 1, of a material's emission or of a light, that glTF does not
 /// allow; null: it is none.
@@ -36,5 +39,32 @@ void checkNumbers(const nlohmann::json& root, std::span<const SetNumber> set);
 /// Checks and writes the user's numbers; warns of colours that glTF does not allow. Errors that the loader
 /// then finds there are reported as errors of --set.
 void writeNumbers(nlohmann::json& root, const std::vector<SetNumber>& set, Diagnostics& diagnostics);
+
+// Values of --set that name materials, as "Wood*:roughness", instead of a place.
+
+/// Returns true if the value is of materials by their name.
+bool namesMaterials(const SetNumber& set);
+
+/// Returns true if the text is what the pattern says: * stands for any letters, ? for one, and \ quotes the
+/// next one.
+bool matchesPattern(std::string_view pattern, std::string_view text);
+
+/// The values with places in that document: one that names materials becomes one for each of them. Throws
+/// UsageError where no material has the name, or materials have no such value.
+std::vector<SetNumber> placedValues(const nlohmann::json& root, std::span<const SetNumber> set);
+
+/// Returns true if a texture stands at that place of a material, or may stand there.
+bool isTextureAt(std::string_view pointer);
+
+/// Returns true if the user says a material's colour itself, at that place, where a texture is that it
+/// multiplies.
+bool tintsTexture(const nlohmann::json& root, const SetNumber& set, const std::string& place);
+
+/// The extension that holds a place of a material; empty: none does.
+std::string extensionIn(std::string_view pointer);
+
+/// Adds the user's lamps to a document whose `up` points up, as if its file had them: a sun as a directional
+/// light, an area as a mesh of two triangles that shine on one side. The document is not checked yet.
+void addLights(nlohmann::json& root, std::span<const AddedLight> lights, const glm::dvec3& up);
 
 }  // namespace fragtrace

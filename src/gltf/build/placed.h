@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// The things that a node may place besides a mesh: a camera, a punctual light, a sphere.
 #pragma once
 
 #include <optional>
@@ -8,6 +7,8 @@
 #include "scene/scene.h"
 
 namespace fragtrace {
+
+// The things that a node may place besides a mesh: a camera, a punctual light, a sphere.
 
 /// The node's camera in world space, free of the node's scale; none if the node has no camera.
 std::optional<Camera> cameraAt(const Document& document, const PlacedNode& node);

@@ -8,14 +8,11 @@
 #include <string_view>
 #include <utility>
 
-#include "gltf/build/added_lights.h"
 #include "gltf/build/animation.h"
 #include "gltf/build/numbers.h"
 #include "gltf/check/extensions.h"
 #include "gltf/check/repairs.h"
 #include "gltf/check/schema.h"
-#include "gltf/check/supply.h"
-#include "gltf/check/validity.h"
 #include "gltf/codecs/compression.h"
 #include "gltf/read/accessor.h"
 #include "gltf/read/container.h"

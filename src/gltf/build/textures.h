@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Textures, samplers and encoded pictures, brought into the scene when a material first uses them.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +10,8 @@
 #include "scene/scene.h"
 
 namespace fragtrace {
+
+// Textures, samplers and encoded pictures, brought into the scene when a material first uses them.
 
 class TextureTable {
  public:
@@ -45,5 +47,16 @@ class TextureTable {
   std::vector<LostPictures> reasons_;
   bool isDrawn_ = true;
 };
+
+// Alpha that hides nothing: exporters write BLEND and MASK where pictures have no alpha.
+
+struct Scene;
+
+/// Returns true unless the encoded picture has no alpha for certain: a .jpg, or a .png without a channel and
+/// a colour of alpha.
+bool mayHaveAlpha(std::span<const uint8_t> encoded);
+
+/// Sets Material::leastAlpha by the pictures and the vertex colours of the materials.
+void settleLeastAlpha(Scene& scene);
 
 }  // namespace fragtrace

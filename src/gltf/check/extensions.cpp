@@ -11,22 +11,19 @@ using enum Support;
 constexpr std::array<std::string_view, 2> kInNodes = {"/nodes/*", kNowhere};
 
 constexpr Extension kOtherExtensions[] = {
-    {"KHR_lights_punctual", Supported, "build/light.cpp", {"", "/nodes/*"}},
+    {"KHR_lights_punctual", Supported, "build/placed.cpp", {"", "/nodes/*"}},
     {"KHR_mesh_quantization", Supported, "read/accessor.cpp", {kNowhere, kNowhere}},
-    {"KHR_implicit_shapes", Partly, "build/sphere.cpp", {"", kNowhere}},
+    {"KHR_implicit_shapes", Partly, "build/placed.cpp", {"", kNowhere}},
     {"KHR_materials_variants", Supported, "read/motion.cpp", {"", "/meshes/*/primitives/*"}},
     {"KHR_animation_pointer", Partly, "read/motion.cpp", {"/animations/*/channels/*/target", kNowhere}},
-    {"KHR_draco_mesh_compression",
-     Supported,
-     "codecs/draco_primitives.cpp",
-     {"/meshes/*/primitives/*", kNowhere}},
-    {"EXT_meshopt_compression", Supported, "codecs/meshopt_views.cpp", {"/buffers/*", "/bufferViews/*"}},
-    {"KHR_meshopt_compression", Partly, "codecs/meshopt_views.cpp", {"/buffers/*", "/bufferViews/*"}},
-    {"KHR_texture_transform", Supported, "build/material_part.cpp", {kTextureInfo, kNowhere}},
+    {"KHR_draco_mesh_compression", Supported, "codecs/compression.cpp", {"/meshes/*/primitives/*", kNowhere}},
+    {"EXT_meshopt_compression", Supported, "codecs/compression.cpp", {"/buffers/*", "/bufferViews/*"}},
+    {"KHR_meshopt_compression", Partly, "codecs/compression.cpp", {"/buffers/*", "/bufferViews/*"}},
+    {"KHR_texture_transform", Supported, "build/materials.cpp", {kTextureInfo, kNowhere}},
     {"EXT_texture_webp", Supported, "build/textures.cpp", {"/textures/*", kNowhere}},
     {"EXT_texture_avif", Supported, "build/textures.cpp", {"/textures/*", kNowhere}},
     {"KHR_texture_basisu", Partly, "build/textures.cpp", {"/textures/*", kNowhere}},
-    {"EXT_mesh_gpu_instancing", Supported, "build/instancing.cpp", kInNodes},
+    {"EXT_mesh_gpu_instancing", Supported, "build/nodes.cpp", kInNodes},
     {"KHR_node_visibility", Supported, "build/nodes.cpp", kInNodes},
 };
 

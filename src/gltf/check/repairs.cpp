@@ -4,14 +4,23 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <initializer_list>
+#include <iterator>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "gltf/read/component_types.h"
-#include "gltf/read/json_parts.h"
+#include <nlohmann/json.hpp>
+
+#include "base/text.h"
+#include "gltf/check/extensions.h"
+#include "gltf/check/schema.h"
+#include "gltf/read/accessor.h"
+#include "gltf/read/json.h"
 
 namespace fragtrace {
+
 namespace {
 
 using nlohmann::json;
@@ -190,6 +199,206 @@ void mendValues(json& root, const IsUsed& isUsed, Diagnostics& diagnostics) {
       }
     }
   }
+}
+
+namespace {
+
+/// The document, for readings of an object.
+struct Context {
+  const json& root;
+  std::vector<uint32_t> uses;  ///< by buffer view: accessors
+};
+
+json toTheEnd(const Context&, const json&) { return kToTheEnd; }
+
+json onlyBuffer(const Context& context, const json&) {
+  return memberOf(context.root, "buffers").size() == 1 ? json(0u) : json();
+}
+
+/// The kind of an object that has a member of that name, and of no other kind.
+json kindOf(const json& object, std::initializer_list<const char*> kinds) {
+  json found;
+  for (const char* kind : kinds) {
+    if (!memberOf(object, kind).is_object()) continue;
+    if (!found.is_null()) return {};
+    found = kind;
+  }
+  return found;
+}
+
+json lensOf(const Context&, const json& camera) { return kindOf(camera, {"perspective", "orthographic"}); }
+json lightOf(const Context&, const json& light) { return kindOf(light, {"spot"}); }
+
+/// 1 to 4 components of a scalar or a vector; 0: another type.
+uint64_t componentsOf(const json& type) {
+  constexpr const char* kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+  for (uint64_t i = 0; i < std::size(kTypes); ++i)
+    if (type == kTypes[i]) return i + 1;
+  return 0;
+}
+
+/// As many elements as the accessor's view holds, if no other accessor takes a part of it.
+json countThatFits(const Context& context, const json& accessor) {
+  const json& index = memberOf(accessor, "bufferView");
+  const json& view = elementOf(context.root, "bufferViews", index);
+  const json& length = memberOf(view, "byteLength");
+  const json& component = memberOf(accessor, "componentType");
+  if (!length.is_number_unsigned() || length == kToTheEnd || !component.is_number_unsigned() ||
+      context.uses[index.get<size_t>()] != 1)
+    return {};
+  const auto numberOf = [](const json& number, uint64_t otherwise) {
+    return number.is_number_unsigned() ? number.get<uint64_t>() : otherwise;
+  };
+  const uint64_t size = componentSize(component.get<unsigned>()) * componentsOf(memberOf(accessor, "type"));
+  const uint64_t offset = numberOf(memberOf(accessor, "byteOffset"), 0);
+  const uint64_t stride = numberOf(memberOf(view, "byteStride"), size);
+  const auto bytes = length.get<uint64_t>();
+  if (size == 0 || stride < size || offset > bytes || size > bytes - offset) return {};
+  return (bytes - offset - size) / stride + 1;
+}
+
+struct Supply {
+  const char* array;
+  const char* member;
+  json (*read)(const Context& context, const json& object);  ///< null: nothing tells
+  const char* words;
+};
+
+/// In the order in which they need each other.
+constexpr Supply kSupplies[] = {
+    {"/buffers", "byteLength", toTheEnd, "the length of its data is taken"},
+    {"/bufferViews", "buffer", onlyBuffer, "the only buffer is taken"},
+    {"/bufferViews", "byteLength", toTheEnd, "all up to the end of its buffer is taken"},
+    {"/accessors", "count", countThatFits, "as many as its buffer view holds are taken"},
+    {"/cameras", "type", lensOf, "the lens that is there is taken"},
+    {"/extensions/KHR_lights_punctual/lights", "type", lightOf, "its cone makes it a spot light"},
+};
+
+}  // namespace
+
+void supplyMembers(json& root, Diagnostics& diagnostics) {
+  Context context{root, std::vector<uint32_t>(memberOf(root, "bufferViews").size(), 0)};
+  forEachIn(root, "accessors", [&](const json& accessor, const std::string&) {
+    const json& view = memberOf(accessor, "bufferView");
+    if (view.is_number_unsigned() && view.get<size_t>() < context.uses.size())
+      ++context.uses[view.get<size_t>()];
+  });
+  for (const Supply& supply : kSupplies) {
+    const json::json_pointer array(supply.array);
+    if (!root.is_object() || !root.contains(array) || !root[array].is_array()) continue;
+    for (size_t i = 0; i < root[array].size(); ++i) {
+      json& object = root[array][i];
+      if (!object.is_object() || !memberOf(object, supply.member).is_null()) continue;
+      json value = supply.read(context, object);
+      if (value.is_null()) continue;
+      const std::string place = supply.array + pointerTo(i);
+      const bool isNull = object.contains(supply.member);
+      diagnostics.warn(isNull ? place + pointerTo(supply.member) : place,
+                       (isNull ? "is null; " : inQuotes(supply.member) + " is missing; ") + supply.words);
+      object[supply.member] = std::move(value);
+    }
+  }
+}
+
+namespace {
+
+/// An extension that is not in the table may be anywhere, unless its name says that it belongs to materials.
+bool isAtHome(std::string_view name, std::string_view place, std::string_view owner) {
+  const Extension* extension = extensionNamed(name);
+  if (extension == nullptr) return !name.starts_with("KHR_materials_") || place == "/materials/*";
+  if (extension->places[0] == kTextureInfo) return owner.ends_with("Texture");
+  return std::ranges::find(extension->places, place) != extension->places.end();
+}
+
+class MemberChecker {
+ public:
+  explicit MemberChecker(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  /// `owner` is the name of the member that holds the value.
+  void visit(json& value, std::string_view owner) {
+    if (value.is_array()) {
+      for (size_t i = 0; i < value.size(); ++i) descend(value[i], std::to_string(i), "*", owner);
+    } else if (value.is_object()) {
+      for (auto member = value.begin(); member != value.end();) {
+        const std::string& name = member.key();
+        if (name == "extensions") warnOfStrangers(*member, owner);
+        if (name != "extras") descend(*member, name, name, name);
+        member = member->is_null() && takesOut(name) ? value.erase(member) : std::next(member);
+      }
+    }
+  }
+
+ private:
+  void descend(json& value, const std::string& part, std::string_view pattern, std::string_view owner) {
+    if (!value.is_structured()) return;
+    const size_t place = place_.size();
+    const size_t length = pattern_.size();
+    place_.append("/").append(escapedForPointer(part));
+    pattern_.append("/").append(pattern);
+    visit(value, owner);
+    place_.resize(place);
+    pattern_.resize(length);
+  }
+
+  /// Returns true, with a warning, if a null can be taken for an absent member.
+  bool takesOut(const std::string& name) {
+    if (isRequiredAt(pattern_ + "/" + name)) return false;
+    diagnostics_.warn(place_ + pointerTo(name), "is null, and taken as absent");
+    return true;
+  }
+
+  void warnOfStrangers(const json& extensions, std::string_view owner) {
+    if (!extensions.is_object()) return;
+    for (const auto& extension : extensions.items()) {
+      if (!isAtHome(extension.key(), pattern_, owner))
+        diagnostics_.warn(place_ + pointerTo("extensions", extension.key()),
+                          "is not expected here, and ignored");
+    }
+  }
+
+  Diagnostics& diagnostics_;
+  std::string place_;
+  std::string pattern_;
+};
+
+struct Version {
+  unsigned major = 0, minor = 0;
+  auto operator<=>(const Version&) const = default;  // NOLINT(modernize-use-nullptr): it is none
+};
+
+/// The version in a member of the asset, where it is a text or a number; it becomes a text such as 2.0.
+std::optional<Version> readVersion(json& asset, const char* member, Diagnostics& diagnostics) {
+  const auto given = asset.find(member);
+  if (given == asset.end() || !(given->is_string() || given->is_number())) return std::nullopt;
+  const std::string place = pointerTo("asset", member);
+  const std::string text = given->is_string() ? given->get<std::string>() : given->dump();
+  const size_t point = std::min(text.find('.'), text.size());
+  const auto major = numberOfAll<unsigned>(text.substr(0, point));
+  const auto minor = point == text.size() ? std::optional(0u) : numberOfAll<unsigned>(text.substr(point + 1));
+  if (!major || !minor) diagnostics.refuse(place, inQuotes(text) + " is not a version such as 2.0");
+  const std::string read = std::to_string(*major) + "." + std::to_string(*minor);
+  if (*given != read) diagnostics.warn(place, given->dump() + " is read as " + inQuotes(read));
+  *given = read;
+  return Version{*major, *minor};
+}
+
+}  // namespace
+
+void checkMembers(json& root, Diagnostics& diagnostics) { MemberChecker(diagnostics).visit(root, ""); }
+
+void checkVersions(json& root, Diagnostics& diagnostics) {
+  if (!memberOf(root, "asset").is_object()) return;
+  json& asset = root["asset"];
+  const std::optional<Version> version = readVersion(asset, "version", diagnostics);
+  if (version && version->major != 2)
+    diagnostics.refuse("/asset/version",
+                       "glTF " + asset["version"].dump() + " is not supported, only 2.x is");
+  const std::optional<Version> least = readVersion(asset, "minVersion", diagnostics);
+  if (!version || !least) return;
+  if (*least > *version)
+    diagnostics.refuse("/asset/minVersion", "is above the version, " + asset["version"].dump());
+  if (*least > Version{2, 0})
+    diagnostics.refuse("/asset/minVersion", "glTF 2.0 is supported, not " + asset["minVersion"].dump());
 }
 
 }  // namespace fragtrace

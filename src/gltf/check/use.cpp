@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "gltf/read/json_parts.h"
+#include "gltf/read/json.h"
 #include "scene/parts.h"
 
 namespace fragtrace {

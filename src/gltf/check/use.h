@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "gltf/check/schema_checker.h"
-#include "scene/selection.h"
+#include "gltf/check/schema.h"
+#include "scene/parts.h"
 
 namespace fragtrace {
 

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Replaces compressed geometry in the document by its decoded form, before anything reads it.
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <vector>
+
+#include <nlohmann/json_fwd.hpp>
 
 #include "base/worker.h"
 #include "gltf/codecs/worker/decode.h"
 #include "gltf/read/document.h"
 
 namespace fragtrace {
+
+// Replaces compressed geometry in the document by its decoded form, before anything reads it.
 
 /// The bytes of the document's buffers, in its order. A buffer without data is empty.
 using Buffers = std::vector<std::vector<uint8_t>>;

@@ -1,13 +1,23 @@
 // SPDX-License-Identifier: MIT
-// A scene's file with other numbers, for the next user of the model.
 #pragma once
 
 #include <filesystem>
 #include <span>
+#include <string>
 
-#include "scene/selection.h"
+#include "scene/parts.h"
 
 namespace fragtrace {
+
+// Numbers and words set in the text of a JSON document, of which all other bytes stay.
+
+/// The text with these values at their places; members are inserted where they are missing, and so are the
+/// objects that hold them; an extension of a material that is new is listed among those that are used. A
+/// number stays as it is written where it is the same as a float. The text must be JSON. Throws
+/// std::runtime_error if a place is below something that is no object and has no such element.
+std::string withNumbers(std::string text, std::span<const SetNumber> set);
+
+// A scene's file with other numbers, for the next user of the model.
 
 /// Throws UsageError if one of these is no number of that .gltf or .glb, NotInFile if it lacks the place or
 /// the material, InputError if the file cannot be read.

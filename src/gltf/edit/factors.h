@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "scene/parts.h"
 #include "scene/scene.h"
-#include "scene/selection.h"
 
 namespace fragtrace {
 

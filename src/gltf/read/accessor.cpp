@@ -7,10 +7,10 @@
 #include <limits>
 #include <type_traits>
 
-#include "gltf/read/component_types.h"
 #include "scene/scene.h"
 
 namespace fragtrace {
+
 namespace {
 
 /// Elements in memory that are known to lie inside their buffer.

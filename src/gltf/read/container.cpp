@@ -1,19 +1,246 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/read/container.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <span>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
+#include "base/errors.h"
 #include "base/text.h"
+#include "gltf/read/diagnostics.h"
+#include "image/image.h"
 
 namespace fragtrace {
+
+namespace {
+
+int hexValue(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+constexpr std::string_view kWhiteSpace = " \t\n\r\f";
+
+/// Returns true if base64 has white space or escapes, which are none of its characters and have an obvious
+/// meaning.
+bool isBase64Escaped(std::string_view text) {
+  return text.find('%') != text.npos || text.find_first_of(kWhiteSpace) != text.npos;
+}
+
+/// RFC 4648 base64 with or without padding. Throws at the first character that does not belong.
+std::vector<uint8_t> decodeBase64(std::string_view text) {
+  static constexpr std::string_view kAlphabet =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  static const std::array<int8_t, 256> kValues = [] {
+    std::array<int8_t, 256> values;
+    values.fill(-1);
+    for (size_t i = 0; i < kAlphabet.size(); ++i) values[uint8_t(kAlphabet[i])] = int8_t(i);
+    return values;
+  }();
+  const auto refuse = [] { throw std::runtime_error("the data URI is not valid base64"); };
+  while (!text.empty() && text.back() == '=') text.remove_suffix(1);
+  if (text.size() % 4 == 1) refuse();
+  std::vector<uint8_t> bytes;
+  bytes.reserve(text.size() / 4 * 3 + 2);
+  uint32_t bits = 0;
+  int bitCount = 0;
+  for (const char c : text) {
+    const int8_t value = kValues[uint8_t(c)];
+    if (value < 0) refuse();
+    bits = bits << 6 | uint32_t(value);
+    bitCount += 6;
+    if (bitCount >= 8) {
+      bitCount -= 8;
+      bytes.push_back(uint8_t(bits >> bitCount));
+    }
+  }
+  return bytes;
+}
+
+std::vector<uint8_t> decodeDataUri(std::string_view uri, MemoryBudget memory) {
+  const size_t comma = uri.find(',');
+  if (comma == std::string_view::npos) throw std::runtime_error("the data URI has no comma");
+  if (uri.substr(0, comma).find(";;") != std::string_view::npos)
+    throw std::runtime_error("the data URI has an empty parameter");
+  const std::string_view payload = uri.substr(comma + 1);
+  memory.take(payload.size());
+  const bool isBase64 = uri.substr(0, comma).ends_with(";base64");
+  if (isBase64 && !isBase64Escaped(payload)) return decodeBase64(payload);
+  std::string text = percentDecoded(payload);
+  if (!isBase64) return {text.begin(), text.end()};
+  std::erase_if(text, [](char c) { return kWhiteSpace.find(c) != kWhiteSpace.npos; });
+  return decodeBase64(text);
+}
+
+/// RFC 3986, 3.1: a letter, then letters, digits, + - and . up to a colon.
+bool hasScheme(std::string_view uri) {
+  const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  if (uri.empty() || (!isLetter(uri[0]) && uri[0] != ':')) return false;
+  for (const char c : uri) {
+    if (c == ':') return true;
+    if (!isLetter(c) && !(c >= '0' && c <= '9') && c != '+' && c != '-' && c != '.') return false;
+  }
+  return false;
+}
+
+/// True if the path, without its "." and "..", starts at the root or above the folder.
+bool leadsOut(const std::filesystem::path& path) {
+  const std::filesystem::path normal = path.lexically_normal();
+  return normal.is_absolute() || (!normal.empty() && *normal.begin() == "..");
+}
+
+/// Returns true if the name is read with slashes for its backslashes. A name that leads out is not looked
+/// for.
+bool isBackslashed(const FileAccess& access, const std::string& name) {
+  std::error_code error;
+  return name.find('\\') != name.npos &&
+         ((!access.allowExternal && leadsOut(name)) || !std::filesystem::exists(access.folder / name, error));
+}
+
+std::string withSlashes(std::string name) {
+  std::ranges::replace(name, '\\', '/');
+  return name;
+}
+
+/// True when the open file lies in the folder or below, symbolic links followed.
+bool isBelow(int file, const std::filesystem::path& folder) {
+  std::error_code error;
+  const auto there = std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(file), error);
+  if (error) return true;  // without /proc it cannot be checked
+  const auto root = std::filesystem::canonical(folder.empty() ? "." : folder, error);
+  if (error) return false;
+  const auto [rootEnd, thereAt] = std::mismatch(root.begin(), root.end(), there.begin(), there.end());
+  return rootEnd == root.end();
+}
+
+/// Owns the descriptor until it is read.
+std::vector<uint8_t> readRegularFile(int file, const FileAccess& access, const MemoryBudget& memory) {
+  struct stat status {};
+  const bool isOutside = !access.allowExternal && !isBelow(file, access.folder);
+  const bool isRegular = ::fstat(file, &status) == 0 && S_ISREG(status.st_mode);
+  if (!isOutside && isRegular) return readOpenFile(file, memory, {}, access.progress);
+  ::close(file);
+  if (isOutside) throw AtStake("is a link out of the scene's folder (--allow-external-files reads it)");
+  throw std::runtime_error("is not a regular file");
+}
+
+/// "; wood.png lies there" where a file of the folder has the same name except for the case of its letters;
+/// systems that do not tell the two apart write such files.
+std::string likeNamed(const std::filesystem::path& path) {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(path.parent_path(), error)) {
+    const std::string name = entry.path().filename().string();
+    if (isSameButForCase(name, path.filename().string())) return "; " + name + " lies there";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string percentDecoded(std::string_view text) {
+  std::string result;
+  result.reserve(text.size());
+  for (size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '%' && i + 2 < text.size() && hexValue(text[i + 1]) >= 0 && hexValue(text[i + 2]) >= 0) {
+      result += char(hexValue(text[i + 1]) * 16 + hexValue(text[i + 2]));
+      i += 2;
+    } else {
+      result += text[i];
+    }
+  }
+  return result;
+}
+
+bool isDataUri(std::string_view uri) { return uri.starts_with("data:"); }
+
+std::filesystem::path pathOfUri(const FileAccess& access, std::string_view uri) {
+  const std::string decoded = percentDecoded(uri);
+  return access.folder / (isBackslashed(access, decoded) ? withSlashes(decoded) : decoded);
+}
+
+std::string oddityOf(const FileAccess& access, std::string_view uri) {
+  if (!isDataUri(uri))
+    return isBackslashed(access, percentDecoded(uri)) ? "has backslashes, which are read as slashes" : "";
+  const size_t comma = std::min(uri.find(','), uri.size());
+  const bool isEscaped = uri.substr(0, comma).ends_with(";base64") && isBase64Escaped(uri.substr(comma));
+  return isEscaped ? "has base64 with escapes or white space, which is read without them" : "";
+}
+
+bool isMissing(const FileAccess& access, std::string_view uri) {
+  const std::string decoded = percentDecoded(uri);
+  if (isDataUri(uri) || decoded.empty() || hasScheme(uri) ||
+      (!access.allowExternal && leadsOut(withSlashes(decoded))))
+    return false;
+  std::error_code error;
+  return !std::filesystem::exists(pathOfUri(access, uri), error);
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  constexpr size_t kLongest = 1000;
+  std::string text;
+  size_t left = 0;
+  for (const std::string& name : names) {
+    const std::string shown = name.size() <= kLongest / 4 ? name : inQuotes(name);
+    if (text.size() + shown.size() > kLongest)
+      ++left;
+    else
+      text += (text.empty() ? "" : ", ") + shown;
+  }
+  return left == 0 ? text : text + " and " + std::to_string(left) + " more";
+}
+
+std::string alsoMissing(const FileAccess& access, const std::vector<std::string>& uris,
+                        std::string_view one) {
+  std::set<std::string_view> named = {one};
+  std::vector<std::string> others;
+  for (const std::string& uri : uris) {
+    if (isMissing(access, uri) && named.insert(uri).second) others.push_back(uri);
+  }
+  return others.empty() ? "" : "; also missing: " + listed(others);
+}
+
+std::vector<uint8_t> readUri(const FileAccess& access, std::string_view uri, const MemoryBudget& memory) {
+  if (isDataUri(uri)) return decodeDataUri(uri, memory);
+  const std::string decoded = percentDecoded(uri);
+  const std::string isNone = inQuotes(uri) + " is neither a data URI nor a relative path";
+  if (hasScheme(uri)) throw AtStake(isNone);
+  if (decoded.empty()) throw std::runtime_error(isNone);
+  if (decoded.find('\0') != decoded.npos) throw std::runtime_error(isNone + ": it holds a zero byte");
+  const bool isOutside = leadsOut(isBackslashed(access, decoded) ? withSlashes(decoded) : decoded);
+  if (!access.allowExternal && isOutside) {
+    throw AtStake(inQuotes(uri) + " leads out of the scene's folder (--allow-external-files reads it)");
+  }
+  const std::filesystem::path path = pathOfUri(access, uri);
+  // A data URI whose first letters are wrong is such a name, too.
+  constexpr size_t kLongestName = 512;
+  const std::string name = path.string().size() <= kLongestName ? path.string() : inQuotes(uri);
+  // Opening a pipe to which nobody writes would wait without end.
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+  try {
+    if (file < 0) throw std::runtime_error("cannot be opened: " + systemReason(errno) + likeNamed(path));
+    return readRegularFile(file, access, memory);
+  } catch (const AtStake& error) {
+    throw AtStake(name + " " + error.what());
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(name + " " + error.what());
+  }
+}
+
 namespace {
 
 constexpr size_t kHeaderSize = 12;

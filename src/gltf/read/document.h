@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// A glTF file as tinygltf's model, with all references and byte ranges checked and all buffers in memory.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -8,16 +7,19 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "gltf/gltf.h"
+#include "gltf/read/container.h"
 #include "gltf/read/diagnostics.h"
 #include "gltf/read/motion.h"
-#include "gltf/read/uri.h"
-#include "image/limits.h"
+#include "image/image.h"
 
 namespace fragtrace {
+
+// A glTF file as tinygltf's model, with all references and byte ranges checked and all buffers in memory.
 
 /// The place of a picture as the file gives it: a URI as written, or a buffer view.
 struct ImageSource {
@@ -58,5 +60,30 @@ std::span<const uint8_t> bytesOf(const Document& document, int bufferView);
 
 /// Counts memory that `place` asks for. Throws InputError if it is too much.
 void takeMemory(Document& document, const std::string& place, uint64_t bytes);
+
+// Reads extensions and extras, which tinygltf passes on as generic values. The schema has checked their
+// types.
+
+/// The member of that name, or a null value where there is none.
+inline const tinygltf::Value& memberOf(const tinygltf::Value& object, std::string_view name) {
+  static const tinygltf::Value kNone;
+  const std::string key(name);
+  return object.Has(key) ? object.Get(key) : kNone;
+}
+
+inline double numberOf(const tinygltf::Value& object, std::string_view name, double otherwise) {
+  const tinygltf::Value& member = memberOf(object, name);
+  return member.IsNumber() ? member.GetNumberAsDouble() : otherwise;
+}
+
+inline std::vector<double> numbersOf(const tinygltf::Value& object, std::string_view name,
+                                     std::vector<double> otherwise) {
+  const tinygltf::Value& member = memberOf(object, name);
+  if (!member.IsArray()) return otherwise;
+  std::vector<double> numbers;
+  numbers.reserve(member.ArrayLen());
+  for (int i = 0; i < int(member.ArrayLen()); ++i) numbers.push_back(member.Get(i).GetNumberAsDouble());
+  return numbers;
+}
 
 }  // namespace fragtrace

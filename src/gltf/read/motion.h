@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/selection.h"
+#include "scene/parts.h"
 
 namespace fragtrace {
 

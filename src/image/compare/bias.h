@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Tells whether two noisy pictures have the same limit. Jung, Hanika and Dachsbacher, "Detecting Bias in
-// Monte Carlo Renderers using Welch's t-test", Journal of Computer Graphics Techniques 9(2), 2020.
 #pragma once
 
 #include <array>
@@ -8,6 +6,13 @@
 #include "image/image.h"
 
 namespace fragtrace {
+
+/// Returns the probability that Student's t with `freedom` degrees of freedom (more than 0, not always whole)
+/// is at least as far from 0 as `t` is, on either side. The relative error is below 1e-8 up to 1e8 degrees.
+double studentTails(double t, double freedom);
+
+// Tells whether two noisy pictures have the same limit. Jung, Hanika and Dachsbacher, "Detecting Bias in
+// Monte Carlo Renderers using Welch's t-test", Journal of Computer Graphics Techniques 9(2), 2020.
 
 inline constexpr int kBiasTile = 16;  ///< pixels of a tile's side, if nobody asks for others
 

@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "base/errors.h"
-#include "image/compare/comparable.h"
+#include "image/compare/difference.h"
 #include "image/display/tone_map.h"
 
 namespace fragtrace {

@@ -4,15 +4,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
 #include <glm/mat3x3.hpp>
-#include <limits>
 
 #include "base/errors.h"
 #include "image/channels.h"
 
 namespace fragtrace {
+
 namespace {
 
 constexpr std::array<std::string_view, 5> kToneMapNames{"linear", "reinhard", "aces", "agx", "neutral"};
@@ -226,6 +229,29 @@ Image toDefaultDisplay(const Image& linear) {
       if (!std::isfinite(linear.values[i * linear.channelCount() + channels[c]]))
         display.values[i * display.channelCount() + c] = std::numeric_limits<float>::quiet_NaN();
   return display;
+}
+
+namespace {
+
+using std::abs;
+using std::floor;
+using uint = uint32_t;
+#include "picture/dither.glsl"
+
+}  // namespace
+
+void dither(Image& display, glm::ivec2 corner) {
+  const auto channels = findColorChannels(display);
+  if (!channels) return;
+  for (int y = 0; y < display.height; ++y) {
+    for (int x = 0; x < display.width; ++x) {
+      float* pixel = display.pixel(x, y);
+      for (uint c = 0; c < 3; ++c) {
+        float& value = pixel[(*channels)[c]];
+        value = dithered(value, uint(corner.x + x), uint(corner.y + y), c);
+      }
+    }
+  }
 }
 
 }  // namespace fragtrace

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
-// From linear radiance to the sRGB-encoded values of a display.
 #pragma once
 
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
 #include <optional>
 #include <span>
 #include <string_view>
 
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
 #include "image/image.h"
 
 namespace fragtrace {
+
+// From linear radiance to the sRGB-encoded values of a display.
 
 enum class ToneMap { Linear, Reinhard, Aces, Agx, Neutral };
 

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The header of an encoded picture, read by our own code before any library sees the file.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <glm/glm.hpp>
 #include <span>
 #include <string>
+
+#include <glm/glm.hpp>
 
 #include "image/format.h"
 
 namespace fragtrace {
+
+// The header of an encoded picture, read by our own code before any library sees the file.
 
 inline constexpr int kMostTextureChannels = 4;
 

@@ -10,7 +10,7 @@
 
 #include "base/text.h"
 #include "image/channels.h"
-#include "image/limits.h"
+#include "image/image.h"
 
 namespace fragtrace {
 namespace {

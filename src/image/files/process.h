@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The image library in a worker process (base/worker.h): a run that reads and writes no encoded picture
-// does not load OpenImageIO's 250 shared objects.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,6 +11,9 @@
 #include "image/image.h"
 
 namespace fragtrace {
+
+// The image library in a worker process (base/worker.h): a run that reads and writes no encoded picture
+// does not load OpenImageIO's 250 shared objects.
 
 // Every function throws std::runtime_error with the bare reason; the caller adds the file.
 
@@ -41,5 +43,23 @@ void startImageProcess() noexcept;
 /// Each thread that decodes has a process of its own, which waits for more work. Ends those that wait, except
 /// for one of each kind.
 void endSpareImageProcesses();
+
+// Many pictures at once.
+
+struct EncodedPicture {
+  std::span<const uint8_t> bytes;
+  std::string name;  ///< the name in messages
+};
+
+/// Takes a picture by its index.
+using TakeTexels = std::function<void(size_t index, TexelImage texels)>;
+
+/// Decodes pictures as decodeTexels() does, the largest first, by as many processes as there are processors
+/// and as the pictures are worth starting. Gives each to `take` as soon as it is decoded, from several
+/// threads at once. Pictures that exist at the same time have at most `mostBytes`, unless there is only one.
+/// Returns the message of each picture that cannot be decoded, and empty texts for the others. Throws what
+/// `take` throws.
+std::vector<std::string> decodeEach(std::span<const EncodedPicture> pictures, const TakeTexels& take,
+                                    uint64_t mostBytes = defaultMemoryLimit() / 4);
 
 }  // namespace fragtrace

@@ -16,9 +16,9 @@
 #include <system_error>
 
 #include "base/errors.h"
-#include "base/written.h"
 
 namespace fragtrace {
+
 namespace {
 
 /// The errno of the first failing call, or 0.

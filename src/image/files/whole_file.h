@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Files read and replaced as a whole.
 #pragma once
 
+#include <array>
+#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -9,9 +10,19 @@
 #include <string>
 #include <vector>
 
-#include "image/limits.h"
+#include "image/image.h"
 
 namespace fragtrace {
+
+// Notes for handlers of signals, which may call few functions.
+
+/// Set before the first file takes its place, for a handler that says what is there.
+inline volatile std::sig_atomic_t filesMayBeWritten = 0;
+
+/// The path of the part that is being written, for a handler that removes it; empty if there is none.
+inline std::array<char, 4096> partBeingWritten{};
+
+// Files read and replaced as a whole.
 
 /// Checks the first bytes of a file (64 KiB, or all of a shorter one) before more is read. `size` is the
 /// file's, or 0 for a pipe. Returns the largest number of bytes to read; it may throw.

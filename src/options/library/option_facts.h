@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT
-// What help says of an option beyond its sentence, kept with the option as the library declares it.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
+namespace CLI {
+class App;
+}
+
 namespace fragtrace {
+
+// What help says of an option beyond its sentence, kept with the option as the library declares it.
 
 struct OptionFacts {
   std::vector<std::string> choices{};  ///< the names that a value may be
@@ -42,5 +48,8 @@ std::string metavariableOf(const CLI::Option& option);
 
 /// Returns true if the option may be given several times, and its values add up.
 bool isRepeatable(const CLI::Option& option);
+
+/// Takes out all uses of an option but the last, unless its values add up. Returns a message about each.
+std::vector<std::string> keepLast(const CLI::App& app, std::vector<std::string>& words);
 
 }  // namespace fragtrace

@@ -10,7 +10,6 @@
 #include "base/errors.h"
 #include "base/words.h"
 #include "image/display/tone_map.h"
-#include "image/files/decode_each.h"
 #include "image/files/process.h"
 #include "shader/layout.h"
 

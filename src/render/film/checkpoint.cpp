@@ -10,8 +10,8 @@
 #include <string_view>
 #include <utility>
 
-#include "base/hash.h"
-#include "image/limits.h"
+#include "base/words.h"
+#include "image/image.h"
 
 namespace fragtrace {
 

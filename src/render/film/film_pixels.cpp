@@ -2,8 +2,12 @@
 #include "render/film/film_pixels.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
-#include "image/over_white.h"
+#include "image/display/heatmap.h"
+#include "image/display/tone_map.h"
+#include "image/image.h"
 #include "shader/layout.h"
 
 namespace fragtrace {
@@ -85,6 +89,104 @@ Image imageOf(const FilmPixels& film, const Layers& layers, std::span<const doub
   }
   if (overWhite) image.attributes[kOverWhiteAttribute] = "1";
   return image;
+}
+
+namespace {
+
+constexpr int kChannels = 4;
+
+/// Calls shown(component, value) for R, G and B of each pixel that has values; it gives what a display shows.
+template <typename Shown>
+Image paint(const Image& layer, const Shown& shown) {
+  Image image;
+  image.width = layer.width;
+  image.height = layer.height;
+  image.channels = {"R", "G", "B"};
+  image.values.resize(size_t(image.width) * size_t(image.height) * 3);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const float* from = layer.pixel(x, y);
+      const double covered = from[kChannels - 1];
+      if (!(covered > 0.0)) continue;
+      for (int c = 0; c < 3; ++c) {
+        const double value = shown(from, from[c] / covered);
+        image.pixel(x, y)[c] = float(covered * decodeSrgb(std::clamp(value, 0.0, 1.0)));
+      }
+    }
+  }
+  return image;
+}
+
+/// Components from -1 to 1 as 0.5 + 0.5 times each; black where there is none.
+Image paintDirections(const Image& layer) {
+  return paint(layer, [](const float*, double value) { return 0.5 + 0.5 * value; });
+}
+
+/// Components from 0 to 1 as they are; beyond, their fractions if `wrap`, else the nearer end.
+Image paintShares(const Image& layer, bool wrap) {
+  return paint(layer, [&](const float*, double value) { return wrap ? value - std::floor(value) : value; });
+}
+
+/// The first component as grey: white where it is least, a tenth of that where it is greatest, black where
+/// there is none.
+Image paintDepths(const Image& layer) {
+  double nearest = std::numeric_limits<double>::infinity();
+  double farthest = -nearest;
+  for (int y = 0; y < layer.height; ++y) {
+    for (int x = 0; x < layer.width; ++x) {
+      const float* pixel = layer.pixel(x, y);
+      if (!(pixel[kChannels - 1] > 0.0f)) continue;
+      const double depth = double(pixel[0]) / pixel[kChannels - 1];
+      nearest = std::min(nearest, depth);
+      farthest = std::max(farthest, depth);
+    }
+  }
+  constexpr double kDarkest = 0.1;
+  const double range = farthest > nearest ? farthest - nearest : 1.0;
+  return paint(layer, [&](const float* pixel, double) {
+    const double depth = double(pixel[0]) / pixel[kChannels - 1];
+    return 1.0 - (1.0 - kDarkest) * (depth - nearest) / range;
+  });
+}
+
+/// Relative errors in per cent, as --noise defines them: relative to the pixel's mean plus a hundredth of the
+/// picture's mean.
+Image relativeErrors(const FilmPixels& film, std::span<const double> variance) {
+  constexpr double kFloor = 0.01;
+  double mean = 0.0;
+  for (const FilmPixel& pixel : film.pixels) mean += pixel.luminance() / double(film.pixels.size());
+  return imageOfNumbers(film.size, [&](size_t i) {
+    const double of = film.pixels[i].luminance() + kFloor * mean;
+    const double error = std::sqrt(variance.empty() ? film.pixels[i].variance() : variance[i]);
+    return of > 0.0 ? 100.0 * error / of : 0.0;
+  });
+}
+
+}  // namespace
+
+Image debugPicture(DebugView view, const FilmPixels& film, std::span<const double> variance) {
+  const auto layer = [&] { return imageOf(film, {.alpha = true}); };
+  switch (view) {
+    case DebugView::GeometricNormal:
+    case DebugView::Normal:
+      return paintDirections(layer());
+    case DebugView::Roughness:
+      return paintShares(layer(), false);
+    case DebugView::Texcoords:
+      return paintShares(layer(), true);
+    case DebugView::Depth:
+      return paintDepths(layer());
+    case DebugView::Visits:
+      return paintHeatmap(imageOf(film, {}));
+    case DebugView::Samples:
+      return paintHeatmap(imageOfNumbers(film.size, [&](size_t i) { return film.pixels[i].samples; }), "");
+    case DebugView::Variance:
+      return paintHeatmap(relativeErrors(film, variance), "");
+    case DebugView::None:
+    case DebugView::Albedo:
+      break;
+  }
+  return imageOf(film, {});
 }
 
 }  // namespace fragtrace

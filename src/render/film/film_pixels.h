@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The film on the host: the sums of each pixel, and values that follow from them.
 #pragma once
 
 #include <cstdint>
-#include <glm/glm.hpp>
 #include <span>
 #include <vector>
 
+#include <glm/glm.hpp>
+
 #include "base/vectors.h"
 #include "image/image.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
+
+// The film on the host: the sums of each pixel, and values that follow from them.
 
 /// The sums and counts of one pixel (shaders/film.glsl).
 struct FilmPixel {
@@ -24,7 +27,7 @@ struct FilmPixel {
 
   glm::dvec3 mean() const { return sum / double(samples > 0 ? samples : 1); }
   /// The luminance of the pixel as it is, or as laid over white if its shadow is in alpha alone
-  /// (image/over_white.h).
+  /// (image/image.h).
   double luminance() const;
   /// The variance of the mean's luminance, as if samples were independent; 0 below two samples.
   double variance() const { return samples > 1 ? m2 / (double(samples) * (double(samples) - 1.0)) : 0.0; }
@@ -84,5 +87,11 @@ Image imageOfNumbers(glm::ivec2 size, const Number& number) {
   }
   return image;
 }
+
+// Turns the film that was drawn for a debug view into a picture.
+
+/// Colours R, G, B for display. The film holds the view's AOV, node visits, or, for counts of samples and
+/// their variance, radiance. `variance` is as for imageOf().
+Image debugPicture(DebugView view, const FilmPixels& film, std::span<const double> variance = {});
 
 }  // namespace fragtrace

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The air of the Earth: what it scatters and absorbs at each height (docs/design/sky.md). Lengths are
-// kilometres, angles are given by their cosine to the zenith.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <glm/gtc/constants.hpp>
 #include <vector>
 
+#include <glm/gtc/constants.hpp>
+
 namespace fragtrace {
+
+// The air of the Earth: what it scatters and absorbs at each height (docs/design/sky.md). Lengths are
+// kilometres, angles are given by their cosine to the zenith.
 
 /// A value for each of the wavelengths.
 inline constexpr size_t kWavelengths = 10;
@@ -18,7 +20,6 @@ using Spectrum = std::array<double, kWavelengths>;
 /// Wavelength of a value, in micrometres.
 constexpr double wavelengthOf(size_t index) { return 0.395 + 0.035 * double(index); }
 
-inline constexpr double kHalfTurn = glm::pi<double>();  ///< radians
 inline constexpr double kGroundRadius = 6360.0;
 inline constexpr double kAirTop = 6460.0;            ///< radius above which there is no air
 inline constexpr double kSunRadiusDegrees = 0.2665;  ///< radius of the disc
@@ -92,5 +93,35 @@ struct RayPoint {
   double cosine;
 };
 RayPoint alongRay(double radius, double cosine, double distance);
+
+// Light that the air scatters more than once, as Hillaire (2020) approximates it: the same in all directions.
+
+/// Nodes and weights of an integral over 0..1 (Gauss and Legendre).
+struct Quadrature {
+  std::vector<double> nodes;
+  std::vector<double> weights;
+};
+Quadrature quadratureOf(int count);
+
+/// The number of directions (heights, and half as many turns) and of steps along each.
+struct ScatteringSteps {
+  int directions = 6;
+  int steps = 16;
+};
+
+/// Radiance by which the light scattered twice or more often is scattered there in any direction, in units of
+/// the sun's irradiance outside the atmosphere, per coefficient of scattering.
+Spectrum scatteredOften(const Atmosphere& air, const AirTable& table, double albedo, double radius,
+                        double sunCosine, ScatteringSteps steps = {});
+
+/// A table of these.
+class ScatteringTable {
+ public:
+  ScatteringTable(const Atmosphere& air, const AirTable& table, double albedo);
+  Spectrum at(double radius, double sunCosine) const;
+
+ private:
+  std::vector<Spectrum> values_;
+};
 
 }  // namespace fragtrace

@@ -1,13 +1,46 @@
 // SPDX-License-Identifier: MIT
-// The clear sky and the sun as somebody on the ground sees them (docs/design/sky.md).
 #pragma once
+
+#include <array>
+#include <optional>
+#include <string>
 
 #include <glm/glm.hpp>
 
 #include "image/image.h"
-#include "scene/sky/many_scatterings.h"
+#include "scene/sky/atmosphere.h"
 
 namespace fragtrace {
+
+// The place of the sun in the sky.
+
+struct SunPlace {
+  double elevation = 45.0;  ///< degrees above the horizon
+  double azimuth = 225.0;   ///< degrees from north (-Z), clockwise seen from above: 90 is east (+X)
+
+  bool operator==(const SunPlace&) const = default;
+};
+
+/// Days since noon of 1 January 2000 (universal time) by a date and time with offset as ISO 8601 writes them:
+/// 2026-06-21T14:30:00+02:00; seconds may be left out, and Z is +00:00. None where the text is no such time.
+std::optional<double> daysOf(const std::string& time);
+
+/// The sun's place at that time as an observer at sea level sees it, the bending of light included. Latitude
+/// and longitude are in degrees, north and east positive. Good to 0.02 degrees from 1950 to 2050.
+SunPlace sunPlaceAt(double days, const glm::dvec2& latitudeLongitude);
+
+// The sun's spectrum, as the colours of pictures.
+
+/// A picture's value of 1 is the luminance of a white surface in this much light, in lux.
+inline constexpr double kFullDaylight = 1e5;
+
+/// Linear Rec.709 of sunlight of irradiance 1 (outside the atmosphere) at each wavelength. The sum over
+/// wavelengths, times the part that arrives, is the radiance of a picture where that part is in 1/sr.
+const std::array<glm::dvec3, kWavelengths>& daylightColors();
+
+glm::dvec3 colorOf(const Spectrum& part);
+
+// The clear sky and the sun as somebody on the ground sees them (docs/design/sky.md).
 
 /// The sun's disc, which is no part of the map.
 struct SunDisc {

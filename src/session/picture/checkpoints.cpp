@@ -9,14 +9,14 @@
 #include <string_view>
 
 #include "base/errors.h"
-#include "base/hash.h"
 #include "base/text.h"
+#include "base/words.h"
 #include "image/files/whole_file.h"
 #include "image/format.h"
 #include "render/adaptive.h"
 #include "session/outputs.h"
 #include "session/picture/draw_samples.h"
-#include "session/picture/provenance.h"
+#include "session/picture/joined_parts.h"
 #include "session/say.h"
 
 namespace fragtrace {

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
-// `render --denoise`: the layers that it needs, and the filtered picture.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 
-#include "image/denoise/oidn_library.h"
+#include "image/denoise/oidn.h"
 #include "image/image.h"
 #include "session/session.h"
 #include "session/statistics.h"
 #include "shader/render_options.h"
 
 namespace fragtrace {
+
+// `render --denoise`: the layers that it needs, and the filtered picture.
 
 /// Returns true if the layers that are asked for hold the guides of filters (Aov::Guides).
 bool hasGuides(const RenderOptions& options);
@@ -59,5 +61,16 @@ void keepNoisy(Image& picture, const Image& noisy, const std::string& filter);
 
 /// A picture as it was before denoise(), with its noisy colours in their place. Unchanged if it has none.
 Image asDrawn(const Image& picture);
+
+// Filters pictures of files; `denoise` and `merge --denoise` share this.
+
+/// A picture as it was drawn (asDrawn) with filtered colours as R, G and B in front, then all its other
+/// layers, and the noisy colours as noisy.R, noisy.G and noisy.B. `name` appears in messages. Says on stderr
+/// which layers the filter lacks. Throws InputError that names missing layers, ContextError, RenderError.
+Image denoisedFile(const Image& drawn, const std::filesystem::path& name, const RenderOptions& options,
+                   const std::optional<OidnLibrary>& oidn, DenoiseStatistics& stats);
+
+/// The filter and the seconds that it took, with the programs that were built for it.
+std::string filterText(const DenoiseStatistics& stats);
 
 }  // namespace fragtrace

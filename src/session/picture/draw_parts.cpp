@@ -10,21 +10,65 @@
 #include "base/text.h"
 #include "base/timeline.h"
 #include "image/channels.h"
-#include "image/cryptomatte.h"
 #include "render/adaptive.h"
+#include "render/film.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
 #include "session/picture/checkpoints.h"
 #include "session/picture/denoising.h"
 #include "session/picture/draw_samples.h"
-#include "session/picture/layer_times.h"
-#include "session/picture/light_groups.h"
-#include "session/picture/mattes.h"
+#include "session/picture/layers.h"
 #include "session/picture/picture_file.h"
-#include "session/progress_bar.h"
 #include "session/say.h"
+#include "session/tracer.h"
 
 namespace fragtrace {
+
+std::vector<Region> dividedRegion(const Region& region, int mostSide, uint64_t mostPixels) {
+  const uint64_t side = std::min(uint64_t(mostSide), mostPixels);
+  const int width = int(std::min(uint64_t(region.size.x), side));
+  const int height = int(std::min(mostPixels / uint64_t(width), uint64_t(mostSide)));
+  std::vector<Region> parts;
+  for (int y = 0; y < region.size.y; y += height) {
+    for (int x = 0; x < region.size.x; x += width) {
+      const glm::ivec2 corner(x, y);
+      parts.push_back({region.corner + corner, glm::min(glm::ivec2(width, height), region.size - corner)});
+    }
+  }
+  return parts;
+}
+
+std::vector<Region> partsOf(const RenderOptions& options, const LoadedScene& loaded) {
+  const int mostSide = Film::mostSide();
+  const glm::ivec2 size = loaded.region.size;
+  const std::string what = std::to_string(size.x) + " x " + std::to_string(size.y) + " pixels";
+  std::vector<Region> parts = dividedRegion(loaded.region, mostSide, mostFilmPixels(options, size));
+  if (parts.size() > 1 && showsColors(options))
+    throw UsageError("a picture of " + what +
+                     " has to be drawn in parts here, and the scale of a debug view needs the whole; "
+                     "--resolution or --region makes it smaller");
+  if (parts.size() > 1 && options.light.reuse == LightReuse::Spatial)
+    throw UsageError(
+        "--light-reuse spatial: a picture of " + what +
+        " has to be drawn in parts here (--memory-limit), and pixels take light from those about "
+        "them; --resolution makes it smaller");
+  if (std::max(size.x, size.y) > mostSide && options.output.denoise == Denoise::Variance)
+    throw UsageError("--denoise variance: this driver filters at most " + std::to_string(mostSide) +
+                     " pixels a side, and the picture has " + what);
+  return parts;
+}
+
+View viewOf(const LoadedScene& loaded, const Region& part) {
+  View view = loaded.view;
+  if (part.size != loaded.size) view.placement = Placement{part.corner, loaded.size};
+  return view;
+}
+
+void paste(const Image& part, glm::ivec2 corner, Image& picture) {
+  const size_t row = size_t(part.width) * part.channelCount();
+  for (int y = 0; y < part.height; ++y)
+    std::copy_n(part.pixel(0, y), row, picture.pixel(corner.x, corner.y + y));
+}
 
 namespace {
 
@@ -366,6 +410,43 @@ void addAovs(Image& picture, const PictureJob& job, const DrawingPlan& plan, Sta
       setManifest(picture, matteLayer(variant.aov), namesOfMatte(variant.aov, job.loaded.scene));
   }
   addLightGroups(picture, job, plan, all, before, stats);
+}
+
+std::vector<double> measureAovs(const PictureJob& job, Film& film, const View& view, Statistics& stats) {
+  constexpr int kSide = 256;
+  Work work{{}, glm::min(film.size(), glm::ivec2(kSide)), 0, 1};
+  work.corner = (film.size() - work.size) / 2;
+  const double times =
+      double(job.loaded.region.size.x) * job.loaded.region.size.y / (double(work.size.x) * work.size.y);
+  const auto secondsOf = [&](const ShaderVariant& variant) {
+    stats.compileMs += useOrCompile(*job.tracer.renderer, variant, film, view);
+    if (!job.showsProgress) return 0.0;
+    RenderTimes measured;
+    job.tracer.renderer->addSamples(film, view, {&work, 1}, measured);
+    film.clear();
+    return 0.001 * measured.renderMs * times;
+  };
+  std::vector<double> seconds;
+  for (const ShaderVariant& variant : job.tracer.aovs) seconds.push_back(secondsOf(variant));
+  const size_t groups = job.options.output.lightGroups.size();
+  if (groups > 0) seconds.insert(seconds.end(), groups, secondsOf(job.tracer.variant));
+  return seconds;
+}
+
+double secondsOfAovs(const PictureJob& job, const DrawingPlan& plan, size_t first, int samples) {
+  double seconds = 0.0;
+  const std::vector<ShaderVariant>& aovs = job.tracer.aovs;
+  for (size_t i = first; i < plan.layerSeconds.size(); ++i) {
+    const int own = i < aovs.size() ? samplesOfLayer(job.options, aovs[i].aov, samples) : samples;
+    seconds += plan.layerSeconds[i] * own;
+  }
+  return seconds;
+}
+
+double secondsOfAovs(const PictureJob& job, const DrawingPlan& plan) {
+  constexpr int kLeastAdaptive = 64;
+  const int spp = job.options.sampling.spp;
+  return secondsOfAovs(job, plan, 0, isAdaptive(job.options) ? std::min(spp, kLeastAdaptive) : spp);
 }
 
 }  // namespace fragtrace

@@ -1,16 +1,32 @@
 // SPDX-License-Identifier: MIT
-// Writes a drawn picture: its content and its form.
 #pragma once
 
 #include <span>
 #include <string>
 
-#include "bvh/tree_boxes.h"
+#include <glm/glm.hpp>
+
+#include "bvh/outlines.h"
 #include "image/image.h"
+#include "scene/scene.h"
 #include "session/setup.h"
 #include "shader/render_options.h"
 
 namespace fragtrace {
+
+// The camera and the colours in the header of an .exr, as standard attributes of OpenEXR.
+
+/// Sets worldToCamera and worldToNDC, and screenWindowWidth of a perspective; of cameras that are not
+/// rectilinear worldToCamera alone. `size` is that of the whole picture, even if the image is a part of it.
+/// Matrices are for row vectors, (x, y, z, 1) M, of metres in world space. A camera's x is right, y up, and z
+/// the direction of view. NDC is (0, 0) at the upper left corner of the picture and (1, 1) at the lower
+/// right, after division by w.
+void setCamera(Image& image, const Camera& camera, glm::ivec2 size);
+
+/// Sets chromaticities: the primaries of Rec. 709 and sRGB, and their white, D65.
+void setChromaticities(Image& image);
+
+// Writes a drawn picture: its content and its form.
 
 /// Returns true if the picture's colours are those of a debug view, to be displayed as they are.
 bool showsColors(const RenderOptions& options);
@@ -41,5 +57,19 @@ void sayClamped(const RenderOptions& options, size_t values);
 /// Writes a linear picture to the options' output: as it is, or as a display shows it, with lines over it.
 /// Throws RenderError.
 void writePicture(const RenderOptions& options, const Image& linear, std::span<const PictureLine> lines);
+
+// Says why a picture shows nothing, or is as good as black.
+
+/// A drawn picture, linear, with what was drawn.
+struct DrawnView {
+  const RenderOptions& options;
+  const LoadedScene& loaded;  ///< its geometry may be gone
+  const Image& picture;
+  const Statistics& stats;
+};
+
+/// The reason why the view shows nothing of the scene, or why 99 % of its pixels are black, and the option
+/// that changes it; empty: it is neither. The reason is looked for in the file, which is loaded once more.
+std::string whyNothingIsSeen(const DrawnView& view);
 
 }  // namespace fragtrace

@@ -1,14 +1,194 @@
 // SPDX-License-Identifier: MIT
 #include "session/picture/sequence.h"
 
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include <glm/gtc/constants.hpp>
 #include <glm/gtx/rotate_vector.hpp>
-#include <string>
 
+#include "base/errors.h"
+#include "base/text.h"
+#include "base/worker.h"
 #include "image/files/video_format.h"
+#include "image/files/whole_file.h"
+#include "options/option_text.h"
+#include "session/interrupt.h"
 
 namespace fragtrace {
+
+namespace {
+
+constexpr const char* kEncoder = "ffmpeg";
+
+void closeFile(int& file) {
+  if (file >= 0) ::close(file);
+  file = -1;
+}
+
+/// The last words of the encoder, on one line.
+std::string lastWords(int said) {
+  constexpr off_t kMostBytes = 4096;
+  constexpr size_t kMostLines = 3;
+  const off_t end = ::lseek(said, 0, SEEK_END);
+  std::string text(size_t(std::clamp(end, off_t(0), kMostBytes)), '\0');
+  const ssize_t read = ::pread(said, text.data(), text.size(), std::max(off_t(0), end - kMostBytes));
+  text.resize(size_t(std::max(read, ssize_t(0))));
+  std::vector<std::string> lines;
+  for (const std::string_view line : splitText(text, '\n')) {
+    if (line.find_first_not_of(" \r\t") != line.npos) lines.emplace_back(line);
+  }
+  return joined(std::span(lines).last(std::min(lines.size(), kMostLines)), "; ");
+}
+
+/// Ends the process at once, if it still runs, and removes what it has written.
+void drop(Video& video) {
+  closeFile(video.frames);
+  closeFile(video.said);
+  if (video.encoder > 0) {
+    ::kill(video.encoder, SIGKILL);
+    while (::waitpid(video.encoder, nullptr, 0) < 0 && errno == EINTR) {
+    }
+    video.encoder = -1;
+  }
+  if (!video.part.empty()) ::unlink(video.part.c_str());
+  video.part.clear();
+}
+
+bool isGivenUp() { return interrupts() > 1; }
+
+[[noreturn]] void fail(Video& video, const std::string& reason) {
+  drop(video);
+  throw RenderError("cannot write " + video.file.string() + ": " + reason);
+}
+
+/// Waits until the encoder has ended by itself, and throws unless all went well.
+void awaitEncoder(Video& video) {
+  constexpr useconds_t kStep = 2000;  // microseconds
+  closeFile(video.frames);
+  int status = 0;
+  pid_t ended = 0;
+  while (ended == 0 || (ended < 0 && errno == EINTR)) {
+    if (isGivenUp()) fail(video, "interrupted, nothing is written");
+    ended = ::waitpid(video.encoder, &status, WNOHANG);
+    if (ended == 0) ::usleep(kStep);
+  }
+  video.encoder = -1;
+  if (status == 0) return;
+  const std::string words = lastWords(video.said);
+  fail(video,
+       std::string(kEncoder) +
+           (WIFSIGNALED(status) ? " was ended by a signal (" + std::string(::strsignal(WTERMSIG(status)))
+                                : " ended with status " + std::to_string(WEXITSTATUS(status))) +
+           (WIFSIGNALED(status) ? ")" : "") + (words.empty() ? "" : ": " + words));
+}
+
+void writeFrame(Video& video, const std::vector<uint8_t>& bytes) {
+  for (size_t written = 0; written < bytes.size();) {
+    const ssize_t count = ::write(video.frames, bytes.data() + written, bytes.size() - written);
+    if (count >= 0) {
+      written += size_t(count);
+    } else if (errno == EINTR) {
+      if (isGivenUp()) fail(video, "interrupted, nothing is written");
+    } else {
+      const int code = errno;  // most likely nobody reads the pipe
+      awaitEncoder(video);
+      fail(video, std::string(kEncoder) + " takes no more frames: " + systemReason(code));
+    }
+  }
+  ++video.count;
+}
+
+std::unique_ptr<Video> start(const std::filesystem::path& file, glm::ivec2 size, double framesPerSecond,
+                             bool isTrial) {
+  auto video = std::make_unique<Video>();
+  video->file = file;
+  video->format = videoFormatOf(file);
+  video->size = size;
+  if (!isTrial) video->part = partOf(file);
+  const PixelForm& pixels = video->format->pixels;
+  std::vector<std::string> words = {kEncoder,
+                                    "-hide_banner",
+                                    "-loglevel",
+                                    "error",
+                                    "-xerror",
+                                    "-y",
+                                    "-f",
+                                    "rawvideo",
+                                    "-pixel_format",
+                                    pixels.alpha ? "rgba64le" : "rgb24",
+                                    "-video_size",
+                                    std::to_string(size.x) + "x" + std::to_string(size.y),
+                                    "-framerate",
+                                    exactText(framesPerSecond),
+                                    "-i",
+                                    "pipe:0"};
+  const auto add = [&](const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+  };
+  add(encodingOf(*video->format));
+  add(isTrial ? std::vector<std::string>{"-f", "null"} : containerOf(*video->format));
+  // Without the protocol, a name with a colon would name another one.
+  words.push_back("file:" + (isTrial ? "/dev/null" : video->part.string()));
+  int pipe[2] = {-1, -1};
+  video->said = ::memfd_create("messages of the encoder", MFD_CLOEXEC);
+  if (video->said < 0 || ::pipe2(pipe, O_CLOEXEC) != 0) fail(*video, systemReason(errno));
+  video->frames = pipe[1];
+  const int error = spawnProcess(
+      kEncoder, std::move(words),
+      {{STDIN_FILENO, pipe[0]}, {STDOUT_FILENO, kNoFile}, {STDERR_FILENO, video->said}}, video->encoder);
+  if (error != 0) video->encoder = -1;
+  ::close(pipe[0]);
+  if (error == ENOENT)
+    throw UsageError("--output " + file.string() + ": the program ffmpeg makes videos, and PATH has none " +
+                     "(Debian's package ffmpeg); #### in the name of a .png makes numbered pictures");
+  if (error != 0) fail(*video, std::string(kEncoder) + " cannot be started: " + systemReason(error));
+  return video;
+}
+
+}  // namespace
+
+Video::~Video() { drop(*this); }
+
+void checkVideo(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw RenderError("cannot write " + file.string() + ": it is no file that a video could replace");
+  constexpr int kSide = 64;
+  const auto trial = start(file, {kSide, kSide}, 1.0, true);
+  const PixelForm& pixels = trial->format->pixels;
+  const int bytes = pixels.bits / 8 * (pixels.alpha ? 4 : 3);
+  writeFrame(*trial, std::vector<uint8_t>(size_t(kSide * kSide * bytes)));
+  awaitEncoder(*trial);
+}
+
+std::unique_ptr<Video> startVideo(const std::filesystem::path& file, glm::ivec2 size,
+                                  double framesPerSecond) {
+  return start(file, size, framesPerSecond, false);
+}
+
+void addFrame(Video& video, const Image& display) {
+  if (glm::ivec2(display.width, display.height) != video.size)
+    fail(video, "its pictures differ in size; --resolution gives all of them one");
+  writeFrame(video, pixelsOf(display, video.format->pixels));
+}
+
+void finishVideo(Video& video) {
+  awaitEncoder(video);
+  video.part.clear();
+  takePart(video.file);
+}
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "gltf/edit/factors.h"
 #include "image/channels.h"
 #include "scene/studio.h"
-#include "session/file_light.h"
+#include "session/environment.h"
 #include "session/say.h"
 #include "view/camera_controller.h"
 #include "view/files.h"

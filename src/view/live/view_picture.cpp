@@ -8,7 +8,7 @@
 
 #include "gl/program.h"
 #include "image/denoise/oidn.h"
-#include "render/noisy_image.h"
+#include "render/denoise.h"
 #include "session/picture/draw_samples.h"
 
 namespace fragtrace {

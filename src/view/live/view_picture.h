@@ -10,9 +10,9 @@
 #include <optional>
 
 #include "gl/gl.h"
-#include "image/denoise/oidn_library.h"
+#include "image/denoise/oidn.h"
 #include "render/denoise.h"
-#include "render/seen_picture.h"
+#include "render/picture_passes.h"
 #include "session/tracer.h"
 #include "view/exchange.h"
 

@@ -4,8 +4,7 @@
 #include <algorithm>
 
 #include "base/errors.h"
-#include "base/thread_name.h"
-#include "gl/debug_log.h"
+#include "base/parallel.h"
 #include "gl/gl.h"
 #include "options/option_row.h"
 #include "pack/textures/pack_textures.h"

@@ -6,12 +6,11 @@
 
 #include "base/timeline.h"
 #include "base/vectors.h"
-#include "bvh/pick.h"
+#include "bvh/exact_tracer.h"
 #include "gl/driver_choice.h"
 #include "gltf/edit/changed_file.h"
 #include "gltf/edit/factors.h"
 #include "session/environment.h"
-#include "session/file_light.h"
 #include "session/outputs.h"
 #include "session/picture/picture_file.h"
 #include "view/shown_text.h"

@@ -8,8 +8,8 @@
 #include <memory>
 
 #include "base/errors.h"
-#include "bvh/silhouette.h"
-#include "gl/debug_log.h"
+#include "bvh/outlines.h"
+#include "gl/gl.h"
 #include "options/option_row.h"
 #include "options/view_options.h"
 #include "session/session.h"

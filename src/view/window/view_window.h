@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "gl/debug_log.h"
+#include "gl/gl.h"
 #include "view/history.h"
 #include "view/window.h"
 #include "view/window/display.h"

@@ -12,7 +12,7 @@
 #include "image/image.h"
 #include "options/command_text.h"
 #include "options/option_row.h"
-#include "scene/up_axis.h"
+#include "scene/camera.h"
 #include "view/files.h"
 #include "view/shown_text.h"
 #include "view/view_state.h"

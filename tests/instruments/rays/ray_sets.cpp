@@ -6,7 +6,7 @@
 #include <glm/gtc/constants.hpp>
 #include <random>
 
-#include "scene/projection.h"
+#include "scene/camera.h"
 
 namespace fragtrace {
 

@@ -7,8 +7,7 @@
 
 #include "base/text.h"
 #include "bvh/build.h"
-#include "bvh/large_first.h"
-#include "bvh/long_triangles.h"
+#include "bvh/scene_tree.h"
 #include "gl/driver_choice.h"
 #include "pack/literals.h"
 #include "pack/pack_tree.h"

@@ -5,7 +5,6 @@
 #include "bench/report/scratch_folder.h"
 #include "bvh/bvh.h"
 #include "gl/driver_choice.h"
-#include "gl/schedule.h"
 #include "gltf/gltf.h"
 #include "pack/literals.h"
 #include "pack/pack_tree.h"

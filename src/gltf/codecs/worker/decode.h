@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-// The worker's module for compressed geometry. Its input is a request and the encoded bytes, its output the
-// decoded bytes.
 #pragma once
 
 #include <array>
@@ -8,6 +6,9 @@
 #include <span>
 
 namespace fragtrace {
+
+// The worker's module for compressed geometry. Its input is a request and the encoded bytes, its output the
+// decoded bytes.
 
 enum class Codec : uint32_t {
   MeshoptVertices,   ///< EXT_ and KHR_meshopt_compression, mode ATTRIBUTES
