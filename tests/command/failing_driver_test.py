@@ -23,15 +23,20 @@ class Failing(Case):
     scene = "sphere-textured"  # with a tree, textures and several lights
     options = ("--quiet",)
     samples = 2
+    noisy = None  # a picture with the filter's layers, which is filtered instead
+
+    def words(self):
+        if self.noisy:
+            return ["denoise", self.noisy, "-o", self.path, "--denoise", "variance", "--quiet"]
+        return ["render", SCENES / f"{self.scene}.gltf", "-o", self.path, "--resolution", "16,16", "--spp", str(self.samples), *self.options]
 
     def drawn(self, **faults):
-        """`render` over a file that is there."""
+        """A command over a file that is there."""
         self.path = self.folder / "picture.pfm"
         self.path.write_bytes(OLD)
         settings = {f"FRAGTRACE_{name.upper()}": str(value) for name, value in faults.items()}
         paths = ":".join(filter(None, [str(STAND_IN), os.environ.get("LD_LIBRARY_PATH")]))
-        return run("render", SCENES / f"{self.scene}.gltf", "-o", self.path, "--resolution", "16,16", "--spp", str(self.samples), *self.options,
-                   "--rendering-backend", "egl", timeout=60,
+        return run(*self.words(), "--rendering-backend", "egl", timeout=60,
                    env={**os.environ, **settings, "LD_LIBRARY_PATH": paths, "FRAGTRACE_REAL_EGL": real_egl()})
 
     def calls(self, kind):
@@ -67,7 +72,7 @@ class Failing(Case):
         if kind != "build":  # the message of a failed build also prints the driver's log
             self.assertEqual(len(told(result.stderr)), 1, result.stderr)
         self.assertEqual(written, OLD)
-        self.assertEqual(set(self.folder.iterdir()) - {self.folder / "calls"}, {self.path})
+        self.assertEqual(set(self.folder.iterdir()) - {self.folder / "calls", self.noisy}, {self.path})
 
 
 class FailingDriver(Failing):
@@ -80,18 +85,32 @@ class FailingDriver(Failing):
     def test_shaders_that_are_not_built_are_seen(self):
         self.fail_each("build", 1)
 
+    def keep_noisy(self):
+        """`denoise` filters where it reads, so its calls have an order; `render` has a thread for the filter."""
+        noisy = self.folder / "noisy.exr"
+        self.renders(SCENES / "sphere-textured.gltf", "-o", noisy, "--resolution", "16,16", "--spp", 2, "--quiet", "--aov", "denoising,samples,variance")
+        self.noisy = noisy
+
     def test_a_filter_that_fails_is_seen(self):
-        self.options = ("--quiet", "--denoise", "variance")
+        self.keep_noisy()
         self.fail_each("memory", 3, ("glNamedFramebufferTexture", "glNamedFramebufferDrawBuffers", "glUniform1i", "glUniform2i"))
 
     def test_programs_of_passes_are_started_before_one_is_waited_for(self):
         """So that drivers that compile in threads of their own (GL_KHR_parallel_shader_compile) do so at once."""
-        self.options = ("--quiet", "--denoise", "variance")
+        self.keep_noisy()
         calls = self.calls("memory")
         asks = "".join({"glLinkProgram": "l", "glGetProgramiv": "?", "glGetShaderiv": "?"}.get(name, "") for name in calls)
         self.assertIn("llllll??????", asks)  # those of the filter
         self.assertEqual(calls.count("glMaxShaderCompilerThreadsKHR"), 1)
         self.assertLess(calls.index("glMaxShaderCompilerThreadsKHR"), calls.index("glCompileShader"))
+
+    def test_without_a_second_context_the_filter_takes_the_first(self):
+        self.options = ("--denoise", "variance", "--verbose")
+        self.drawn()
+        right = self.path.read_bytes()
+        result = self.drawn(fail_kind="second")
+        self.assertEqual((result.returncode, self.path.read_bytes()), (0, right))
+        self.assertIn("the filter has no thread: no second context", result.stderr)
 
     def test_light_paths_that_fail_are_seen(self):
         self.scene = "caustics"

@@ -10,6 +10,7 @@
 //                        small, huge: none fails, and the driver says so of its limits
 //                        nan: none fails, but textures of floats that are read hold NaN
 //                        stall: none fails, but fences take twelve seconds from the first look at one on
+//                        second: there is one context, and no other
 //   FRAGTRACE_FAIL_NAME  a function that does nothing and gives no error, as often as it is called
 //   FRAGTRACE_FAIL_WHEN  a file: once it is there it is removed, and the context is lost
 //   FRAGTRACE_FAIL_AGAIN after so many calls the context that took a lost one's place is lost, too; once
@@ -18,6 +19,7 @@
 #include <dlfcn.h>
 #include <glad/gl.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -278,7 +280,12 @@ EGLContext eglCreateContext(EGLDisplay display, EGLConfig config, EGLContext sha
     if (f.lost) f.untilLost = std::exchange(f.again, 0);
     f.lost = false;
   }
-  return realEgl<decltype(&eglCreateContext)>("eglCreateContext")(display, config, shared, wishes);
+  static std::atomic<bool> isSecond = false;
+  if (isSecond && isKind("second")) return EGL_NO_CONTEXT;
+  const EGLContext made =
+      realEgl<decltype(&eglCreateContext)>("eglCreateContext")(display, config, shared, wishes);
+  isSecond = isSecond || made != EGL_NO_CONTEXT;
+  return made;
 }
 
 EGLBoolean eglInitialize(EGLDisplay display, EGLint* major, EGLint* minor) {
