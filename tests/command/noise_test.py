@@ -349,7 +349,8 @@ class Quality(Case):
 
 class TimeLeft(Case):
     def test_a_draft_that_its_limit_ends_was_near_its_end(self):
-        said = run("render", BOX, "-o", self.folder / "x.png", "--resolution", "600,400", "--quality", "draft", "--progress", "json").stderr
+        # Large enough for a line each 100 ms to be near the end.
+        said = run("render", BOX, "-o", self.folder / "x.png", "--resolution", "1200,800", "--quality", "draft", "--progress", "json").stderr
         told = [event["fraction"] for event in map(json.loads, said.splitlines()) if event.get("phase") == "rendering"]
         self.assertGreater(max(told), 0.75)
 

@@ -170,13 +170,13 @@ void sayWhatWentWrong(const RenderOptions& options, const FilmTotals& film, cons
 
 DrawingPlan planDrawing(const PictureJob& job, Device& device, Statistics& stats) {
   PhaseTimer timer("first draw");
-  startFilter(job.options, device);
   lightGroupsOf(job.options, job.loaded.scene);  // a wrong name is found before anything is drawn
   for (const std::string& line : sharedGroups(job.options, job.loaded.scene)) say(job.options, line);
   std::vector<Region> parts = partsOf(job.options, job.loaded);
   Film film(parts.front().size);
   const View view = viewOf(job.loaded, parts.front());
   std::vector<double> layerSeconds = measureAovs(job, film, view, stats);
+  startFilter(job.options, device);  // not while layers are timed
   stats.parts = int(parts.size());
   stats.compileMs += useOrCompile(*job.tracer.renderer, job.tracer.variant, film, view);
   stats.phases.push_back(timer.end());
