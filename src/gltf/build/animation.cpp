@@ -219,13 +219,13 @@ struct NodeMember {
 };
 
 std::optional<NodeMember> nodeMemberAt(std::string_view pointer) {
-  constexpr std::string_view kNodes = "/nodes/";
-  if (!pointer.starts_with(kNodes)) return std::nullopt;
+  if (!pointer.starts_with("/nodes/")) return std::nullopt;
+  cutPart(pointer);
+  const std::string_view index = cutPart(pointer);
   NodeMember found{};
-  const char* const begin = pointer.data() + kNodes.size();
-  const auto [end, error] = std::from_chars(begin, pointer.data() + pointer.size(), found.node);
-  if (error != std::errc() || end == pointer.data() + pointer.size() || *end != '/') return std::nullopt;
-  found.member = pointer.substr(size_t(end + 1 - pointer.data()));
+  if (std::from_chars(index.data(), index.data() + index.size(), found.node).ec != std::errc())
+    return std::nullopt;
+  found.member = pointer.substr(std::min<size_t>(pointer.size(), 1));
   return found;
 }
 
