@@ -244,7 +244,7 @@ float survivalOf(Path p, float most) {
 /// The prefix of a path that a surface has scattered; the integrator's.
 int prefixBehind(Path p, Surface s, float pdf, bool straight);
 
-/// Sets where the path goes on from the surface. weight multiplies the throughput, and zero ends the path.
+/// Sets where the path continues from the surface. `weight` multiplies the throughput, and zero ends the path.
 Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool transmitted, SurfaceMaterial m) {
   p.throughput *= weight;
   bool deltaGlass = atDeltaGlass(m, pdf);

@@ -264,7 +264,6 @@ void FilterThread::run(const ShaderSource& source, const std::string& backend) {
   nameThread("filter");
   try {
     std::optional<TimelineSpan> span(std::in_place, "prepare the filter");
-    const double start = steadyMilliseconds();
     std::string tried;
     const auto context = backend == "osmesa" ? makeOsMesaContext(tried) : makeEglContext(tried);
     if (!context) throw RenderError("no second context: " + tried);
@@ -274,7 +273,7 @@ void FilterThread::run(const ShaderSource& source, const std::string& backend) {
     // Drivers finish programs when they are drawn.
     filter.filtered(blackPicture(), passes);
     span.reset();
-    made_.set_value(steadyMilliseconds() - start);
+    made_.set_value();
     for (std::unique_lock lock(mutex_);;) {
       changed_.wait(lock, [&] { return ends_ || task_; });
       if (ends_) return;

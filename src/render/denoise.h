@@ -85,11 +85,10 @@ class FilterThread {
   FilterThread& operator=(const FilterThread&) = delete;
   ~FilterThread();
 
-  /// Waits for the programs, and returns the milliseconds that they took. Throws RenderError where they
-  /// cannot be had.
-  double ready() { return ready_.get(); }
+  /// Waits for the programs. Throws RenderError where they cannot be had.
+  void awaitPrograms() { ready_.get(); }
 
-  /// The same as VarianceFilter::filtered(), once ready() has returned. One call at a time.
+  /// The same as VarianceFilter::filtered(), once awaitPrograms() has returned. One call at a time.
   Image filtered(const Image& noisy);
 
   /// What the driver has said since the last call.
@@ -99,11 +98,11 @@ class FilterThread {
   using Task = std::packaged_task<Image(VarianceFilter&, PicturePasses&, DebugLog&)>;
   void run(const ShaderSource& source, const std::string& backend);
 
-  std::promise<double> made_;
-  std::shared_future<double> ready_ = made_.get_future().share();
-  std::mutex mutex_;
+  std::promise<void> made_;
+  std::shared_future<void> ready_ = made_.get_future().share();
+  std::mutex mutex_;  ///< of the next three
   std::condition_variable changed_;
-  bool ends_ = false;         ///< under the mutex, as
+  bool ends_ = false;
   std::optional<Task> task_;  ///< what waits for the thread
   std::vector<std::string> messages_;
   std::thread thread_;  ///< the last, which uses all others

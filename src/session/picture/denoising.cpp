@@ -119,16 +119,17 @@ void startFilter(const RenderOptions& options, Device& device) {
 
 PictureFilter makeFilter(const RenderOptions& options, const std::optional<OidnLibrary>& oidn,
                          FilterThread* thread) {
+  const double start = steadyMilliseconds();
   if (!oidn && thread != nullptr) {
     try {
-      return {std::string(kVarianceFilter), thread->ready(),
+      thread->awaitPrograms();
+      return {std::string(kVarianceFilter), steadyMilliseconds() - start,
               [thread](const Image& picture) { return thread->filtered(picture); }};
     } catch (const RenderError& error) {
       if (options.output.verbose) say(options, std::string("the filter has no thread: ") + error.what());
     }
   }
   if (!oidn) {
-    const double start = steadyMilliseconds();
     const ShaderSource source = shaderSource(options.device.shaderFolder);
     const auto filter = std::make_shared<VarianceFilter>(source);
     const auto passes = std::make_shared<PicturePasses>(source);

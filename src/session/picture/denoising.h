@@ -32,7 +32,7 @@ RenderOptions withGuides(const RenderOptions& options);
 /// A filter that is ready, with its programs in the current context.
 struct PictureFilter {
   std::string name;        ///< name and version
-  double compileMs = 0.0;  ///< time to build its programs
+  double compileMs = 0.0;  ///< time that was waited for its programs
   /// R, G and B of a picture with all layers that the filter needs; nothing if it was interrupted. Throws
   /// RenderError.
   std::function<std::optional<Image>(const Image&)> apply;
