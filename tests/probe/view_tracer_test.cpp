@@ -2,6 +2,7 @@
 // The viewer's tracing thread: which pictures it gives the window, and when.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -84,7 +85,7 @@ TEST_F(Viewed, BothSidesOfAPlaybackShowTheSameMoment) {
   // The first waits for the driver's compiler, on a busy machine for seconds.
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   for (int turn = 0; shown.size() < 6 && std::chrono::steady_clock::now() < end && !HasFailure(); ++turn) {
-    side.selection.animationTime = 1e-3 * (turn % 2000);
+    side.selection.animationTime = 0.05 * (turn % 40);  // moves by a quarter of a pixel of a coarse picture
     ask({side, side}, true);
     const Results results = take();
     if (results.pictures.empty()) continue;
@@ -94,7 +95,9 @@ TEST_F(Viewed, BothSidesOfAPlaybackShowTheSameMoment) {
     shown.push_back(results.pictures[0].image);
   }
   ASSERT_EQ(shown.size(), 6u);
-  EXPECT_NE(shown.front().values, shown.back().values) << "nothing moves";
+  EXPECT_TRUE(std::ranges::any_of(shown, [&](const Image& image) {
+    return image.values != shown.front().values;
+  })) << "nothing moves";
 }
 
 TEST_F(Viewed, ARestingPictureBecomesSharpWhenItsEdgesAreSmooth) {

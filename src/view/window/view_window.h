@@ -39,7 +39,8 @@ class Window {
   // window_loop.cpp
   void open();
   void wait();
-  void take();
+  /// Takes what the tracing thread and a dialog have given; false: nothing that is new.
+  bool take();
   void take(ViewedScene scene);
   void take(const PosedScene& posed);
   void take(PickAnswer answer);

@@ -130,7 +130,10 @@ void Window::run() {
   while (!closes() && !start_.interrupted()) {
     wait();
     const double begin = glfwGetTime();
-    take();
+    const bool came = take();
+    if (!came && frames_ == 0 && !input_.active() && !state_.playback.playing && !requestedMoving_ &&
+        !statusWaits_)
+      continue;
     if (frames_ > 0 && !iconified()) draw();
     play(state_, glfwGetTime());
     const bool held = input_.active() || Interface::holding();
@@ -173,14 +176,17 @@ void Window::notify(const std::string& message) {
   frames_ = std::max(frames_, kFramesAfterEvent);
 }
 
-void Window::take() {
+bool Window::take() {
   Results results = exchange_.take();
+  const bool came =
+      !results.queue.empty() || !results.pictures.empty() || results.status.request != report_.seen;
   throwFailure(results);
   for (Result& result : results.queue) std::visit([this](auto& one) { take(std::move(one)); }, result);
   takePictures(std::move(results.pictures));
   if (const std::string errors = takeGlfwErrors(); !errors.empty()) notify("window: " + errors);
   takeStatus(results.status);
   takeFile();
+  return came || dialog_.open();
 }
 
 void Window::take(const std::string& message) { notify(withControls(message)); }
