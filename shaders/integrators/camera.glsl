@@ -128,6 +128,10 @@ bool sharesGlass(Path p) {
   return casterCount > 0 && glassAlone && p.bounce < kSharedScatterings;
 }
 
+/// More lobes than a diffuse and a specular one. One loop evaluates them for both directions of a surface, since
+/// compilers inline each call. Fewer are sooner evaluated by two calls.
+const bool kManyLobes = kTransmission || kClearcoat || kSheen || kDiffuseTransmission;
+
 /// The path-traced material: one light sample, and one direction drawn from the BSDF.
 Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   if (kDispersion) {
@@ -147,13 +151,15 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   BsdfSample next = drawBsdf(at.b, at.wo, choice, uv.x, uv.y);
   Guiding g;
   if (kGuided) g = guided(p, s, at, next, uv);
-  // One loop evaluates the BSDF for both directions: compilers inline each call, with all of the layers.
   BsdfValue towards = BsdfValue(vec3(0.0), 0.0);
   BsdfValue along = towards;
-  for (int i = maxComponent(light.irradiance) > 0.0 ? 0 : 1; i < (next.pdf < 0.0 ? 2 : 1); ++i) {
+  bool lit = maxComponent(light.irradiance) > 0.0;
+  for (int i = lit ? 0 : 1; kManyLobes && i < (next.pdf < 0.0 ? 2 : 1); ++i) {
     along = evaluateBsdf(at.b, at.wo, i == 0 ? wi : next.wi);
     if (i == 0) towards = along;
   }
+  if (!kManyLobes && lightSampleCount() > 0) towards = evaluateBsdf(at.b, at.wo, wi);
+  if (!kManyLobes && next.pdf < 0.0) along = evaluateBsdf(at.b, at.wo, next.wi);
   if (lightSampleCount() > 0) p = sampleLd(p, s, at, light, wi, towards);
   if (next.pdf < 0.0) next = weighed(next, along);
   if (kGuided) next = weighedByBoth(p, s, next, g);
