@@ -34,6 +34,8 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "environment.glsl"
 #include "environment_light.glsl"
 #include "lights.glsl"
+#include "lights/light_tree.glsl"
+#include "lights/sample_light.glsl"
 #include "film_pixel.glsl"
 #include "film.glsl"
 // On camera paths 0 without guiding, and -1 without light paths.
@@ -52,6 +54,9 @@ layout(location = 0) uniform vec4 casters[kMostCasters];  // local space: middle
 #include "media/volume.glsl"
 #include "media/volume_block.glsl"
 #include "shutter/camera.glsl"
+#include "dimensions.glsl"
+#include "cones/cone.glsl"
+#include "media/medium.glsl"
 #include "path.glsl"
 #include "media/scatter.glsl"
 #include "reuse/candidates.glsl"

@@ -19,6 +19,7 @@
 #include "base/timeline.h"
 #include "cli/commands.h"
 #include "cli/program.h"
+#include "gl/program.h"
 #include "gltf/gltf.h"
 #include "image/files/process.h"
 #include "options/command_text.h"
@@ -96,6 +97,11 @@ Outcome drawAndWrite(const PictureJob& job, const std::vector<PictureLine>& boxe
   markMoment("picture");
   if (stats.complete) keeper.remove();
   if (!options.output.statsFile.empty()) replaceText(options.output.statsFile, statisticsText(stats));
+  if (!options.output.shaderText.empty()) {
+    const ShaderVariant& variant = job.tracer.variant;
+    replaceText(options.output.shaderText,
+                readableShader(shaderSource(options.device.shaderFolder), tracerEntry(variant), variant));
+  }
   sayWhatWasDone(options, destination.name, stats);
   return stats.complete ? Outcome::Complete : Outcome::Partial;
 }

@@ -72,6 +72,11 @@ GlProgram buildComputeProgram(const std::string& text) {
   return finished(link(std::move(shaders)));
 }
 
+const char* tracerEntry(const ShaderVariant& variant) {
+  if (variant.dispatch != Dispatch::Compute) return "entry/trace.frag";
+  return variant.wavefront ? "entry/wavefront.comp" : "entry/trace.comp";
+}
+
 std::string ProgramCache::textOf(const std::string& entry, const ShaderVariant& variant) {
   std::string text = assembleShader(source_, entry, variant);
   characters_ += text.size();
@@ -82,11 +87,10 @@ const GlProgram& ProgramCache::tracerProgram(const ShaderVariant& variant) {
   const auto found = tracers_.find(variant);
   if (found != tracers_.end()) return found->second;
   const TimelineSpan span(variant.lightPaths ? "compile light paths" : "compile " + variantName(variant));
-  const char* compute = variant.wavefront ? "entry/wavefront.comp" : "entry/trace.comp";
-  GlProgram program =
-      variant.dispatch == Dispatch::Compute
-          ? buildComputeProgram(textOf(compute, variant))
-          : buildProgram(textOf("entry/fullscreen.vert", variant), textOf("entry/trace.frag", variant));
+  const std::string text = textOf(tracerEntry(variant), variant);
+  GlProgram program = variant.dispatch == Dispatch::Compute
+                          ? buildComputeProgram(text)
+                          : buildProgram(textOf("entry/fullscreen.vert", variant), text);
   checkGl("building a shader program");
   return tracers_.emplace(variant, std::move(program)).first->second;
 }

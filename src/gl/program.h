@@ -23,6 +23,9 @@ GlProgram finished(StartedProgram started);
 GlProgram buildProgram(const std::string& vertexText, const std::string& fragmentText);
 GlProgram buildComputeProgram(const std::string& text);
 
+/// The file of shaders/entry that a variant's tracer begins with.
+const char* tracerEntry(const ShaderVariant& variant);
+
 /// Programs by variant, built on first use and kept.
 class ProgramCache {
  public:

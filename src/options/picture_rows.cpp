@@ -500,6 +500,12 @@ std::vector<OptionRow> deviceRows() {
       word("--shader-folder", "read the shaders from this folder instead of the built-in ones",
            FRAGTRACE_MEMBER(device.shaderFolder),
            {.effect = Effect::Method, .renewal = Renewal::Program, .kept = true}, "FOLDER"),
+      word("--shader-text",
+           "write the shader that traces the picture to this file, for reading: with its comments, and "
+           "without "
+           "what this scene does not need",
+           FRAGTRACE_MEMBER(output.shaderText), {.effect = Effect::Report, .copied = false, .kept = true},
+           "FILE"),
   };
 }
 

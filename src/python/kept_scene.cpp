@@ -236,6 +236,8 @@ RenderOptions optionsOfWords(std::vector<std::string> words) {
     throw UsageError("--tree-level: is drawn over files, so needs the command `fragtrace render`");
   if (!options.output.traceFile.empty())
     throw UsageError("--trace-file: needs the command `fragtrace render`");
+  if (!options.output.shaderText.empty())
+    throw UsageError("--shader-text: needs the command `fragtrace render`");
   if (!options.output.statsFile.empty()) throw UsageError("--stats: the picture has its statistics with it");
   return options;
 }

@@ -22,6 +22,9 @@ constexpr std::array<std::string_view, layout::kSceneBufferCount> kSceneBuffers{
     "Nodes",  "Leaves",   "Faces",  "Normals",     "Texcoords",           "Tangents", "Colors", "Materials",
     "Bricks", "Emitters", "Lights", "Environment", "EnvironmentInversion"};
 
+/// The first line of texts that are no files of shaders/.
+constexpr const char* kMade = "// Made by src/shader/assemble.cpp.\n";
+
 /// "Nodes": "nodesBuffer".
 std::string variableOf(std::string_view name) {
   std::string variable = std::string(name) + "Buffer";
@@ -71,14 +74,14 @@ std::string texelReadOfEnvironment(const ShaderVariant& variant) {
 
 /// The scene buffers and their functions.
 std::string readsText(const ShaderVariant& variant) {
-  std::string text;
+  std::string text = kMade;
   for (const std::string_view name : kSceneBuffers) text += readOf(name, variant.reads, variant.countsWork);
   return text + texelReadOfEnvironment(variant);
 }
 
 /// The buffers of texels, readTexelWord(), and srgbValue() (shaders/tune/texels_words.glsl).
 std::string texelWordsText(int buffers, bool table) {
-  std::string text;
+  std::string text = kMade;
   std::string value;
   for (int i = 0; i < buffers; ++i) {
     const std::string number = std::to_string(i);
@@ -101,6 +104,7 @@ std::string texelWordsText(int buffers, bool table) {
 std::string pathStatesText(int imageUnit) {
   // Neither is `restrict`: image and buffer are the same memory.
   std::string text =
+      std::string(kMade) +
       "layout(std430, binding = kPathStatesBinding) buffer PathStatesBlock { uvec4 pathStates[]; };\n";
   std::string value = "pathStates[index]";
   if (imageUnit >= 0) {
@@ -238,16 +242,25 @@ void appendConstants(std::string& text, const ShaderVariant& variant) {
   number("kCameraRays", variant.cameraRays);
 }
 
-}  // namespace
-
-std::string assembleShader(const ShaderSource& source, const std::string& entry,
-                           const ShaderVariant& variant) {
+std::string wholeText(const ShaderSource& source, const std::string& entry, const ShaderVariant& variant) {
   Assembly assembly{source, variant, {}, {}};
   assembly.text += "#version 450 core\n";
   if (source.namedLines) assembly.text += "#extension GL_ARB_shading_language_include : enable\n";
   appendConstants(assembly.text, variant);
   assembly.append(entry, "");
-  return liveText(assembly.text);
+  return std::move(assembly.text);
+}
+
+}  // namespace
+
+std::string assembleShader(const ShaderSource& source, const std::string& entry,
+                           const ShaderVariant& variant) {
+  return liveText(wholeText(source, entry, variant));
+}
+
+std::string readableShader(ShaderSource source, const std::string& entry, const ShaderVariant& variant) {
+  source.namedLines = true;
+  return readableText(wholeText(source, entry, variant));
 }
 
 }  // namespace fragtrace

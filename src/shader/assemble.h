@@ -34,4 +34,10 @@ std::string assembleShader(const ShaderSource& source, const std::string& entry,
 /// them a fifth longer to compile. Text that this function does not understand stays as it is.
 std::string liveText(const std::string& text);
 
+/// The same for people: comments stay, lines do not keep their numbers.
+std::string readableText(const std::string& text);
+
+/// assembleShader()'s text for people. It compiles to the same program.
+std::string readableShader(ShaderSource source, const std::string& entry, const ShaderVariant& variant);
+
 }  // namespace fragtrace

@@ -110,6 +110,31 @@ std::string textOf(std::string_view text, const std::vector<Token>& tokens) {
   return left + '\n';
 }
 
+std::string readableTextOf(std::string_view text, const std::vector<Token>& tokens) {
+  std::string left;
+  const char* at = text.data();
+  std::string_view indent;  // of the line whose first tokens are taken out
+  bool live = true;         // the token before
+  for (const Token& token : tokens) {
+    const std::string_view gap(at, size_t(token.text.data() - at));
+    const size_t end = std::min(gap.find('\n'), gap.size());  // of the line before
+    const bool begins = end < gap.size();                     // a line
+    if (begins) indent = gap.substr(gap.rfind('\n') + 1);
+    if (live && begins) left += gap.substr(0, end);
+    if (token.live) {
+      const bool first = !begins && (left.empty() || left.ends_with('\n'));
+      left += begins ? gap.substr(end) : first ? indent : gap;
+      left += token.text;
+    } else if (begins && !left.ends_with('\n')) {
+      left += '\n';
+    }
+    live = token.live;
+    at = token.text.data() + token.text.size();
+  }
+  for (size_t blank = 0; (blank = left.find("\n\n\n", blank)) != left.npos;) left.erase(blank, 1);
+  return left + '\n';
+}
+
 namespace {
 
 /// The values of `const bool`, `const int` and `const uint` at the top of a shader, as far as they are known.
@@ -267,8 +292,12 @@ class Settler {
     return i < tokens_.size() ? i + 1 : kNowhere;
   }
 
-  /// Leaves an empty statement.
-  void empty(TokenRange statement) {
+  /// Takes out a branch whose statement never runs. An empty one is left where the language needs one.
+  void dropBranch(size_t branch, TokenRange statement) {
+    drop({branch, statement.first});
+    size_t before = branch;
+    while (before > 0 && !tokens_[before - 1].live) --before;
+    if (before == 0 || isOneOf(before - 1, ";{}")) return drop(statement);
     const size_t last = statement.last - 1;
     const size_t first = is(last, "}") ? tokens_[last].partner : last;
     drop({statement.first, first});
@@ -286,14 +315,9 @@ class Settler {
     const bool otherwise = is(i, "if") && is(end, "else");
     const size_t last = otherwise ? endOfStatement(end + 1) : end;
     if (last == kNowhere) return;
+    if (!*holds && !otherwise) return dropBranch(i, {close + 1, end});
     drop({i, close + 1});
-    if (*holds) {
-      drop({end, last});
-    } else if (otherwise) {
-      drop({close + 1, end + 1});
-    } else {
-      empty({close + 1, end});
-    }
+    drop(*holds ? TokenRange{end, last} : TokenRange{close + 1, end + 1});
   }
 
   /// Drops what a ? b : c does not need, if the constants settle a. The choice stands alone, so the rest
@@ -419,12 +443,21 @@ void dropUnused(std::vector<Token>& tokens) {
 
 }  // namespace
 
-std::string liveText(const std::string& text) {
+namespace {
+
+std::string liveTextBy(std::string (*textOfTokens)(std::string_view, const std::vector<Token>&),
+                       const std::string& text) {
   std::vector<Token> tokens = tokensOf(text);
   if (tokens.empty()) return text;
   dropSettled(tokens, constantsOf(tokens));
   dropUnused(tokens);
-  return textOf(text, tokens);
+  return textOfTokens(text, tokens);
 }
+
+}  // namespace
+
+std::string liveText(const std::string& text) { return liveTextBy(textOf, text); }
+
+std::string readableText(const std::string& text) { return liveTextBy(readableTextOf, text); }
 
 }  // namespace fragtrace

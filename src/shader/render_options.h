@@ -332,6 +332,7 @@ struct OutputOptions {
   std::string format;  ///< format of standard output
   std::filesystem::path statsFile;
   std::filesystem::path traceFile;       ///< file of the timeline
+  std::filesystem::path shaderText;      ///< file of the tracer's text
   std::filesystem::path oidnLibrary;     ///< file of Open Image Denoise; none: it is looked for
   std::vector<Aov> aovs;                 ///< more layers of .exr files
   std::vector<std::string> lightGroups;  ///< names of the lights that have a layer each

@@ -33,7 +33,7 @@ std::string popLine(int i, int vectors) {
 }  // namespace
 
 std::string stackText(int vectors) {
-  std::string text = "struct Stack {\n";
+  std::string text = "// Made by src/shader/stack_text.cpp.\nstruct Stack {\n";
   for (int i = 0; i < vectors; ++i) text += "  uvec4 e" + std::to_string(i) + ";\n";
   text += "};\n";
   // An empty stack: popping it gives kEndGroup.

@@ -80,6 +80,17 @@ def times(point, matrix):
     return [value / result[3] for value in result[:3]]
 
 
+class ShaderTexts(Case):
+    def test_the_tracer_is_written_for_reading(self):
+        path = self.folder / "box.glsl"
+        self.renders(BOX, "-o", self.folder / "x.pfm", *SMALL, "--shader-text", path)
+        text = path.read_text()
+        self.assertIn('#line 1 "machine.glsl"', text)
+        self.assertIn("/// The path-traced material: one light sample", text)
+        self.assertNotIn("sheenLambda", text)  # the box has no sheen
+        self.fails(2, "render", BOX, "-o", self.folder / "y.pfm", *SMALL, "--stats", path, "--shader-text", path, says=["--shader-text"])
+
+
 class Timelines(Case):
     def test_a_timeline_of_threads_and_processes(self):
         """As Perfetto reads it: each span is whole, and within the life of the process."""

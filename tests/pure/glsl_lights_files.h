@@ -46,6 +46,8 @@ inline MovingTriangle movingTriangle(int /*slot*/, float /*time*/) { return {}; 
 #include "environment.glsl"
 #include "environment_light.glsl"
 #include "lights.glsl"
+#include "lights/light_tree.glsl"
+#include "lights/sample_light.glsl"
 #include "reuse/candidates.glsl"
 #include "reuse/reservoir.glsl"
 #include "caustics/aim.glsl"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "shader/assemble.h"
+#include "shader/live_text.h"
 #include "shader/variant.h"
 
 namespace fragtrace {
@@ -34,20 +35,22 @@ std::string mainOf(const std::string& body) {
 
 TEST(LiveText, BranchesThatConstantsSettle) {
   EXPECT_EQ(mainOf("if (kOn) a(); b();"), "a(); b();");
-  EXPECT_EQ(mainOf("if (kOff) a(); b();"), "; b();");
+  EXPECT_EQ(mainOf("if (kOff) a(); b();"), "b();");
   EXPECT_EQ(mainOf("if (kOff) { a(); } else { b(); }"), "{ b(); }");
   EXPECT_EQ(mainOf("if (kOn) { a(); } else if (x) b(); else c();"), "{ a(); }");
   EXPECT_EQ(mainOf("if (x) if (kOff) a(); else b();"), "if (x) b();");
   EXPECT_EQ(mainOf("if (x) if (kOff) { a(); } c();"), "if (x) { } c();");
-  EXPECT_EQ(mainOf("if (kOff) for (;;) { a(); } c();"), "{ } c();");
-  EXPECT_EQ(mainOf("while (kOff && x) { a(); }"), "{ }");
+  EXPECT_EQ(mainOf("if (kOff) for (;;) { a(); } c();"), "c();");
+  EXPECT_EQ(mainOf("if (x) { b(); } else if (kOff) a();"), "if (x) { b(); } else ;");
+  EXPECT_EQ(mainOf("for (;;) if (kOff) a();"), "for (;;);");
+  EXPECT_EQ(mainOf("while (kOff && x) { a(); }"), "");
   EXPECT_EQ(mainOf("while (kOn) { a(); }"), "while (kOn) { a(); }");
 }
 
 TEST(LiveText, ConditionsOfSeveralParts) {
-  EXPECT_EQ(mainOf("if (x && !kOn) a();"), ";");
+  EXPECT_EQ(mainOf("if (x && !kOn) a();"), "");
   EXPECT_EQ(mainOf("if (x || kOn) a();"), "a();");
-  EXPECT_EQ(mainOf("if (kOff || (kSize > 8 && kOn)) a();"), ";");
+  EXPECT_EQ(mainOf("if (kOff || (kSize > 8 && kOn)) a();"), "");
   EXPECT_EQ(mainOf("if (kSize == 8 && !(kOff || false)) a();"), "a();");
   EXPECT_EQ(mainOf("if (x && kOn) a();"), "if (x && kOn) a();");
 }
@@ -59,8 +62,8 @@ TEST(LiveText, SlotsOfTexturesAreBitsOfAConstant) {
         condition + ") a(); }");
   };
   EXPECT_TRUE(reads("readsSlot(kSlotA)").ends_with("{ a(); }"));
-  EXPECT_TRUE(reads("readsSlot(kSlotB)").ends_with("{ ; }"));
-  EXPECT_TRUE(reads("x && (readsSlot(kSlotB) || readsSlot(0u))").ends_with("{ ; }"));
+  EXPECT_TRUE(reads("readsSlot(kSlotB)").ends_with("{ }"));
+  EXPECT_TRUE(reads("x && (readsSlot(kSlotB) || readsSlot(0u))").ends_with("{ }"));
   EXPECT_TRUE(reads("readsSlot(slot)").ends_with("if (readsSlot(slot)) a(); }"));
 }
 
@@ -68,7 +71,7 @@ TEST(LiveText, WhatMayActInAConditionStays) {
   for (const char* body :
        {"if (f(x) && kOff) a();", "if (x++ > 1 || kOn) a();", "if ((x = y) > 1 && kOff) a();"})
     EXPECT_EQ(mainOf(body), body);
-  EXPECT_EQ(mainOf("if (kOff && f(x)) a();"), ";");
+  EXPECT_EQ(mainOf("if (kOff && f(x)) a();"), "");
 }
 
 TEST(LiveText, Choices) {
@@ -87,7 +90,7 @@ TEST(LiveText, FunctionsThatNothingCalls) {
   EXPECT_EQ(live("int f() { return 1; } int x = f(); void main() { }"),
             "int f() { return 1; } int x = f(); void main() { }");
   EXPECT_EQ(live("const bool k = false; void f() { } void main() { if (k) f(); }"),
-            "const bool k = false; void main() { ; }");
+            "const bool k = false; void main() { }");
 }
 
 TEST(LiveText, LinesKeepTheirNumbers) {
@@ -100,6 +103,24 @@ TEST(LiveText, LinesKeepTheirNumbers) {
   };
   for (const char* word : {"#line 9\n", "main", "wrong"}) EXPECT_EQ(lineOf(left, word), lineOf(text, word));
   EXPECT_EQ(left.find("f()"), std::string::npos);
+}
+
+TEST(LiveText, ForPeopleHasTheCommentsOnWhatIsLeft) {
+  EXPECT_EQ(
+      readableText(
+          "const bool kOff = false;  // one\n\n/// Not called.\nvoid f() {}\n\n/// Two\n/// lines.\nvoid "
+          "main() {\n  // Three.\n  if (kOff) f();  // never\n  if (!kOff) a();  // four\n}\n"),
+      "const bool kOff = false;  // one\n\n/// Two\n/// lines.\nvoid main() {\n  a();  // four\n}\n");
+  const auto names = [](const std::string& text) {
+    std::vector<std::string> found;
+    for (const Token& token : tokensOf(text))
+      if (token.text[0] != '#') found.emplace_back(token.text);
+    return found;
+  };
+  ShaderVariant variant;
+  variant.stages = stagesUpTo(Stage::Gi);
+  EXPECT_EQ(names(readableShader({}, "entry/trace.frag", variant)),
+            names(assembleShader({}, "entry/trace.frag", variant)));
 }
 
 TEST(LiveText, TextThatIsNotUnderstoodStaysAsItIs) {
