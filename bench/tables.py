@@ -11,8 +11,7 @@ whole:
   report.json      bench/report.py FRAGTRACE --rounds 3 --round-time 0.3 --json FILE
   aims.json        bench/peers/aims.py FRAGTRACE --assets DIR --json FILE
   aims-again.json  the same, parts that were measured again by a later program and replace those of aims.json
-  gpu-compilers.json            bench/gpu/compilers --json FILE
-  gpu-compilers-software.json   the same with --options "--tune software"
+  gpu-compilers.json  bench/gpu/compilers --json FILE
   light.json       bench/light_table.py FRAGTRACE --json FILE
   denoise/         bench/denoise_table.py FRAGTRACE --out FOLDER --filters variance,oidn
 """
@@ -70,8 +69,7 @@ TABLES = {"report": ("report.json", report.report_times),
           "report shapes": ("report.json", report.report_shapes),
           "aims": ("aims.json", aims_table),
           "light": ("light.json", light),
-         "gpu compilers": ("gpu-compilers.json", gpu_compilers),
-         "gpu compilers, software": ("gpu-compilers-software.json", gpu_compilers)}
+         "gpu compilers": ("gpu-compilers.json", gpu_compilers)}
 for one, whats in (("variance", ("relmse", "flip", "sooner", "baseline")), ("oidn", ("relmse", "flip", "sooner"))):
     TABLES.update({f"denoise {one} {what}": ("denoise", partial(denoise, one, what)) for what in whats})
 
