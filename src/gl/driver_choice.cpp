@@ -115,7 +115,7 @@ std::string whyMegakernel(const ShaderVariant& variant, const RenderOptions& opt
   if (has(variant.traits, Trait::MovingSurfaces)) return "surfaces move: its rays have no time";
   if (options.device.dispatch == Dispatch::Fragment) return "--dispatch fragment";
   if (options.device.schedule == Schedule::Wavefront) return "";
-  if (!work.software) return "a GPU: the wavefront has too few lanes for it";
+  if (!work.software) return "a GPU, where the megakernel is faster";
   const bool longPaths = has(variant.traits, Trait::Scattering);
   if (!longPaths && work.nodes < kSmallTree) return "a small tree";
   return work.paths < (longPaths ? kFewLongPaths : kFewPaths) ? "few paths" : "";
