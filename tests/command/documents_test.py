@@ -91,6 +91,45 @@ class Documents(Case):
             self.assertTrue(defined.search((root / file).read_text()), f"{file}: {name}")
 
 
+class Claims(Case):
+    """What documents say of numbers is what the code and the measurements say."""
+    ROOT = SCENES.parent
+
+    def test_constants_have_the_values_that_documents_give_them(self):
+        code = "\n".join(path.read_text() for folder in ("src", "shaders") for path in sorted((self.ROOT / folder).rglob("*"))
+                         if path.suffix in (".h", ".cpp", ".glsl"))
+        claims = 0
+        for page in sorted((self.ROOT / "docs").rglob("*.md")):
+            for name, said in re.findall(r"`(k[A-Z]\w*)` =\s+([\d.e^-]*\d)", page.read_text()):
+                values = [literal for literal in re.findall(rf"\b{name} ?[={{] ?([\w.+<: -]+)[;}},]", code)]
+                self.assertTrue(values, f"{page.name}: {name}: no such constant")
+                self.assertIn(self.value_of(said), [self.value_of(value) for value in values], f"{page.name}: {name} = {said}")
+                claims += 1
+        self.assertGreaterEqual(claims, 20)
+
+    @staticmethod
+    def value_of(literal):
+        """1 << 21, 2^21, 0x1p-4 and 32u as numbers; None for what is none of these."""
+        bare = re.sub(r"(?<=[\da-f.])[uf]$", "", literal.strip())
+        if shift := re.fullmatch(r"1u? << (\d+)", literal.strip()):
+            return 2.0 ** int(shift[1])
+        if power := re.fullmatch(r"2\^(-?\d+)", bare):
+            return 2.0 ** int(power[1])
+        try:
+            return float.fromhex(bare) if bare.startswith("0x") else float(bare)
+        except ValueError:
+            return None
+
+    def test_figures_of_the_readme_are_those_of_the_pages_that_it_cites(self):
+        readme = (self.ROOT / "README.md").read_text()
+        pages = " ".join((self.ROOT / page).read_text() for page in ("docs/measurements/peers.md", "docs/measurements/gpu.md"))
+        rows = [row for row in readme.splitlines() if row.startswith("|") and re.search(r"\d", row)]
+        for figure in re.findall(r"\d+\.\d+", " ".join(rows)):
+            self.assertTrue(re.search(rf"\b{re.escape(figure)}", pages), figure)
+        extensions = re.findall(r"^\| (?:KHR|EXT)_", (self.ROOT / "docs/gltf.md").read_text(), re.MULTILINE)
+        self.assertEqual(re.findall(r"(\d+) extensions of glTF", readme), [str(len(extensions))])
+
+
 class Tables(Case):
     """Tables of measurements: bench/tables.py makes them from docs/measurements/data."""
     ROOT = SCENES.parent
