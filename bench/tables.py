@@ -70,7 +70,7 @@ TABLES = {"report": ("report.json", report.report_times),
           "aims": ("aims.json", aims_table),
           "light": ("light.json", light),
          "gpu compilers": ("gpu-compilers.json", gpu_compilers)}
-for one, whats in (("variance", ("relmse", "flip", "sooner", "baseline")), ("oidn", ("relmse", "flip", "sooner"))):
+for one, whats in (("variance", ("relmse", "sooner", "baseline")), ("oidn", ("relmse", "sooner"))):
     TABLES.update({f"denoise {one} {what}": ("denoise", partial(denoise, one, what)) for what in whats})
 
 
