@@ -10,7 +10,7 @@ whole:
 
   report.json      bench/report.py FRAGTRACE --rounds 3 --round-time 0.3 --json FILE
   aims.json        bench/peers/aims.py FRAGTRACE --assets DIR --json FILE
-  aims-again*.json  the same, parts that were measured again later and replace those of aims.json
+  aims-again-N.json  the same, parts that were measured again later and replace those of aims.json
   gpu-compilers.json  bench/gpu/compilers --json FILE
   light.json       bench/light_table.py FRAGTRACE --json FILE
   denoise/         bench/denoise_table.py FRAGTRACE --out FOLDER --filters variance,oidn
@@ -40,10 +40,10 @@ def facts(results):
 
 
 def aims_table(path):
-    """With the parts of aims-again*.json in place of those of `path`, the last file's first."""
+    """With the parts of aims-again-*.json, in their order, in place of those of `path`."""
     results = json.loads(path.read_text(encoding="utf-8"))
     text = facts(results)
-    for again in sorted(path.parent.glob("aims-again*.json")):
+    for again in sorted(path.parent.glob("aims-again-*.json")):
         later = json.loads(again.read_text(encoding="utf-8"))
         results["parts"].update(later["parts"])
         text += ". Measured again: " + ", ".join(f"`{part}`" for part in later["parts"]) + f" ({facts(later)})"
