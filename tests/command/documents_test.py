@@ -74,6 +74,15 @@ class Documents(Case):
             self.assertEqual((len(faults), says in faults[0]), (1, True), faults)
         self.assertIn("src/new: has 1 files of 5 lines", "".join(check.budget_faults({**found, "src/new": (1, 5)}, budget)))
 
+    def test_names_and_switches_of_shaders_are_counted(self):
+        for name, text in (("shaders/a.glsl", "const int kSize = 4;  // kNot\nbool f() { return kOn && kOn; }\n"), ("src/shader/b.cpp", 'constant("kOn");\n')):
+            (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (self.folder / name).write_text(text)
+        check = script()
+        found = check.switches(self.folder, ["shaders/a.glsl", "src/shader/b.cpp"])
+        self.assertEqual(found, {"shaders/k*": (2, 2)})
+        self.assertIn("has 2 names and 2 uses of switches", "".join(check.budget_faults(found, "shaders/k* 1 10\n")))
+
     def test_a_file_that_does_not_belong_into_the_root_is_found(self):
         found = self.faults("# One\n", "-", "src/main.cpp", "docs/x.png")
         self.assertEqual(len(found), 1)
