@@ -130,11 +130,11 @@ Outcome drawScene(const RenderOptions& asked, const Destination& destination, De
 }
 
 std::string nameOf(const OutputOptions& output) {
-  return output.toStandardOutput ? "standard output" : output.file.string();
+  return output.toStandardOutput ? "standard output" : placeOf(output).string();
 }
 
 nlohmann::ordered_json eventContext(const RenderOptions& options) {
-  return {{"output", options.output.toStandardOutput ? "-" : options.output.file.string()}};
+  return {{"output", options.output.toStandardOutput ? "-" : placeOf(options.output).string()}};
 }
 
 namespace {

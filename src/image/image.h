@@ -163,8 +163,10 @@ bool isDisplayFormat(const std::filesystem::path& path);
 /// picture's values are written as they are (rounded to 8 bits for .png and .jpg, to 16 where asked);
 /// channels R, G, B and optionally A, and more for .exr (32-bit float, or 16-bit where asked). Colour is
 /// taken as unassociated for .png. Returns how many values were beyond the largest 16-bit float and became
-/// that. Throws RenderError naming the path and the reason.
-size_t writeImage(const std::filesystem::path& path, const Image& image, const Encoding& encoding = {});
+/// that. `path` only tells the format where there is another `place` for the file. Throws RenderError naming
+/// the path and the reason.
+size_t writeImage(const std::filesystem::path& path, const Image& image, const Encoding& encoding = {},
+                  const std::filesystem::path& place = {});
 
 /// Does the same on standard output; the path tells the format, and is what messages call it.
 size_t printImage(const std::filesystem::path& path, const Image& image, const Encoding& encoding = {});
@@ -173,7 +175,8 @@ size_t printImage(const std::filesystem::path& path, const Image& image, const E
 /// does not answer, or if there is no room for a picture of that size with `channelCount` incompressible
 /// channels.
 void checkImageWritable(const std::filesystem::path& path, int width, int height, size_t channelCount,
-                        const Encoding& encoding = {}, bool isFile = true);
+                        const Encoding& encoding = {}, bool isFile = true,
+                        const std::filesystem::path& place = {});
 
 // Pictures whose shadow is in alpha alone: a shadow catcher without a background. Noise and filters look at
 // them as laid over white: linear R, G and B, each + 1 - A.

@@ -216,10 +216,16 @@ int samplesOf(const RenderOptions& options, std::optional<int> asked) {
   return spp;
 }
 
-/// Settles --output -, which writes the picture to standard output.
-void chooseStandardOutput(OutputOptions& o) {
+/// Settles --output -, which writes the picture to standard output, and --format of a file with any name.
+void chooseFormat(OutputOptions& o) {
   if (o.file != "-") {
-    if (!o.format.empty()) throw UsageError("--format: needs --output -; a file has the format of its name");
+    if (o.format.empty() || o.file.empty()) return;
+    if (o.sequence.frames || o.sequence.turntable > 0 || o.checkpointSeconds > 0.0 || o.resume)
+      throw UsageError(
+          "--format: of a file with any name goes neither with --frames or --turntable, nor "
+          "with --checkpoint or --resume");
+    o.place = o.file;
+    o.file += "." + o.format;
     return;
   }
   const auto refuse = [](const std::string& why) { throw UsageError("--output -: " + why); };
@@ -399,7 +405,7 @@ void checkVariants(const OutputOptions& o) {
 
 RenderOptions finishRender(const RawRender& raw) {
   RenderOptions o = raw.options;
-  chooseStandardOutput(o.output);
+  chooseFormat(o.output);
   o.stages = stagesOf(raw);
   if (raw.noDefaultLight) o.light.defaultLight = DefaultLight::None;
   settleShop(raw, o);

@@ -31,10 +31,11 @@ OptionRow outputRow() {
         ->type_name("FILE");
   };
   row.words = [](const RenderOptions& o) {
-    return std::vector<std::string>{o.output.toStandardOutput ? "-" : o.output.file.string()};
+    return std::vector<std::string>{o.output.toStandardOutput ? "-" : placeOf(o.output).string()};
   };
   row.copy = [](RenderOptions& to, const RenderOptions& from) {
     to.output.file = from.output.file;
+    to.output.place = from.output.place;
     to.output.toStandardOutput = from.output.toStandardOutput;
   };
   return row;

@@ -171,7 +171,8 @@ OptionRow framesRow(const OptionTraits& traits) {
 OptionRow formatRow() {
   OptionRow row = memberRow(
       "--format",
-      "format of the picture that --output - writes to standard output: " + joined(kFormatNames) +
+      "format of the picture, whatever the name of --output; of '-', which is standard output: " +
+          joined(kFormatNames) +
           "; rgb24 and rgba64 are pixels alone, 8 bits a channel or 16 (little-endian, straight alpha), as a "
           ".png shows them (sRGB); --frames and --turntable write all pictures so, one after the other",
       FRAGTRACE_MEMBER(output.format),

@@ -75,7 +75,7 @@ std::vector<NamedOutput> outputsOf(const RenderOptions& options) {
   std::vector<NamedOutput> outputs = {{"--stats", options.output.statsFile, true},
                                       {"--trace-file", options.output.traceFile},
                                       {"--shader-text", options.output.shaderText}};
-  if (!options.output.toStandardOutput) outputs.push_back({"--output", options.output.file});
+  if (!options.output.toStandardOutput) outputs.push_back({"--output", placeOf(options.output)});
   if (keepsCheckpoint(options)) outputs.push_back({"--checkpoint", checkpointOf(options.output.file)});
   return outputs;
 }

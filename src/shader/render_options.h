@@ -329,7 +329,8 @@ struct FogOptions {
 /// The files that are written, their content, and messages meanwhile.
 struct OutputOptions {
   std::filesystem::path file;
-  std::string format;  ///< format of standard output
+  std::filesystem::path place;  ///< where the picture goes, if `file` only tells its format
+  std::string format;           ///< format of standard output, or of a file with any name
   std::filesystem::path statsFile;
   std::filesystem::path traceFile;       ///< file of the timeline
   std::filesystem::path shaderText;      ///< file of the tracer's text
@@ -406,6 +407,11 @@ double environmentTurn(const LightOptions& light);
 
 /// Returns true if noise or time ends a render, which places samples where they help most.
 inline bool isAdaptive(const RenderOptions& o) { return o.sampling.noise > 0.0 || o.sampling.seconds > 0.0; }
+
+/// The file that gets the picture.
+inline const std::filesystem::path& placeOf(const OutputOptions& o) {
+  return o.place.empty() ? o.file : o.place;
+}
 
 /// Returns true if numbered pictures are asked for.
 inline bool isSequence(const RenderOptions& o) {

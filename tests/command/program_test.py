@@ -102,7 +102,17 @@ class StandardOutput(Case):
                             (("--format", "exr", "--resume"), "--resume"), (("--format", "exr", "--stats", "-"), "--stats"),
                             (("--format", "png", "--turntable", 3), "--format rgb24"), (("--format", "png", "--aov", "samples"), ".exr")):
             self.fails(2, "render", BOX, "-o", "-", *SIZE, *words, says=[says], cwd=self.folder)
-        self.fails(2, "render", BOX, "-o", self.folder / "x.png", "--format", "png", says=["--format: needs --output -"])
+
+    def test_a_format_goes_with_any_name(self):
+        self.renders(BOX, "-o", self.folder / "x.png", "--quiet", *SIZE)
+        for name in ("thumbnail", ".x.a7T3", "y.jpg", "z.png"):
+            result = self.renders(BOX, "-o", self.folder / name, "--format", "png", *SIZE)
+            self.assertIn(name + ":", result.stdout)
+            self.assertEqual((self.folder / name).read_bytes(), (self.folder / "x.png").read_bytes())
+        self.assertEqual(len(list(self.folder.iterdir())), 5)
+        for words, says in ((("--turntable", 3), "--frames or --turntable"), (("--checkpoint", 1), "--checkpoint"), (("--half",), "--half")):
+            self.fails(2, "render", BOX, "-o", self.folder / "a", "--format", "png", *SIZE, *words, says=[says])
+        self.fails(1, "render", BOX, "-o", self.folder / "none/a", "--format", "png", *SIZE, says=["none/a: "])
 
     @unittest.skipUnless(Path("/dev/pts").is_mount(), "/dev/pts is not there")
     def test_a_terminal_is_refused(self):

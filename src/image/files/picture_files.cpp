@@ -424,11 +424,13 @@ Encoded encode(const Image& image, const std::filesystem::path& path, const Enco
   return {encodeBytes(image, *format, format == ImageFormat::Png ? encoding.pngBits : 8), 0};
 }
 
-Encoded encodeNamed(const Image& image, const std::filesystem::path& path, const Encoding& encoding) {
+/// `place` is the file's name in messages, if it is not the path.
+Encoded encodeNamed(const Image& image, const std::filesystem::path& path, const Encoding& encoding,
+                    const std::filesystem::path& place = {}) {
   try {
     return encode(image, path, encoding);
   } catch (const std::exception& error) {
-    throw RenderError("cannot write " + path.string() + ": " + error.what());
+    throw RenderError("cannot write " + (place.empty() ? path : place).string() + ": " + error.what());
   }
 }
 
@@ -447,9 +449,10 @@ std::vector<uint8_t> pixelsOf(const Image& image, const PixelForm& form) {
   return levelsOf(image, channels, form.bits, form.alpha && channels.size() == 3);
 }
 
-size_t writeImage(const std::filesystem::path& path, const Image& image, const Encoding& encoding) {
-  const Encoded encoded = encodeNamed(image, path, encoding);
-  replaceFile(path, encoded.bytes);
+size_t writeImage(const std::filesystem::path& path, const Image& image, const Encoding& encoding,
+                  const std::filesystem::path& place) {
+  const Encoded encoded = encodeNamed(image, path, encoding, place);
+  replaceFile(place.empty() ? path : place, encoded.bytes);
   return encoded.clamped;
 }
 
@@ -460,14 +463,16 @@ size_t printImage(const std::filesystem::path& path, const Image& image, const E
 }
 
 void checkImageWritable(const std::filesystem::path& path, int width, int height, size_t channelCount,
-                        const Encoding& encoding, bool isFile) {
+                        const Encoding& encoding, bool isFile, const std::filesystem::path& place) {
   constexpr int kMostJpegSide = 65500;  // libjpeg's JPEG_MAX_DIMENSION
   if (formatOfName(path) == ImageFormat::Jpeg && std::max(width, height) > kMostJpegSide)
     throw RenderError("cannot write " + path.string() + ": a .jpg has at most " +
                       std::to_string(kMostJpegSide) + " pixels a side");
-  encodeNamed({1, 1, {"R", "G", "B"}, {0.0f, 0.0f, 0.0f}, {}}, path, encoding);
+  encodeNamed({1, 1, {"R", "G", "B"}, {0.0f, 0.0f, 0.0f}, {}}, path, encoding, place);
   const uint64_t pixels = uint64_t(width) * uint64_t(height);
-  if (isFile) checkRoom(path, pixels * bytesOfPixel(formatOfName(path), channelCount, encoding));
+  if (isFile)
+    checkRoom(place.empty() ? path : place,
+              pixels * bytesOfPixel(formatOfName(path), channelCount, encoding));
 }
 
 }  // namespace fragtrace

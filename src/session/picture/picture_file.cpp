@@ -121,7 +121,7 @@ std::vector<PictureLine> treeLines(const RenderOptions& options, const LoadedSce
 void checkPictureWritable(const RenderOptions& options, glm::ivec2 size) {
   if (videoFormatOf(options.output.file) != nullptr) return;  // checkVideo() has tried
   checkImageWritable(options.output.file, size.x, size.y, channelsOf(options), options.output.encoding,
-                     !options.output.toStandardOutput);
+                     !options.output.toStandardOutput, options.output.place);
 }
 
 std::string rescuePicture(const RenderOptions& options, const Image& linear, const std::string& reason) {
@@ -144,15 +144,16 @@ std::string rescuePicture(const RenderOptions& options, const Image& linear, con
 
 void sayClamped(const RenderOptions& options, size_t values) {
   if (values == 0) return;
-  say(options, "warning: " + options.output.file.string() + ": " + std::to_string(values) +
+  say(options, "warning: " + placeOf(options.output).string() + ": " + std::to_string(values) +
                    " values are beyond 65504, the largest 16-bit float, and clamped to it (--half)");
 }
 
 namespace {
 
 void writeOut(const RenderOptions& options, const Image& image) {
-  const auto write = options.output.toStandardOutput ? printImage : writeImage;
-  sayClamped(options, write(options.output.file, image, options.output.encoding));
+  const OutputOptions& out = options.output;
+  sayClamped(options, out.toStandardOutput ? printImage(out.file, image, out.encoding)
+                                           : writeImage(out.file, image, out.encoding, out.place));
 }
 
 /// Bits per channel of an output that holdsDisplay().
