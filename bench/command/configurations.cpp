@@ -174,8 +174,6 @@ std::vector<std::filesystem::path> inputsOf(std::span<const BenchConfiguration> 
   return inputs;
 }
 
-std::unique_ptr<Context> contextOf(const RenderOptions& options) {
-  return makeContext(options.device.backend, options.device.vectorWidth);
-}
+std::unique_ptr<Context> contextOf(const RenderOptions& options) { return makeContext(options.device); }
 
 }  // namespace fragtrace

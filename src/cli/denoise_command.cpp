@@ -70,6 +70,7 @@ void addFileFilterOptions(CLI::App& app, RawRender& raw) {
   addOption(app, "--oidn-library", raw);
   addOption(app, "--rendering-backend", raw,
             rowOf("--rendering-backend").help + "; the variance filter needs it");
+  addOption(app, "--device", raw);
   addOption(app, "--shader-folder", raw);
   addOption(
       app, "--memory-limit", raw,

@@ -18,6 +18,7 @@
 #include "base/text.h"
 #include "bvh/bvh.h"
 #include "cli/commands.h"
+#include "gl/context.h"
 #include "gltf/gltf.h"
 #include "image/files/process.h"
 #include "options/option_row.h"
@@ -299,6 +300,7 @@ struct InfoOptions {
   bool json = false;
   bool nodes = false;
   bool decode = false;
+  bool devices = false;
 };
 
 /// The bytes a triangle that a scene takes on the device by default, without textures and lights.
@@ -461,7 +463,27 @@ int inform(const InfoOptions& options) {
   return 0;
 }
 
+/// Lists the devices that --device chooses from.
+int tellDevices(bool asJson) {
+  const std::vector<ListedDevice> devices = listDevices();
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (size_t i = 0; i < devices.size(); ++i) {
+    const ListedDevice& device = devices[i];
+    const bool works = device.reason.empty();
+    json.push_back({{"number", i}, {"name", device.renderer}, {"place", device.name}});
+    if (!works) json.back()["error"] = device.reason;
+    if (!asJson)
+      std::cout << i << ": " << (works ? device.renderer : "does not work: " + device.reason) << " ("
+                << device.name << ")\n";
+  }
+  if (asJson) std::cout << jsonText({{"schema", 1}, {"devices", json}});
+  if (devices.empty() && !asJson) std::cout << "EGL has no devices\n";
+  return 0;
+}
+
 int runInfo(const InfoOptions& options) {
+  if (options.devices) return tellDevices(options.json);
+  if (options.render.scene.empty()) throw UsageError("file is required");
   try {
     return inform(options);
   } catch (const std::exception& error) {
@@ -482,17 +504,19 @@ RunCommand addInfo(CLI::App& app) {
     bool json = false;
     bool nodes = false;
     bool decode = false;
+    bool devices = false;
   };
   const auto raw = std::make_shared<Raw>();
-  addOption(app, "file", raw->render)->required();
+  addOption(app, "file", raw->render);
   app.add_flag("--json", raw->json, "print one JSON object");
   app.add_flag("--nodes", raw->nodes, "also list the nodes of the scene");
+  app.add_flag("--devices", raw->devices, "list the devices that --device chooses from, and no scene");
   app.add_flag("--decode", raw->decode, "also decode the textures, so that a broken one is an error");
   for (const OptionRow& row : inputRows()) addOption(app, row.name, raw->render);
   addOption(app, "--instancing", raw->render);
   addOption(app, "--verbose", raw->render,
             "also print the tree and what it costs, and all materials of a file with many");
-  return [raw] { return runInfo({raw->render.options, raw->json, raw->nodes, raw->decode}); };
+  return [raw] { return runInfo({raw->render.options, raw->json, raw->nodes, raw->decode, raw->devices}); };
 }
 
 }  // namespace fragtrace

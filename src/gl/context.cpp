@@ -66,14 +66,18 @@ std::unique_ptr<Context> makeContext(const OutsideContext& outside) {
   return context;
 }
 
-std::unique_ptr<Context> makeContext(Backend backend, VectorWidth width) {
-  setVectorWidth(width);
+std::unique_ptr<Context> makeContext(const DeviceOptions& options) {
+  setVectorWidth(options.vectorWidth);
   std::string tried;
   std::unique_ptr<Context> context;
-  if (backend != Backend::OsMesa) context = makeEglContext(tried);
-  if (!context && backend != Backend::Egl) context = makeOsMesaContext(tried);
+  if (options.backend != Backend::OsMesa) context = makeEglContext(tried, options.device);
+  if (!context && options.backend != Backend::Egl && options.device.empty())
+    context = makeOsMesaContext(tried);
   if (!context) {
     if (tried.ends_with("; ")) tried.resize(tried.size() - 2);
+    if (!options.device.empty())
+      throw UsageError("--device " + options.device + ": no device of that number or name works; seen are " +
+                       tried + " (`fragtrace info --devices`)");
     throw ContextError("no OpenGL 4.5 context; tried " + tried + kDriverAdvice);
   }
   return context;
@@ -239,25 +243,60 @@ std::unique_ptr<Context> tryCandidate(const EglFunctions& egl, const Candidate& 
 
 }  // namespace
 
-std::unique_ptr<Context> makeEglContext(std::string& tried) {
+namespace {
+
+/// The functions of EGL; none: `reason` says why.
+const EglFunctions* eglFunctions(std::string& reason) {
   static const DynamicLibrary library({"libEGL.so.1", "libEGL.so"});
-  if (!library.loaded()) {
-    tried += "EGL (" + library.error() + "); ";
+  static EglFunctions egl;
+  if (!library.loaded())
+    reason = library.error();
+  else if (!egl.load(library))
+    reason = "the library lacks functions of EGL 1.5";
+  else
+    return &egl;
+  return nullptr;
+}
+
+bool isNumber(const std::string& text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
+}
+
+}  // namespace
+
+std::unique_ptr<Context> makeEglContext(std::string& tried, const std::string& device) {
+  std::string reason;
+  const EglFunctions* const egl = eglFunctions(reason);
+  if (egl == nullptr) {
+    tried += "EGL (" + reason + "); ";
     return nullptr;
   }
-  EglFunctions egl;
-  if (!egl.load(library)) {
-    tried += "EGL (the library lacks functions of EGL 1.5); ";
-    return nullptr;
-  }
-  const std::vector<Candidate> places = candidates(egl);
+  const std::vector<Candidate> places = candidates(*egl);
   if (places.empty()) tried += "EGL (no device); ";
-  for (const Candidate& candidate : places) {
-    std::string reason;
-    if (auto context = tryCandidate(egl, candidate, reason)) return context;
-    tried += candidate.name + " (" + reason + "); ";
+  for (size_t i = 0; i < places.size(); ++i) {
+    const bool isAnother = isNumber(device) && (places[i].native == nullptr || std::to_string(i) != device);
+    auto context = isAnother ? nullptr : tryCandidate(*egl, places[i], reason);
+    const bool isNamed = context && (device.empty() || isNumber(device) ||
+                                     lowered(context->renderer).find(lowered(device)) != std::string::npos);
+    if (isNamed) return context;
+    if (context) reason = context->renderer;
+    tried += places[i].name + (isAnother ? "; " : " (" + reason + "); ");
   }
   return nullptr;
+}
+
+std::vector<ListedDevice> listDevices() {
+  std::vector<ListedDevice> devices;
+  std::string reason;
+  const EglFunctions* const egl = eglFunctions(reason);
+  if (egl == nullptr) return devices;
+  for (const Candidate& candidate : candidates(*egl)) {
+    if (candidate.native == nullptr) continue;
+    reason.clear();
+    const auto context = tryCandidate(*egl, candidate, reason);
+    devices.push_back({candidate.name, context ? context->renderer : "", reason});
+  }
+  return devices;
 }
 
 // OSMesa is Mesa's software rasteriser without any window system. Mesa 25.1 and later have neither the

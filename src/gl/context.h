@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "shader/render_options.h"
 
@@ -25,14 +26,25 @@ class Context {
   bool software = false;  ///< a rasteriser on the processor
 };
 
-/// Makes a context: a GPU through EGL, else software EGL, else OSMesa; or only the one that `backend` names.
-/// `width` holds for the process (setVectorWidth). Throws ContextError, which says what was tried and why
-/// each attempt failed.
-std::unique_ptr<Context> makeContext(Backend backend, VectorWidth width = VectorWidth::Auto);
+/// Makes a context: a GPU through EGL, else software EGL, else OSMesa; or only what the options name. Their
+/// vector width holds for the process (setVectorWidth). Throws ContextError, which says what was tried and
+/// why each attempt failed, and UsageError where no device is the one that they name.
+std::unique_ptr<Context> makeContext(const DeviceOptions& options);
 
-/// The two ways. Each returns null on failure and appends the reasons to `tried`.
-std::unique_ptr<Context> makeEglContext(std::string& tried);
+/// The two ways. Each returns null on failure and appends the reasons to `tried`. `device` is the number of a
+/// device in listDevices(), or a part of its renderer in any case; empty: the first that works.
+std::unique_ptr<Context> makeEglContext(std::string& tried, const std::string& device = {});
 std::unique_ptr<Context> makeOsMesaContext(std::string& tried);
+
+/// A device of EGL, and what its driver calls it, or why it does not work.
+struct ListedDevice {
+  std::string name;      ///< "EGL device 0"
+  std::string renderer;  ///< GL_RENDERER; empty: it does not work
+  std::string reason;    ///< why not
+};
+
+/// The devices, GPUs first, in the order in which makeEglContext() tries them. Opens each of them.
+std::vector<ListedDevice> listDevices();
 
 using GetProcAddress = void (*(*)(const char*))();
 

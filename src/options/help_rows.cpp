@@ -85,6 +85,7 @@ constexpr auto kHelpRows = std::to_array<HelpRow>({
     {"--volume-anisotropy", {nullptr, kRest, "COSINE"}},
     {"--volume-emission", {nullptr, kRest, "FACTOR"}},
     {"--rendering-backend", {nullptr, kEveryday}},
+    {"--device", {nullptr, kEveryday, "N|NAME"}},
     {"--vector-width", {nullptr, kRest, "BITS", "bits"}},
     {"--animation-time", {nullptr, kEveryday, "SECONDS", "seconds"}},
     {"--animation", {nullptr, kEveryday, "NAME"}},

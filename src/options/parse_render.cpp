@@ -375,7 +375,7 @@ void addOptions(CLI::App& app, OptionGroup group, RawRender& raw) {
 
 void addDeviceOptions(CLI::App& app, RawRender& raw) {
   for (const char* name :
-       {"--rendering-backend", "--buffer-reads", "--vector-width", "--shader-folder", "--quiet"})
+       {"--rendering-backend", "--device", "--buffer-reads", "--vector-width", "--shader-folder", "--quiet"})
     addOption(app, name, raw);
 }
 

@@ -87,8 +87,8 @@ CLI::Option* addOption(CLI::App& app, const char* name, RawRender& raw, const st
 /// Declares all options of a group, in the order of the table.
 void addOptions(CLI::App& app, OptionGroup group, RawRender& raw);
 
-/// --rendering-backend, --buffer-reads, --vector-width, --shader-folder and --quiet, of commands that choose
-/// all else themselves.
+/// --rendering-backend, --device, --buffer-reads, --vector-width, --shader-folder and --quiet, of commands
+/// that choose all else themselves.
 void addDeviceOptions(CLI::App& app, RawRender& raw);
 
 /// Settles the options that depend on others, and checks that they go together. Throws UsageError.

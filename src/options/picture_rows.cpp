@@ -481,6 +481,11 @@ std::vector<OptionRow> deviceRows() {
              FRAGTRACE_MEMBER(device.instancing), kInstancingNames, kLoading),
       choice("--rendering-backend", "how the OpenGL context is created", FRAGTRACE_MEMBER(device.backend),
              kBackendNames, {.effect = Effect::Method, .renewal = Renewal::Program, .kept = true}),
+      word("--device",
+           "draw on this device: its number in `fragtrace info --devices`, or a part of its name; by default "
+           "the first that works",
+           FRAGTRACE_MEMBER(device.device),
+           {.effect = Effect::Method, .renewal = Renewal::Program, .kept = true}),
       choice("--buffer-reads", "how the shader reads the scene", FRAGTRACE_MEMBER(device.bufferReads),
              kBufferReadsNames, kProgram),
       choice("--texture-reads", "how the shader reads textures: as words of buffers, or from array textures",

@@ -233,8 +233,8 @@ Image VarianceFilter::filtered(const Image& noisy, PicturePasses& passes) {
           {}};
 }
 
-FilterThread::FilterThread(const ShaderSource& source, const std::string& backend)
-    : thread_([this, source, backend] { run(source, backend); }) {}
+FilterThread::FilterThread(const ShaderSource& source, const std::string& backend, const std::string& device)
+    : thread_([this, source, backend, device] { run(source, backend, device); }) {}
 
 FilterThread::~FilterThread() {
   {
@@ -260,12 +260,12 @@ Image FilterThread::filtered(const Image& noisy) {
   return result.get();
 }
 
-void FilterThread::run(const ShaderSource& source, const std::string& backend) {
+void FilterThread::run(const ShaderSource& source, const std::string& backend, const std::string& device) {
   nameThread("filter");
   try {
     std::optional<TimelineSpan> span(std::in_place, "prepare the filter");
     std::string tried;
-    const auto context = backend == "osmesa" ? makeOsMesaContext(tried) : makeEglContext(tried);
+    const auto context = backend == "osmesa" ? makeOsMesaContext(tried) : makeEglContext(tried, device);
     if (!context) throw RenderError("no second context: " + tried);
     DebugLog log;
     VarianceFilter filter(source);

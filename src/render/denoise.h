@@ -78,9 +78,9 @@ class VarianceFilter {
 /// serve all pictures that follow.
 class FilterThread {
  public:
-  /// Begins, in a context of the same kind as `backend` (Context::backend). Throws std::system_error where
-  /// there is no thread.
-  FilterThread(const ShaderSource& source, const std::string& backend);
+  /// Begins, in a context of the same kind as `backend` (Context::backend) on that device. Throws
+  /// std::system_error where there is no thread.
+  FilterThread(const ShaderSource& source, const std::string& backend, const std::string& device);
   FilterThread(const FilterThread&) = delete;
   FilterThread& operator=(const FilterThread&) = delete;
   ~FilterThread();
@@ -96,7 +96,7 @@ class FilterThread {
 
  private:
   using Task = std::packaged_task<Image(VarianceFilter&, PicturePasses&, DebugLog&)>;
-  void run(const ShaderSource& source, const std::string& backend);
+  void run(const ShaderSource& source, const std::string& backend, const std::string& device);
 
   std::promise<void> made_;
   std::shared_future<void> ready_ = made_.get_future().share();

@@ -30,7 +30,7 @@ bool seesStrokesAlike(const RenderOptions& a, const RenderOptions& b) {
 void openContext(const RenderOptions& options, double paths, Device& device, Statistics& stats) {
   const bool quick = preferQuickCompilation(paths);
   PhaseTimer timer("context");
-  device.context = makeContext(options.device.backend, options.device.vectorWidth);
+  device.context = makeContext(options.device);
   device.driverLog.emplace();
   stats.phases.push_back(timer.end());
   stats.quickCompilation = quick && device.context->software;

@@ -371,6 +371,7 @@ struct DeviceOptions {
   VectorWidth vectorWidth = VectorWidth::Auto;
   Schedule schedule = Schedule::Auto;
   std::filesystem::path shaderFolder;  ///< shader text from disk in place of the embedded one
+  std::string device;                  ///< its number, or a part of its name; empty: the first that works
 
   bool operator==(const DeviceOptions&) const = default;
 };

@@ -436,6 +436,20 @@ class Info(Case):
         path.write_text(json.dumps(root))
         return path
 
+    def test_it_lists_devices_and_render_takes_one(self):
+        devices = json.loads(run("info", "--devices", "--json").stdout)["devices"]
+        self.assertEqual([device["number"] for device in devices], list(range(len(devices))))
+        self.assertEqual(len(run("info", "--devices").stdout.splitlines()), max(len(devices), 1))
+        chosen = next(device for device in devices if "error" not in device)
+        for word in (str(chosen["number"]), chosen["name"].split(" ")[0].upper()):
+            self.renders(SCENES / "coverage.gltf", "-o", self.folder / "x.png", "--device", word, "--stats", self.folder / "s.json", *SMALL)
+            self.assertEqual(json.loads((self.folder / "s.json").read_text())["gl_renderer"], chosen["name"])
+        for word in (str(len(devices)), "voodoo"):
+            result = run("render", SCENES / "coverage.gltf", "-o", self.folder / "y.png", "--device", word, *SMALL)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn(f"--device {word}: no device of that number or name", result.stderr)
+        self.fails(2, "info", says=["file is required"])
+
     def test_it_says_what_one_wants_to_know(self):
         path = self.scene()
         text = run("info", path).stdout

@@ -71,7 +71,7 @@ std::array<int, kObjectKinds.size()> livingObjects() {
 }
 
 int run(std::span<char*> scenes) {
-  const auto context = makeContext(Backend::Auto);
+  const auto context = makeContext(DeviceOptions{});
   const auto atFirst = livingObjects();
   double before = 0.0;
   for (int round = 0; round < kRounds; ++round) {

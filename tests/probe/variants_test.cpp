@@ -10,7 +10,7 @@ namespace fragtrace {
 namespace {
 
 TEST(Variants, TheFullShaderLinksByEachEntry) {
-  const auto context = makeContext(Backend::Egl);
+  const auto context = makeContext({.backend = Backend::Egl});
   ShaderVariant fragments;
   fragments.stages.set();
   fragments.traits.set();

@@ -110,8 +110,8 @@ void startFilter(const RenderOptions& options, Device& device) {
   const bool isWanted = options.output.denoise == Denoise::Variance && whyNotDenoised(options).empty();
   if (!isWanted || device.oidn || device.filter) return;
   try {
-    device.filter =
-        std::make_unique<FilterThread>(shaderSource(options.device.shaderFolder), device.context->backend);
+    device.filter = std::make_unique<FilterThread>(shaderSource(options.device.shaderFolder),
+                                                   device.context->backend, options.device.device);
   } catch (const std::system_error&) {
     // The system grants no thread: the filter is made here when it is needed.
   }
@@ -251,7 +251,7 @@ void checkVarianceLayers(const Image& layers, const std::filesystem::path& name)
 std::optional<Image> byVariance(const Image& layers, const std::filesystem::path& name,
                                 const RenderOptions& options, DenoiseStatistics& stats) {
   checkVarianceLayers(layers, name);
-  const auto context = makeContext(options.device.backend, options.device.vectorWidth);
+  const auto context = makeContext(options.device);
   return filtered(layers, options, std::nullopt, stats);
 }
 

@@ -112,13 +112,13 @@ void ViewTracer::run(const SharedContexts& shared) {
 }
 
 void ViewTracer::enterContext(const SharedContexts& shared) {
-  const Backend backend = start_.render.device.backend;
-  shares_ = shared.draws && backend == Backend::Auto;
-  context_ = shares_ ? makeContext(*shared.draws) : makeContext(backend);
+  const DeviceOptions& device = start_.render.device;
+  shares_ = shared.draws && device.backend == Backend::Auto && device.device.empty();
+  context_ = shares_ ? makeContext(*shared.draws) : makeContext(device);
   // A window may be drawn by software though there is a GPU, as over a network.
   if (shares_ && context_->software && mayHaveGpu()) {
     context_.reset();
-    context_ = makeContext(backend);
+    context_ = makeContext(device);
     shares_ = context_->software;
     if (shares_) {
       context_.reset();

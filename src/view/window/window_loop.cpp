@@ -97,7 +97,7 @@ Window::Window(const WindowStart& start, Exchange& exchange)
   } catch (const std::exception& error) {
     notify(std::string("what the viewer remembers cannot be read: ") + error.what());
   }
-  if (start.options.device.backend == Backend::Auto) {
+  if (start.options.device.backend == Backend::Auto && start.options.device.device.empty()) {
     try {
       sharing_ = openSharing(window_.get());
       compiling_ = openSharing(window_.get());
