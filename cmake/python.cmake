@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT
 # What the wheel holds (pyproject.toml): the module, the programs and their worker with the module for compressed geometry, all in the
 # package's folder. For pictures the worker becomes a program in Python, with the package OpenImageIO.
-find_package(Python 3.9 REQUIRED COMPONENTS Interpreter Development.Module)
+# From Python 3.12 on it keeps to the stable ABI, so one wheel serves all later ones; scikit-build-core names the component then.
+find_package(Python 3.9 REQUIRED COMPONENTS Interpreter Development.Module ${SKBUILD_SABI_COMPONENT})
 find_package(nanobind CONFIG REQUIRED)
 file(GLOB python_sources CONFIGURE_DEPENDS src/python/*.cpp)
-nanobind_add_module(_core NB_STATIC ${python_sources})
+nanobind_add_module(_core NB_STATIC STABLE_ABI ${python_sources})
+target_compile_definitions(_core PRIVATE FRAGTRACE_VERSION="${PROJECT_VERSION}")
 target_link_libraries(_core PRIVATE fragtrace_picture CLI11::CLI11)
 set_target_properties(_core PROPERTIES UNITY_BUILD OFF)
 # What it links stays its own, whatever else the interpreter has loaded.

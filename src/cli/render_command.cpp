@@ -10,7 +10,6 @@
 #include <utility>
 
 #include <CLI/CLI.hpp>
-#include <glm/gtc/constants.hpp>
 #include <nlohmann/json.hpp>
 
 #include "base/errors.h"
@@ -146,38 +145,6 @@ struct SequenceRun {
   std::unique_ptr<Video> video;  ///< the file that all pictures go to; null: there is none
 };
 
-/// Pictures after the end of an animation are all the same.
-void warnBeyondEnd(const RenderOptions& options, const SequenceOptions& sequence, const Scene& scene) {
-  const std::optional<double> length = animationLength(scene, options.selection);
-  const int last = rangeOf(sequence).last;
-  if (!length || last <= std::ceil(*length * sequence.fps)) return;
-  say(options,
-      formatted(
-          "warning: --frames: the animation ends after %.4g s, at picture %d; those after it show its end",
-          *length, int(std::ceil(*length * sequence.fps))));
-}
-
-/// The scene as the picture shows it, on the device. A turntable's is another one in each picture where it
-/// has lamps that stay, and the rest turns.
-Statistics prepareFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOptions& sequence) {
-  const bool first = !run.session.hasTracer();
-  const bool turns = sequence.turntable > 0;
-  const auto turnsBeforeLamps = [&] {
-    return turns && sequence.turn == Turn::Object && run.session.isLoaded() &&
-           !run.session.loaded().scene.lights.empty();
-  };
-  const auto change = [&](LoadedScene& loaded) {
-    if (turns) loaded.scene.motion.camera = frame.sweep > 0.0;
-    if (turnsBeforeLamps())
-      turnLights(loaded.scene, turningPoint(loaded.camera, loaded.overrides, loaded.framed), frame.turn);
-  };
-  Statistics stats;
-  const Renewal least = turnsBeforeLamps() ? Renewal::Pose : Renewal::None;
-  run.session.set(withGuides(frame.options), run.device, stats, {least, change});
-  if (first && !turns) warnBeyondEnd(frame.options, sequence, run.session.loaded().scene);
-  return stats;
-}
-
 Outcome drawFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOptions& sequence) {
   checkOutputs(outputsOf(frame.options), inputsOf(frame.options));
   nlohmann::ordered_json context = eventContext(frame.options);
@@ -185,22 +152,11 @@ Outcome drawFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOp
                   {"first_frame", rangeOf(sequence).first},
                   {"last_frame", rangeOf(sequence).last}});
   setReportContext(context);
-  Statistics stats = prepareFrame(run, frame, sequence);
+  Statistics stats = prepareFrame(run.session, run.device, frame, sequence);
   LoadedScene& loaded = run.session.loaded();
   const RenderOptions options = exposed(frame.options, loaded.light);
   const Camera camera = loaded.camera;
-  if (sequence.turntable > 0) {
-    const glm::dvec3 focalPoint = turningPoint(camera, loaded.overrides, loaded.framed);
-    const auto turned = [&](double angle) { return turnedCamera(camera, focalPoint, angle); };
-    loaded.camera = turned(frame.turn);
-    const int segments = int(std::ceil(frame.sweep / glm::half_pi<double>()));
-    std::vector<Camera> poses;
-    for (int i = 0; i <= segments && segments > 0; ++i)
-      poses.push_back(turned(frame.turn + (double(i) / segments - 0.5) * frame.sweep));
-    loaded.motion = segmentsThrough(poses);
-    loaded.view = makeView(options, loaded, loaded.camera);
-    if (sequence.turn == Turn::Object) loaded.view.hdriRotation += frame.turn;
-  }
+  turnView(loaded, options, frame, sequence);
   const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);
   if (!options.output.treeLevel) run.session.releaseGeometry();
   Destination destination{nameOf(options.output)};

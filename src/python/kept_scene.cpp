@@ -17,7 +17,9 @@
 #include "options/parse_render.h"
 #include "session/interrupt.h"
 #include "session/picture/denoising.h"
+#include "session/picture/sequence.h"
 #include "session/say.h"
+#include "session/shutter.h"
 
 namespace fragtrace {
 
@@ -125,6 +127,7 @@ namespace {
 /// The device, and the scenes that have data on it.
 struct DrawingState {
   Device device;
+  std::string chosen;  ///< --device of the context
   std::vector<std::weak_ptr<KeptScene>> scenes;
 };
 
@@ -137,7 +140,14 @@ DrawingState& drawing() {
 /// Throws UsageError unless the options draw by the context of the process, which all scenes share.
 void checkBackend(const RenderOptions& options) {
   const Device& device = drawing().device;
-  if (!device.context) return;
+  std::string& chosen = drawing().chosen;
+  if (!device.context) {
+    chosen = options.device.device;
+    return;
+  }
+  if (!options.device.device.empty() && options.device.device != chosen)
+    throw UsageError("--device: this process draws on " + device.context->renderer +
+                     " already; another needs another process");
   const std::string& name = device.context->backend;
   const bool other = (options.device.backend == Backend::Egl && name != "egl") ||
                      (options.device.backend == Backend::OsMesa && name != "osmesa");
@@ -157,13 +167,34 @@ void forgetDevice() {
   state.device.context.reset();
 }
 
-std::optional<DrawnPicture> draw(KeptScene& kept, const RenderOptions& asked, DrawJob& job) {
+/// The options of a sequence, with the camera that shows all poses of its animation.
+const RenderOptions& placed(KeptScene& kept, const RenderOptions& options) {
+  if (!kept.placed) {
+    std::shared_ptr<KeptDocument> document;
+    RenderOptions settled = options;
+    if (options.output.sequence.frames) settled = placedForAllPoses(options, document);
+    kept.session = Session(std::numeric_limits<double>::infinity(), true, std::move(document));
+    kept.placed = std::move(settled);
+  }
+  return *kept.placed;
+}
+
+std::optional<DrawnPicture> draw(KeptScene& kept, const RenderOptions& asked, int index, DrawJob& job) {
   RenderOptions options = asked;
   Device& device = drawing().device;
   device.oidn = openDenoiser(options);
   checkBackend(options);
   Statistics stats;
-  kept.session.set(withGuides(options), device, stats);
+  Renewal renewal = Renewal::None;
+  if (isSequence(asked)) {
+    const SequenceOptions& sequence = asked.output.sequence;
+    const SequenceFrame frame = frameOf(placed(kept, asked), index);
+    options = frame.options;
+    stats = prepareFrame(kept.session, device, frame, sequence);
+    turnView(kept.session.loaded(), options, frame, sequence);
+  } else {
+    renewal = kept.session.set(withGuides(options), device, stats);
+  }
   if (!kept.isKept) kept.session.releaseGeometry();
   const PictureJob picture{options, kept.session.loaded(), kept.session.tracer(), false,
                            [&](double fraction) { job.fraction = fraction; }};
@@ -172,19 +203,19 @@ std::optional<DrawnPicture> draw(KeptScene& kept, const RenderOptions& asked, Dr
   std::optional<Image> image = drawSamples(picture, plan, device, keeper, 0, stats);
   if (!image || !finishPicture(*image, picture, plan, device, 0, stats)) return std::nullopt;
   sayHowItEnded(options, stats);
-  return DrawnPicture{std::move(*image), statisticsText(stats), stats.complete};
+  return DrawnPicture{std::move(*image), statisticsText(stats), stats.complete, renewal};
 }
 
 }  // namespace
 
 std::optional<DrawnPicture> drawKept(const std::shared_ptr<KeptScene>& scene, const RenderOptions& options,
-                                     DrawJob& job) {
+                                     int index, DrawJob& job) {
   if (job.interrupts > 0) return std::nullopt;
   std::vector<std::weak_ptr<KeptScene>>& scenes = drawing().scenes;
   std::erase_if(scenes, [&](const auto& other) { return other.expired() || other.lock() == scene; });
   scenes.push_back(scene);
   try {
-    return draw(*scene, options, job);
+    return draw(*scene, options, index, job);
   } catch (const ContextLost&) {
     forgetDevice();
     throw;
@@ -206,7 +237,8 @@ void addWords(CLI::App& app, RawWords& raw) {
   app.set_help_flag();
   raw.render.anyOutput = true;
   addOption(app, "file", raw.render)->required();
-  for (const OptionGroup group : {OptionGroup::Tracing, OptionGroup::Output, OptionGroup::Filter})
+  for (const OptionGroup group :
+       {OptionGroup::Tracing, OptionGroup::Output, OptionGroup::Sequence, OptionGroup::Filter})
     addOptions(app, group, raw.render);
   addConfigOption(app, raw.config);
 }
@@ -224,6 +256,12 @@ std::vector<std::string> optionNames() {
   return names;
 }
 
+std::string optionLike(const std::string& unknown) {
+  std::vector<std::string> names = optionNames();
+  for (std::string& name : names) name.insert(0, "--");
+  return suggestedOption(unknown, names);
+}
+
 RenderOptions optionsOfWords(std::vector<std::string> words) {
   RawWords raw;
   CLI::App app("", "fragtrace.render");
@@ -239,6 +277,9 @@ RenderOptions optionsOfWords(std::vector<std::string> words) {
   if (!options.output.shaderText.empty())
     throw UsageError("--shader-text: needs the command `fragtrace render`");
   if (!options.output.statsFile.empty()) throw UsageError("--stats: the picture has its statistics with it");
+  RenderOptions numbered = options;
+  numbered.output.file = "#.exr";
+  if (isSequence(options)) checkSequence(numbered);
   return options;
 }
 

@@ -51,6 +51,7 @@ bool isDrawingStopped();
 struct KeptScene {
   Session session{std::numeric_limits<double>::infinity(), true};
   bool isKept = true;  ///< else one picture is drawn, and memory that only loading needs is freed before
+  std::optional<RenderOptions> placed{};  ///< those of a sequence, with the camera of all its pictures
 };
 
 /// A picture with all its layers, linear, and the statistics as JSON.
@@ -58,18 +59,24 @@ struct DrawnPicture {
   Image image;
   std::string statistics;
   bool complete = true;
+  Renewal renewal = Renewal::None;  ///< the earliest step that was done again
 };
 
-/// Draws a picture of the scene by options without an output; loads and uploads what is missing. Throws what
-/// `render` throws. Nothing if the job was interrupted.
+/// Draws a picture of the scene by options without an output; loads and uploads what is missing. Where they
+/// are of a sequence, that of the index, from 0; a scene that draws a sequence draws nothing else. Throws
+/// what `render` throws. Nothing if the job was interrupted.
 std::optional<DrawnPicture> drawKept(const std::shared_ptr<KeptScene>& scene, const RenderOptions& options,
-                                     DrawJob& job);
+                                     int index, DrawJob& job);
 
 /// Frees a scene, in the drawing thread.
 void releaseLater(std::shared_ptr<KeptScene> scene);
 
 /// The names of all options that optionsOfWords() reads, without dashes.
 std::vector<std::string> optionNames();
+
+/// The option (with dashes) that another word for it, or a misspelled one, stands for; empty if there is
+/// none.
+std::string optionLike(const std::string& unknown);
 
 /// The options of a render by the words of its command line, without its output. Throws UsageError,
 /// InputError.

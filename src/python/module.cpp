@@ -8,6 +8,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <thread>
@@ -22,6 +23,7 @@
 #include "options/parse_render.h"
 #include "python/kept_scene.h"
 #include "session/picture/joined_parts.h"
+#include "session/picture/sequence.h"
 
 namespace nb = nanobind;
 
@@ -96,6 +98,20 @@ void await(DrawJob& job, const nb::object& told) {
   if (job.error) std::rethrow_exception(job.error);
 }
 
+const char* nameOf(Renewal renewal) {
+  constexpr std::array kNames = {"nothing", "program", "pose", "scene"};
+  return kNames[size_t(renewal)];
+}
+
+/// The numbers of the pictures that the words ask for; of a single one [0].
+std::vector<int> frameNumbers(std::vector<std::string> words) {
+  const RenderOptions options = optionsOfWords(std::move(words));
+  if (!isSequence(options)) return {0};
+  std::vector<int> numbers;
+  for (int i = 0; i < frameCount(options.output.sequence); ++i) numbers.push_back(frameOf(options, i).number);
+  return numbers;
+}
+
 /// A scene that Python holds.
 class SceneHandle {
  public:
@@ -110,17 +126,19 @@ class SceneHandle {
     }
   }
 
-  /// Channels, values, attributes, statistics (JSON), whether it is complete, what was said.
-  nb::object draw(std::vector<std::string> words, const nb::object& told) {
+  /// Channels, values, attributes, statistics (JSON), whether it is complete, what was said, what was
+  /// renewed.
+  nb::object draw(std::vector<std::string> words, const nb::object& told, int index) {
     const auto drawn = std::make_shared<std::optional<DrawnPicture>>();
     const auto options = std::make_shared<RenderOptions>(optionsOfWords(std::move(words)));
-    const auto job =
-        postJob([scene = scene_, drawn, options](DrawJob& own) { *drawn = drawKept(scene, *options, own); });
+    const auto job = postJob([scene = scene_, drawn, options, index](DrawJob& own) {
+      *drawn = drawKept(scene, *options, index, own);
+    });
     await(*job, told);
     if (!*drawn) throw RenderError("interrupted, nothing is drawn");
     Values values = arrayOf((*drawn)->image);
     return nb::make_tuple((*drawn)->image.channels, values, attributesOf((*drawn)->image),
-                          (*drawn)->statistics, (*drawn)->complete, job->said);
+                          (*drawn)->statistics, (*drawn)->complete, job->said, nameOf((*drawn)->renewal));
   }
 
  private:
@@ -216,8 +234,11 @@ NB_MODULE(_core, module) {
   nb::exception<ContextError>(module, "ContextError", PyExc_RuntimeError);
   nb::class_<SceneHandle>(module, "Scene")
       .def(nb::init<bool>())
-      .def("draw", &SceneHandle::draw, nb::arg("words"), nb::arg("told").none());
+      .def("draw", &SceneHandle::draw, nb::arg("words"), nb::arg("told").none(), nb::arg("index") = 0);
+  module.attr("__version__") = FRAGTRACE_VERSION;
   module.def("option_names", &optionNames);
+  module.def("option_like", &optionLike);
+  module.def("frame_numbers", &frameNumbers);
   module.def("read", &readFile);
   module.def("save", &save);
   module.def("merge", &merge);

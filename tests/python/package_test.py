@@ -2,10 +2,12 @@
 """The Python package as it is installed, beside the command. usage: package_test.py FRAGTRACE SOURCE_FOLDER [unittest arguments]"""
 import _thread
 import base64
+import io
 import json
 import multiprocessing
 import os
 import pickle
+import re
 import struct
 import subprocess
 import sys
@@ -199,18 +201,95 @@ class Pictures(Package):
         with self.assertRaises(fragtrace.InputError):
             fragtrace.merge([self.folder / "0.exr", self.folder / "0.exr"])
 
+    def test_a_scene_may_be_in_memory(self):
+        path = SCENES / "cornell-box.gltf"
+        expected = np.asarray(fragtrace.render(path, **SMALL))
+
+        class Mesh:
+            def export(self, file_type):
+                return path.read_bytes() if file_type == "glb" else None
+
+        with open(path, "rb") as file:
+            for scene in (path.read_bytes(), bytearray(path.read_bytes()), file, io.BytesIO(path.read_bytes()), Mesh()):
+                with self.subTest(type(scene).__name__):
+                    np.testing.assert_array_equal(fragtrace.render(scene, **SMALL), expected)
+        self.assertEqual(fragtrace.info(path.read_bytes())["scene"], fragtrace.info(path)["scene"])
+        scene = fragtrace.Scene(Mesh(), **SMALL)
+        np.testing.assert_array_equal(scene.render(), expected)
+        self.assertEqual((scene.info()["scene"], repr(scene)), (fragtrace.info(path)["scene"], "fragtrace.Scene('<Mesh>')"))
+        for scene, says in ((b"nothing", "^<bytes>: "), (path.read_text(), "cannot be opened"), (io.StringIO("{}"), "'rb'"), (3, "a int is no scene")):
+            with self.assertRaisesRegex(ValueError, says):
+                fragtrace.render(scene, **SMALL)
+
+    def test_trimesh(self):
+        try:
+            import trimesh
+        except ImportError:
+            self.skipTest("no trimesh")
+        scene = trimesh.Scene([trimesh.creation.icosphere(), trimesh.creation.box().apply_translation((2, 0, 0))])
+        self.assertGreater(fragtrace.render(scene, no_background=True, **SMALL)[:, :, 3].mean(), 0.05)
+
+    def test_sequences_are_those_of_the_command(self):
+        for scene, words, keywords in (("wheel.gltf", ("--frames", "1:7:3", "--fps", 24), {"frames": range(1, 8, 3), "fps": 24}),
+                                       ("wheel.gltf", ("--frames", "2:3", "--shutter", 180), {"frames": "2:3", "shutter": 180}),
+                                       ("lights.gltf", ("--turntable", 3, "--turn", "object"), {"turntable": 3, "turn": "object"})):
+            with self.subTest(scene):
+                numbers = list(keywords.get("frames")) if isinstance(keywords.get("frames"), range) else (2, 3) if "frames" in keywords else range(3)
+                subprocess.run([FRAGTRACE, "render", SCENES / scene, "--resolution", "24x16", "--spp", "2", *map(str, words), "-o", self.folder / "a#.exr", "--quiet"], check=True)
+                pictures = list(fragtrace.sequence(SCENES / scene, **SMALL, **keywords))
+                self.assertEqual(len(pictures), len(numbers))
+                for number, picture in zip(numbers, pictures):
+                    np.testing.assert_array_equal(picture, fragtrace.read(self.folder / f"a{number}.exr"))
+        self.assertEqual(len(list(fragtrace.Scene(SCENES / "lights.gltf", **SMALL).sequence(turntable=2))), 2)
+        for keywords, says in (({}, "frames=.* or turntable="), ({"frames": "0:1", "turntable": 2}, "^frames: does not go with turntable"), ({"frames": "1"}, "^frames: "),
+                               ({"frame": 3}, "no keyword of sequence.*frames")):
+            with self.assertRaisesRegex(fragtrace.UsageError, says):
+                fragtrace.sequence(SCENES / "wheel.gltf", **SMALL, **keywords)
+
+    def test_a_scene_takes_new_options_and_says_what_was_renewed(self):
+        scene = fragtrace.Scene(SCENES / "wheel.gltf", **SMALL)
+        for keywords, renewed in (({}, "scene"), ({}, "nothing"), ({"camera_orbit": (30, 0)}, "nothing"), ({"animation_time": 0.2}, "pose"), ({"dispatch": "fragment"}, "program"),
+                                  ({"dispatch": None}, "program"), ({"up": "z"}, "scene")):
+            scene.set(**keywords)
+            picture = scene.render()
+            self.assertEqual(scene.renewed, renewed, keywords)
+        np.testing.assert_array_equal(picture, fragtrace.render(SCENES / "wheel.gltf", **SMALL, camera_orbit=(30, 0), animation_time=0.2, up="z"))
+        with self.assertRaisesRegex(fragtrace.UsageError, "did you mean stage"):
+            scene.set(stages="gi")
+
+    def test_the_version(self):
+        said = subprocess.run([FRAGTRACE, "--version"], check=True, capture_output=True, text=True).stdout
+        self.assertEqual(fragtrace.__version__, said.split()[1])
+
+    def test_type_checkers_know_the_keywords(self):
+        script = self.folder / "script.py"
+        script.write_text("""import fragtrace
+fragtrace.render("a.glb", spp=4, resolution=(64, 64), hdri="a.hdr", camera={"position": (0, 1, 2)}, stage="gi", no_background=True).save("a.png")
+for picture in fragtrace.Scene(b"glTF", seed=3).sequence(frames=range(3), fps=25):
+    picture.save("b.png")
+fragtrace.render("a.glb", sppp=4)
+fragtrace.render("a.glb", spp="many")
+fragtrace.render("a.glb", stage="nothing")
+fragtrace.render("a.glb", turntable=3)
+""")
+        ran = subprocess.run([sys.executable, "-m", "mypy", "--cache-dir", self.folder / "cache", script], capture_output=True, text=True, check=False)
+        if "No module named mypy" in ran.stderr:
+            self.skipTest("no mypy")
+        found = re.findall(r"script\.py:(\d+): error: .*?\"(sppp|spp|stage|turntable)\"", ran.stdout)
+        self.assertEqual(found, [("5", "sppp"), ("6", "spp"), ("7", "stage"), ("8", "turntable")], ran.stdout + ran.stderr)
+
     def test_info(self):
         self.assertEqual(fragtrace.info(SCENES / "mesh-15743.gltf")["scene"]["triangles"], 15743)
 
 
 class Errors(Package):
     def test_each_kind_is_an_exception(self):
-        with self.assertRaisesRegex(fragtrace.UsageError, "--spp"):
+        with self.assertRaisesRegex(fragtrace.UsageError, "^spp: "):
             fragtrace.render(SCENES / "cornell-box.gltf", spp=-1)
-        for keywords, says in (({"sppp": 4}, "sppp: .*did you mean spp?"), ({"camera": {"pos": (0, 1, 4)}}, "camera_pos: .*camera_position"),
-                               ({"resolution": 160}, "resolution"), ({"exposure": 1}, "save"), ({"frames": "0:3"}, "animation_time"), ({"help": True}, "help\\(fragtrace.render\\)"), ({"output": "a.png"}, "save"),
+        for keywords, says in (({"samples": 4}, "samples: .*did you mean spp\\?$"), ({"sppp": 4}, "sppp: .*did you mean spp\\?$"), ({"camera": {"pos": (0, 1, 4)}}, "camera_pos: .*camera_position"),
+                               ({"resolution": 160}, "resolution"), ({"exposure": 1}, "save"), ({"frames": "0:3"}, "sequence"), ({"help": True}, "help\\(fragtrace.render\\)"), ({"output": "a.png"}, "save"),
                                ({"format": "png"}, "save"), ({"quiet": True}, "messages"), ({"stats": "s.json"}, "statistics"), ({"seed": {}}, "no dict"),
-                               ({"seed": {"a": 1}}, "no dict"), ({"fit": "yes"}, "--fit: takes no value")):
+                               ({"seed": {"a": 1}}, "no dict"), ({"fit": "yes"}, "^fit: takes no value")):
             with self.assertRaisesRegex(ValueError, says):
                 fragtrace.render(SCENES / "cornell-box.gltf", **keywords)
         for wrong in ([], "a.exr"):

@@ -37,7 +37,7 @@ def main():
     python = PLACE / "environment/bin/python"
     if not mark.exists() or mark.read_text() != digest:
         run("/usr/bin/python3" if Path("/usr/bin/python3").exists() else sys.executable, "-m", "venv", "--clear", PLACE / "environment")
-        run(python, "-m", "pip", "install", "--quiet", wheel, "nbclient", "ipykernel", "nbformat")
+        run(python, "-m", "pip", "install", "--quiet", wheel, "mypy", "trimesh", "nbclient", "ipykernel", "nbformat")
         mark.write_text(digest)
     # No compiler, and nothing of the build, is in sight.
     clean = {"PATH": f"{python.parent}:/usr/bin:/bin", "HOME": str(PLACE), "MESA_SHADER_CACHE_DISABLE": "true",

@@ -7,10 +7,10 @@
 
 Most options of the command `fragtrace render` are keywords: --sample-offset is sample_offset=. Colours are linear, Rec. 709 primaries,
 float32; the first row is the top."""
-from fragtrace._core import ContextError, InputError, RenderError, UsageError
+from fragtrace._core import ContextError, InputError, RenderError, UsageError, __version__
 from fragtrace._files import diff, info, merge, read
 from fragtrace._picture import Layers, Picture, tonemap
-from fragtrace._scene import Scene, render
+from fragtrace._scene import Scene, render, sequence
 
-__all__ = ["ContextError", "InputError", "Layers", "Picture", "RenderError", "Scene", "UsageError", "diff", "info", "merge", "read", "render",
-           "tonemap"]
+__all__ = ["ContextError", "InputError", "Layers", "Picture", "RenderError", "Scene", "UsageError", "__version__", "diff", "info", "merge", "read",
+           "render", "sequence", "tonemap"]

@@ -1,16 +1,56 @@
 # SPDX-License-Identifier: MIT
 """Files of pictures and scenes: reading, comparing, joining, describing."""
+import contextlib
 import json
 import os
 import subprocess
+import weakref
 
 import numpy as np
 
 from fragtrace import _core
 from fragtrace._picture import Layers, _planes, picture_of
 from fragtrace._program import program
+from fragtrace._words import in_python
 
 ERRORS = {2: _core.UsageError, 3: _core.InputError, 4: _core.ContextError}
+
+
+class Model:
+    """A scene by a path: a file, or one in memory that lives as long as this. `name` is for messages. Raises UsageError for what is no scene."""
+
+    def __init__(self, scene):
+        self.file = None
+        if isinstance(scene, (str, os.PathLike)):
+            self.name = self.path = os.fsdecode(scene)
+            return
+        self.name = f"<{type(scene).__name__}>"
+        content = scene
+        if hasattr(scene, "export"):
+            content = scene.export(file_type="glb")
+        elif hasattr(scene, "read"):
+            content = scene.read()
+        try:
+            content = memoryview(content)
+        except TypeError:
+            kind = "a file that was not opened as binary ('rb')" if isinstance(content, str) else f"a {type(content).__name__}"
+            raise _core.UsageError(f"scene: {kind} is no scene; a path, bytes, a binary file and what has .export(file_type=\"glb\") are") from None
+        self.file = os.memfd_create("scene")
+        weakref.finalize(self, os.close, self.file)
+        with open(self.file, "wb", closefd=False) as file:
+            file.write(content)
+        self.path = f"/proc/self/fd/{self.file}"
+
+    def named(self, text):
+        return text if self.file is None else text.replace(self.path, self.name)
+
+    @contextlib.contextmanager
+    def errors(self):
+        """Says errors of the program in Python's words."""
+        try:
+            yield
+        except (_core.UsageError, _core.InputError, _core.RenderError, _core.ContextError) as error:
+            raise type(error)(in_python(self.named(str(error)))) from None
 
 
 def read(path):
@@ -50,10 +90,11 @@ def merge(paths):
     return picture
 
 
-def info(path):
-    """Returns the content of a scene as `fragtrace info --json` prints it: a dict. Raises InputError."""
-    ran = subprocess.run([program(), "info", "--json", os.fspath(path)], capture_output=True, text=True, check=False)
-    if ran.returncode:
-        words = ran.stderr.strip().removeprefix("fragtrace: ")
-        raise ERRORS.get(ran.returncode, _core.RenderError)(words)
+def info(scene):
+    """Returns the content of a scene, given as to render(), as `fragtrace info --json` prints it: a dict. Raises InputError."""
+    model = scene if isinstance(scene, Model) else Model(scene)
+    ran = subprocess.run([program(), "info", "--json", model.path], capture_output=True, text=True, check=False, pass_fds=() if model.file is None else [model.file])
+    with model.errors():
+        if ran.returncode:
+            raise ERRORS.get(ran.returncode, _core.RenderError)(ran.stderr.strip().removeprefix("fragtrace: "))
     return json.loads(ran.stdout)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The keywords of fragtrace.render(). scripts/option_reference writes them."""
+"""The keywords of fragtrace.render() and sequence(). scripts/option_reference writes them."""
 from collections.abc import Sequence
 from os import PathLike
 from typing import Any, Literal, TypedDict
@@ -81,6 +81,7 @@ class Keywords(TypedDict, total=False):
     traversal: Literal["auto", "iterative", "bvh", "front-to-back", "literals"] | None
     instancing: Literal["auto", "flatten", "share"] | None
     rendering_backend: Literal["auto", "egl", "osmesa"] | None
+    device: str | float | None
     buffer_reads: Literal["auto", "ssbo", "image", "texel"] | None
     texture_reads: Literal["auto", "words", "arrays"] | None
     dispatch: Literal["auto", "fragment", "compute"] | None
@@ -109,7 +110,14 @@ class Keywords(TypedDict, total=False):
     region: str | Sequence[int] | None
     trace_file: str | PathLike[str] | None
     count_work: bool | None
+    fps: float | None
+    shutter: float | None
     denoise: Literal["none", "variance", "oidn", "auto"] | None
     oidn_library: str | PathLike[str] | None
     config: str | PathLike[str] | None
     hdri: dict[str, Any] | str | PathLike[str] | None
+
+class SequenceKeywords(Keywords, total=False):
+    frames: range | str | float | None
+    turntable: int | None
+    turn: Literal["camera", "object"] | None

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <string>
@@ -23,7 +24,12 @@
 #include "image/files/video_format.h"
 #include "image/files/whole_file.h"
 #include "options/option_text.h"
+#include "scene/motion/moving_scene.h"
 #include "session/interrupt.h"
+#include "session/picture/denoising.h"
+#include "session/say.h"
+#include "session/setup.h"
+#include "session/shutter.h"
 
 namespace fragtrace {
 
@@ -280,6 +286,57 @@ void turnLights(Scene& scene, const glm::dvec3& focalPoint, double angle) {
     light.position = glm::vec3(middle + glm::rotateY(glm::dvec3(light.position) - middle, angle));
     light.direction = glm::vec3(glm::rotateY(glm::dvec3(light.direction), angle));
   }
+}
+
+namespace {
+
+/// Pictures after the end of an animation are all the same.
+void warnBeyondEnd(const RenderOptions& options, const SequenceOptions& sequence, const Scene& scene) {
+  const std::optional<double> length = animationLength(scene, options.selection);
+  const int last = rangeOf(sequence).last;
+  if (!length || last <= std::ceil(*length * sequence.fps)) return;
+  say(options,
+      formatted(
+          "warning: --frames: the animation ends after %.4g s, at picture %d; those after it show its end",
+          *length, int(std::ceil(*length * sequence.fps))));
+}
+
+}  // namespace
+
+Statistics prepareFrame(Session& session, Device& device, const SequenceFrame& frame,
+                        const SequenceOptions& sequence) {
+  const bool first = !session.hasTracer();
+  const bool turns = sequence.turntable > 0;
+  const auto turnsBeforeLamps = [&] {
+    return turns && sequence.turn == Turn::Object && session.isLoaded() &&
+           !session.loaded().scene.lights.empty();
+  };
+  const auto change = [&](LoadedScene& loaded) {
+    if (turns) loaded.scene.motion.camera = frame.sweep > 0.0;
+    if (turnsBeforeLamps())
+      turnLights(loaded.scene, turningPoint(loaded.camera, loaded.overrides, loaded.framed), frame.turn);
+  };
+  Statistics stats;
+  const Renewal least = turnsBeforeLamps() ? Renewal::Pose : Renewal::None;
+  session.set(withGuides(frame.options), device, stats, {least, change});
+  if (first && !turns) warnBeyondEnd(frame.options, sequence, session.loaded().scene);
+  return stats;
+}
+
+void turnView(LoadedScene& loaded, const RenderOptions& options, const SequenceFrame& frame,
+              const SequenceOptions& sequence) {
+  if (sequence.turntable == 0) return;
+  const Camera camera = loaded.camera;
+  const glm::dvec3 focalPoint = turningPoint(camera, loaded.overrides, loaded.framed);
+  const auto turned = [&](double angle) { return turnedCamera(camera, focalPoint, angle); };
+  loaded.camera = turned(frame.turn);
+  const int segments = int(std::ceil(frame.sweep / glm::half_pi<double>()));
+  std::vector<Camera> poses;
+  for (int i = 0; i <= segments && segments > 0; ++i)
+    poses.push_back(turned(frame.turn + (double(i) / segments - 0.5) * frame.sweep));
+  loaded.motion = segmentsThrough(poses);
+  loaded.view = makeView(options, loaded, loaded.camera);
+  if (sequence.turn == Turn::Object) loaded.view.hdriRotation += frame.turn;
 }
 
 }  // namespace fragtrace

@@ -10,6 +10,8 @@
 
 #include "image/files/video_format.h"
 #include "scene/camera.h"
+#include "session/session.h"
+#include "session/statistics.h"
 #include "shader/render_options.h"
 
 namespace fragtrace {
@@ -89,5 +91,16 @@ Camera turnedCamera(Camera camera, const glm::dvec3& focalPoint, double angle);
 
 /// Turns the scene's punctual lights in the same way, so that they stay before such a camera.
 void turnLights(Scene& scene, const glm::dvec3& focalPoint, double angle);
+
+/// Makes the session's scene and tracer those of the picture; a turntable has another scene in each picture
+/// where it has lamps that stay, and the rest turns. Says once where the animation ends early. Throws as
+/// Session::set().
+Statistics prepareFrame(Session& session, Device& device, const SequenceFrame& frame,
+                        const SequenceOptions& sequence);
+
+/// Turns the camera of a turntable's scene, and its view and motion with it. The caller keeps the camera
+/// that was not turned, for the next picture.
+void turnView(LoadedScene& loaded, const RenderOptions& options, const SequenceFrame& frame,
+              const SequenceOptions& sequence);
 
 }  // namespace fragtrace
