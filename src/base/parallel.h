@@ -13,6 +13,10 @@
 
 namespace fragtrace {
 
+/// The processors that work is spread over: those on which the process may run, and no more than a
+/// container's share of their time comes to (`--cpus`). At least 1.
+uint32_t processorCount();
+
 /// Names this thread for profilers and debuggers: at most 15 characters. Main threads keep the program's
 /// name, by which ps and killall know the process.
 inline void nameThread(const char* name) { ::pthread_setname_np(::pthread_self(), name); }
@@ -36,8 +40,7 @@ void runOnThreads(uint32_t count, const Work& work) {
 /// Calls work(0) ... work(count - 1), each once, on several threads that are all busy to the end; by default
 /// as many as there are processors.
 template <typename Work>
-void forEachIndex(size_t count, const Work& work,
-                  uint32_t threads = std::max(std::thread::hardware_concurrency(), 1u)) {
+void forEachIndex(size_t count, const Work& work, uint32_t threads = processorCount()) {
   std::atomic<size_t> next = 0;
   runOnThreads(threads, [&](uint32_t) {
     for (size_t i = next++; i < count; i = next++) work(i);

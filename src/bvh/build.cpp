@@ -7,7 +7,6 @@
 #include <limits>
 #include <memory>
 #include <span>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -392,7 +391,7 @@ Bvh buildOver(std::vector<BuildItem> items, uint32_t firstSingle, const BvhBuild
   if (items.empty()) return bvh;
   const SplitRules rules = rulesFor(items, firstSingle, settings.maxDepth);
   assert(items.size() < kBvhLeafBit && items.size() <= rules.capacityBelow(0));
-  const uint32_t cores = std::max(std::thread::hardware_concurrency(), 1u);
+  const uint32_t cores = processorCount();
   const uint32_t wanted = settings.threadCount > 0 ? settings.threadCount : cores;
   const uint32_t threadCount = items.size() <= kSmallestPart ? 1 : wanted;
 

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <thread>
 #include <utility>
 
 #include "base/parallel.h"
@@ -76,7 +75,7 @@ template <typename Work>
 void forAll(size_t count, const Work& work) {
   constexpr size_t kBlock = 256;
   std::atomic<size_t> next = 0;
-  runOnThreads(std::max(std::thread::hardware_concurrency(), 1u), [&](uint32_t) {
+  runOnThreads(processorCount(), [&](uint32_t) {
     for (size_t first = next.fetch_add(kBlock); first < count; first = next.fetch_add(kBlock)) {
       for (size_t i = first; i < std::min(first + kBlock, count); ++i) work(i);
     }

@@ -68,6 +68,7 @@ std::unique_ptr<Context> makeContext(const OutsideContext& outside) {
 
 std::unique_ptr<Context> makeContext(const DeviceOptions& options) {
   setVectorWidth(options.vectorWidth);
+  limitDriverThreads();
   std::string tried;
   std::unique_ptr<Context> context;
   if (options.backend != Backend::OsMesa) context = makeEglContext(tried, options.device);
@@ -249,13 +250,9 @@ namespace {
 const EglFunctions* eglFunctions(std::string& reason) {
   static const DynamicLibrary library({"libEGL.so.1", "libEGL.so"});
   static EglFunctions egl;
-  if (!library.loaded())
-    reason = library.error();
-  else if (!egl.load(library))
-    reason = "the library lacks functions of EGL 1.5";
-  else
-    return &egl;
-  return nullptr;
+  static const bool complete = library.loaded() && egl.load(library);
+  if (!complete) reason = library.loaded() ? "the library lacks functions of EGL 1.5" : library.error();
+  return complete ? &egl : nullptr;
 }
 
 bool isNumber(const std::string& text) {

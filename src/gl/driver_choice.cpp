@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/parallel.h"
 #include "shader/layout.h"
 
 namespace fragtrace {
@@ -63,6 +64,12 @@ bool keepsCompiled(const Context& context) {
 void setVectorWidth(VectorWidth width) {
   if (width == VectorWidth::Auto) return;
   ::setenv("LP_NATIVE_VECTOR_WIDTH", std::string(kVectorWidthNames[size_t(width)]).c_str(), 1);
+}
+
+void limitDriverThreads() {
+  const uint32_t count = processorCount();
+  if (count < std::thread::hardware_concurrency())
+    ::setenv("LP_NUM_THREADS", std::to_string(count).c_str(), 0);
 }
 
 int vectorWidthOf(const std::string& renderer) {

@@ -34,6 +34,10 @@ bool keepsCompiled(const Context& context);
 /// first one is made. Auto leaves the width as it is. Pictures do not depend on it.
 void setVectorWidth(VectorWidth width);
 
+/// Tells Mesa's software driver how many threads to draw by, where a container may use less than all
+/// processors (processorCount()). It must be called before the first context is made.
+void limitDriverThreads();
+
 /// The width with which the driver computes, by GL_RENDERER; 0 if it does not say.
 int vectorWidthOf(const std::string& renderer);
 

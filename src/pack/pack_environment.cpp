@@ -7,7 +7,6 @@
 #include <cstring>
 #include <limits>
 #include <numeric>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -347,8 +346,7 @@ template <typename Work>
 void forEachRow(int rows, const Work& work) {
   constexpr int kAtOnce = 16;
   std::atomic<int> next = 0;
-  const uint32_t threads =
-      std::clamp(std::thread::hardware_concurrency(), 1u, uint32_t(std::max(1, rows / 64)));
+  const uint32_t threads = std::clamp(processorCount(), 1u, uint32_t(std::max(1, rows / 64)));
   runOnThreads(threads, [&](uint32_t) {
     for (int y = next.fetch_add(kAtOnce); y < rows; y = next.fetch_add(kAtOnce)) {
       for (int k = y; k < std::min(rows, y + kAtOnce); ++k) work(k);

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <thread>
 
 #include "base/parallel.h"
 #include "scene/coincidence.h"
@@ -315,8 +314,7 @@ std::vector<uint32_t> creaseInsets(const Scene& scene, std::vector<uint32_t>* tw
   codes.of.resize(scene.triangles.size());
   constexpr uint32_t kWorthAThread = 1024;  // places
   const auto places = uint32_t(fans.first.size() - 1);
-  const uint32_t threads =
-      std::clamp(places / kWorthAThread, 1u, std::max(std::thread::hardware_concurrency(), 1u));
+  const uint32_t threads = std::clamp(places / kWorthAThread, 1u, processorCount());
   std::vector<std::vector<uint32_t>> found(threads);
   runOnThreads(threads, [&](uint32_t thread) {
     std::vector<Sector> sectors;

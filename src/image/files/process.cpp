@@ -5,7 +5,6 @@
 #include <condition_variable>
 #include <mutex>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
 #include "advice.h"
@@ -217,8 +216,7 @@ std::vector<std::string> decodeEach(std::span<const EncodedPicture> pictures, co
     sum += jobs.back().bytes;
   }
   std::ranges::stable_sort(jobs, std::ranges::greater(), &Job::bytes);
-  const uint64_t threads = std::min<uint64_t>(
-      {jobs.size(), std::max(std::thread::hardware_concurrency(), 1u), 1 + sum / kWorthAProcess});
+  const uint64_t threads = std::min<uint64_t>({jobs.size(), processorCount(), 1 + sum / kWorthAProcess});
 
   std::vector<std::string> errors(pictures.size());
   SharedRoom room{mostBytes};
