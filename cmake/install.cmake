@@ -32,7 +32,8 @@ install(FILES ${written}/completions/fragtrace.fish DESTINATION ${CMAKE_INSTALL_
 install(FILES ${written}/config.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/fragtrace)
 install(FILES ${package}/fragtrace.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
 install(FILES ${package}/fragtrace.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
-install(FILES ${package}/fragtrace.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages)
+install(FILES ${package}/fragtrace.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo)
+install(FILES ${package}/fragtrace.thumbnailer DESTINATION ${CMAKE_INSTALL_DATADIR}/thumbnailers)
 
 # Debian has its own form of these two.
 install(FILES CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT plain)

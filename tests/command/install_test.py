@@ -1,16 +1,24 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """`cmake --install` gives a program that runs from anywhere; docs/options.md and options-bench.md, man pages, completion and the schema of --config are what `help --json` says."""
+import configparser
+import contextlib
+import ctypes
 import gzip
 import json
 import os
 import re
 import shlex
 import shutil
+import struct
 import subprocess
 import sys
+import time
+import unittest
+import xml.etree.ElementTree
+from pathlib import Path
 
-from support import FRAGTRACE, SCENES, Case, main, run
+from support import FRAGTRACE, SCENES, Case, main, read_png, run
 
 BUILD = FRAGTRACE.parent
 SCRIPTS = SCENES.parent / "scripts"
@@ -38,6 +46,134 @@ class Installed(Case):
         self.assertTrue(program.resolve().is_relative_to((self.folder / "stage").resolve()))
         version = subprocess.run([program, "--version"], check=True, capture_output=True, text=True).stdout
         self.assertRegex(version, r"^fragtrace \d+\.\d+\.\d+( \([0-9a-f]+(-dirty)?\))?\n$")
+
+
+def glb(path, document, data):
+    """Writes a .glb, whose buffer 0 is `data`."""
+    text = json.dumps({**document, "buffers": [{"byteLength": len(data)}]}).encode()
+    text += b" " * (-len(text) % 4)
+    path.write_bytes(struct.pack("<4sIIII", b"glTF", 2, 28 + len(text) + len(data), len(text), 0x4E4F534A) + text
+                     + struct.pack("<I4s", len(data), b"BIN\0") + data)
+
+
+# The system calls that GNOME's host of thumbnailers refuses them.
+REFUSED = ("syslog", "personality", "acct", "modify_ldt", "quotactl", "add_key", "keyctl", "request_key", "move_pages", "mbind", "get_mempolicy",
+           "set_mempolicy", "migrate_pages", "unshare", "mount", "pivot_root", "perf_event_open", "ptrace")
+
+
+def refusal():
+    """An open file with the seccomp filter that refuses these calls."""
+    library, file = ctypes.CDLL("libseccomp.so.2"), os.memfd_create("filter")
+    library.seccomp_init.restype = ctypes.c_void_p
+    rules = ctypes.c_void_p(library.seccomp_init(0x7FFF0000))  # SCMP_ACT_ALLOW
+    for name in REFUSED:
+        assert library.seccomp_rule_add(rules, 0x00050001, library.seccomp_syscall_resolve_name(name.encode()), 0) == 0, name  # EPERM
+    assert library.seccomp_export_bpf(rules, file) == 0
+    os.lseek(file, 0, os.SEEK_SET)
+    return file
+
+
+class InSandbox(Case):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        if not shutil.which("bwrap") or subprocess.run(["bwrap", "--unshare-all", "--ro-bind", "/", "/", "true"], check=False, capture_output=True).returncode:
+            raise unittest.SkipTest("no bubblewrap that works (apt-get install bubblewrap)")
+
+
+class Containers(InSandbox):
+    @unittest.skipIf(len(os.sched_getaffinity(0)) < 2, "one processor has nothing to limit")
+    def test_a_limit_of_processors_limits_threads(self):
+        """As of `podman run --cpus`, on either version of control groups."""
+        for files, threads in (({"cpu.max": "90000 100000"}, 1), ({"cpu.max": "max 100000"}, 2), ({"cpu/cpu.cfs_quota_us": "100000", "cpu/cpu.cfs_period_us": "100000"}, 1),
+                               ({"cpu/cpu.cfs_quota_us": "-1", "cpu/cpu.cfs_period_us": "100000"}, 2)):
+            group = self.folder / "group"
+            shutil.rmtree(group, ignore_errors=True)
+            (group / "cpu").mkdir(parents=True)
+            for name, text in files.items():
+                (group / name).write_text(text + "\n")
+            words = ["bwrap", "--dev-bind", "/", "/", "--bind", group, "/sys/fs/cgroup", "taskset", "--cpu-list", ",".join(map(str, sorted(os.sched_getaffinity(0))[:2])),
+                     FRAGTRACE, "render", SCENES / "coverage.gltf", "-o", "/dev/null", "--format", "pfm", "--resolution", "512,512", "--spp", "4", "--rendering-backend", "egl", "--quiet"]
+            drawing = set()
+            with subprocess.Popen(words, env={name: value for name, value in os.environ.items() if name != "LP_NUM_THREADS"}) as process:
+                while process.poll() is None:
+                    with contextlib.suppress(OSError):
+                        child = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().strip()
+                        drawing |= {name.parent for name in Path(f"/proc/{child}/task").glob("*/comm") if name.read_text().startswith("llvmpipe")}
+                    time.sleep(0.02)
+            self.assertEqual((process.returncode, len(drawing)), (0, threads), files)
+
+
+class Thumbnails(InSandbox):
+    """A host of thumbnailers as GNOME's (gnome-desktop): bubblewrap, where only /usr and the file are, and the seccomp filter above."""
+
+    def setUp(self):
+        super().setUp()
+        self.prefix = self.folder / "usr"
+        subprocess.run(["cmake", "--install", BUILD, "--prefix", self.prefix], check=True, capture_output=True)
+
+    def thumbnail(self, file, limit=300):
+        """Runs the thumbnailer of the desktop's files, which takes at most so many seconds, and returns the files that it leaves and its seconds."""
+        entry = configparser.RawConfigParser()
+        entry.read(self.prefix / "share/thumbnailers/fragtrace.thumbnailer")
+        words = entry["Thumbnailer Entry"]["Exec"]
+        self.assertIn("KILL 9 ", words)
+        words = words.replace("KILL 9 ", f"KILL {limit} ")
+        for sign, value in (("%i", f"/tmp/input{file.suffix}"), ("%o", "/tmp/gnome-desktop-thumbnailer.png"), ("%s", "256")):
+            words = words.replace(sign, value)
+        out = self.folder / f"out-{file.name}"
+        out.mkdir()
+        links = [word for name in ("bin", "lib", "lib64", "sbin") if os.path.islink(f"/{name}") for word in ("--symlink", f"/usr/{name}", f"/{name}")]
+        rules = refusal()
+        began = time.monotonic()
+        subprocess.run(["bwrap", "--ro-bind", "/usr", "/usr", "--ro-bind", "/etc/ld.so.cache", "/etc/ld.so.cache", *links, "--proc", "/proc", "--dev", "/dev",
+                        "--chdir", "/", "--unshare-all", "--die-with-parent", "--ro-bind", self.prefix, "/opt/fragtrace", "--bind", out, "/tmp",
+                        "--ro-bind", file, f"/tmp/input{file.suffix}", "--seccomp", str(rules), *shlex.split(words)],
+                       env={"PATH": "/opt/fragtrace/bin:/usr/bin", "HOME": "/home/nobody"}, pass_fds=[rules], check=False)
+        took = time.monotonic() - began
+        os.close(rules)
+        (out / f"input{file.suffix}").unlink(missing_ok=True)  # the place for the file
+        return list(out.iterdir()), took
+
+    def test_a_model_has_a_picture_and_leaves_nothing_else(self):
+        seen = {}
+        for name in ("coverage", "rough-metals"):
+            source = json.loads((SCENES / f"{name}.gltf").read_text())
+            self.assertTrue(source["buffers"][0]["uri"].startswith("data:"), name)
+            (file,), _ = self.thumbnail(SCENES / f"{name}.gltf")
+            width, height, rows, step = read_png(file)
+            self.assertEqual((width, height, step), (256, 256, 4))
+            seen[name] = b"".join(bytes(row) for row in rows)
+            self.assertGreater(len(set(seen[name])), 64)
+        self.assertNotEqual(*seen.values())
+
+    def test_a_file_of_200_mb_has_one_in_10_seconds_or_none(self):
+        count = 5_000_000
+        corners = b"".join(struct.pack("<9f", *(x + dx if i % 3 != 1 else y + dx for i, dx in enumerate((0, 0, 0, 1, 0, 0, 0, 1, 0))))
+                           for y in range(100) for x in range(100))
+        data = (corners * (count * 12 // len(corners) + 1))[:count // 3 * 36]
+        data += struct.pack("<I", 0) * (200_000_000 // 4 - len(data) // 4)
+        vertices = len(data) // 12 // 3 * 3
+        glb(self.folder / "large.glb", {
+            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "bufferViews": [{"buffer": 0, "byteLength": len(data)}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": vertices, "min": [0, 0, 0], "max": [100, 100, 100]}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]}, data)
+        files, took = self.thumbnail(self.folder / "large.glb", limit=9)
+        self.assertLess(took, 10.5)
+        self.assertTrue(files or took > 8.5, took)
+        for file in files:
+            self.assertEqual(read_png(file)[:2], (256, 256))
+
+    def test_what_the_desktop_reads_is_as_it_should_be(self):
+        share = self.prefix / "share"
+        entry = configparser.RawConfigParser()
+        entry.read(share / "applications/fragtrace.desktop")
+        self.assertNotIn("NoDisplay", entry["Desktop Entry"])
+        about = xml.etree.ElementTree.parse(share / "metainfo/fragtrace.metainfo.xml").getroot()
+        self.assertEqual(about.findtext("launchable"), "fragtrace.desktop")
+        self.assertEqual({kind.text for kind in about.iter("mediatype")}, set(entry["Desktop Entry"]["MimeType"].strip(";").split(";")))
+        if shutil.which("appstreamcli"):
+            subprocess.run(["appstreamcli", "validate", "--no-net", share / "metainfo/fragtrace.metainfo.xml"], check=True, capture_output=True)
 
 
 class OptionReference(Case):

@@ -61,13 +61,23 @@ std::vector<std::string> neededOf(const std::filesystem::path& path) {
   return names;
 }
 
+/// The library in that folder. Debian's libblas.so.3 and liblapack.so.3 are links by /etc/alternatives, which
+/// sandboxes lack, to files in folders of their own, blas and lapack.
+std::filesystem::path libraryIn(const std::filesystem::path& folder, const std::string& name) {
+  std::error_code error;
+  if (std::filesystem::exists(folder / name, error) || !name.starts_with("lib")) return folder / name;
+  const size_t begin = std::strlen("lib");
+  return folder / name.substr(begin, name.find(".so") - begin) / name;
+}
+
 void loadNeeded(const std::filesystem::path& object, const std::filesystem::path& folder,
                 std::set<std::string>& seen) {
   for (const std::string& name : neededOf(object)) {
     if (!seen.insert(name).second) continue;
-    loadNeeded(folder / name, folder, seen);
+    const std::filesystem::path library = libraryIn(folder, name);
+    loadNeeded(library, folder, seen);
     // All symbols at once: what only the whole can resolve fails here, not in use.
-    ::dlopen((folder / name).c_str(), RTLD_NOW | RTLD_LOCAL);
+    ::dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
   }
 }
 
