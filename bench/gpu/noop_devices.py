@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: MIT
 """A Debian 13 with Mesa's drivers for GPUs, and with devices that do nothing (Mesa's drm-shim), so that they compile where there is no GPU.
 
-Needs what tests/command/debian.py needs, and 6 GB of ~/.cache/fragtrace/gpu-compilers (FRAGTRACE_GPU_COMPILERS). It is made once, in a few minutes.
+Needs what scripts/debian.py needs, and 6 GB of ~/.cache/fragtrace/gpu-compilers (FRAGTRACE_GPU_COMPILERS). It is made once, in a few minutes.
 """
 import os
 import shutil
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests/command"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 
 import debian  # noqa: E402
 

@@ -3,22 +3,25 @@
 """The Debian package, installed by apt in a fresh Debian of this release and used there by an ordinary user, without a compiler; Python's
 wheel, installed by pip in another one; and all of that, with all tests, made in a fresh Debian of the other release.
 
-Skipped where a fresh Debian cannot be made (debian.py).
+Skipped where a fresh Debian cannot be made (scripts/debian.py).
 """
 import base64
 import json
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-from debian import KEPT, RELEASES, Debian, own_release, why_not
 from support import FRAGTRACE, SCENES, Case, main, run
 
 BUILD = FRAGTRACE.parent
 ROOT = SCENES.parent
+sys.path.insert(0, str(ROOT / "scripts"))
+from debian import KEPT, RELEASES, Debian, own_release, why_not  # noqa: E402
+
 RENDER = ["--resolution", "64,64", "--spp", "8", "--quiet"]
 # One triangle, by draco_encoder -qp 0 -cl 0.
 DRACO = "RFJBQ08CAgEAAAABAwEAAQIBAQAJAwAAAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAA=="

@@ -176,6 +176,16 @@ class Thumbnails(InSandbox):
             subprocess.run(["appstreamcli", "validate", "--no-net", share / "metainfo/fragtrace.metainfo.xml"], check=True, capture_output=True)
 
 
+class Release(Case):
+    def test_a_version_that_the_files_do_not_have_is_refused(self):
+        version = run("--version").stdout.split()[1]
+        for wrong, says in (("9.9.9", "CMakeLists.txt"), ("0", "CMakeLists.txt"), (version, "")):
+            refused = subprocess.run([SCRIPTS / "release", wrong, "nothing"], capture_output=True, text=True, check=False)
+            self.assertEqual((refused.returncode, refused.stdout), (1, ""))
+            self.assertRegex(refused.stderr, f"^release: {says}")
+        self.assertRegex((SCENES.parent / "CITATION.cff").read_text(), r"\ncff-version: 1\.2\.0\n(.*\n)*version: \d+\.\d+\.\d+\ndate-released: \d{4}-\d\d-\d\d\n")
+
+
 class OptionReference(Case):
     def test_it_is_what_the_help_says(self):
         result = subprocess.run([SCRIPTS / "option_reference", "--check", FRAGTRACE], capture_output=True, text=True, check=False)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Fresh systems of Debian below a folder (debootstrap), for tests of what a newcomer installs there.
+"""Fresh systems of Debian below a folder (debootstrap), for releases, and for tests of what a newcomer installs there.
 
 Needs root, the network and debootstrap. The fresh systems and the packages that apt has fetched stay in FRAGTRACE_DEBIAN, by default
 ~/.cache/fragtrace/debian, outside every clone.
