@@ -58,6 +58,55 @@ class Typing(Case):
         self.ends_well(viewer, viewer.close())
 
 
+class Keyboards(Case):
+    """Keys are pressed by X's number of their place: 24 is Q on a US keyboard, 25 W, 29 Y, 38 A, 52 Z."""
+
+    def view_with(self, layout):
+        self.screen.call("setxkbmap", layout)
+        return self.view("furnace", *WITH_PANEL)
+
+    def brighter(self, viewer, undo, redo):
+        viewer.key("46")  # L
+        viewer.until(lambda s: s["exposure"] == 0.5, "brighter")
+        viewer.key(undo)
+        viewer.until(lambda s: s["exposure"] == 0, f"{undo} undoes")
+        if redo:
+            viewer.key(redo)
+            viewer.until(lambda s: s["exposure"] == 0.5, f"{redo} redoes")
+
+    def test_german_keys_act_by_their_labels(self):
+        viewer = self.view_with("de")
+        self.brighter(viewer, "ctrl+29", "ctrl+52")
+        viewer.click("section Histogram")
+        viewer.click("section Stages")
+        viewer.click("Bookmark name")
+        viewer.until(lambda s: s["focus"] == "text", "a field to type in")
+        viewer.key("38", "56", "ctrl+29")  # the field undoes by its label, too
+        viewer.click("Keep view")
+        viewer.until(lambda s: "view 0" in s["places"], "kept")
+        self.assertNotIn('"ab"', (self.folder / "state/fragtrace/viewer.json").read_text())
+        self.ends_well(viewer, viewer.close())
+
+    def test_french_keys_fly_by_their_places(self):
+        viewer = self.view_with("fr")
+        self.brighter(viewer, "ctrl+25", "ctrl+shift+25")
+        viewer.key("ctrl+24", "ctrl+52")  # Ctrl+A and Ctrl+W do nothing
+        before = viewer.rest()
+        viewer.key("25")  # Z is where W is on a US keyboard
+        after = viewer.rest(lambda s: s["camera"] != before["camera"], "forwards")
+        self.assertNotIn("figures0", after["places"])
+        viewer.key("52")
+        viewer.until(lambda s: "figures0" in s["places"], "W stands in for Z")
+        viewer.key("ctrl+38")  # Ctrl+Q
+        self.ends_well(viewer, viewer.end())
+
+    def test_russian_keys_have_no_latin_labels_and_act_by_their_places(self):
+        viewer = self.view_with("ru")
+        self.brighter(viewer, "ctrl+52", "ctrl+29")
+        viewer.key("ctrl+24")
+        self.ends_well(viewer, viewer.end())
+
+
 class Pasting(Case):
     def test_copied_commands_draw_the_same_and_come_back(self):
         viewer = self.view("sphere-phong", *SMALL, "--no-background", "--exposure", "0.5")

@@ -31,10 +31,19 @@ bool repeats(Command command) {
 
 }  // namespace
 
+int labelOf(int code, int scanCode) {
+  const bool prints = code > GLFW_KEY_SPACE && code <= GLFW_KEY_WORLD_2;
+  const char* name = prints ? glfwGetKeyName(code, scanCode) : nullptr;
+  const char letter = name && name[0] != '\0' && name[1] == '\0' ? name[0] : '\0';
+  if (letter >= 'a' && letter <= 'z') return letter - 'a' + 'A';
+  return letter >= 'A' && letter <= 'Z' ? letter : code;
+}
+
 Input::Input(GLFWwindow* window) : window_(window) {
   glfwSetWindowUserPointer(window, this);
-  glfwSetKeyCallback(window, [](GLFWwindow* w, int code, int, int action, int modifiers) {
-    inputOf(w).events_.push_back({Kind::Key, mainKey(code), action, modifiers, {}});
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int code, int scanCode, int action, int modifiers) {
+    inputOf(w).events_.push_back(
+        {Kind::Key, mainKey(code), action, modifiers, {}, mainKey(labelOf(code, scanCode))});
   });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int code, int action, int modifiers) {
     inputOf(w).events_.push_back({Kind::Button, code, action, modifiers, {}});
@@ -124,13 +133,17 @@ void Input::key(const Event& event, const ViewState& state, const RunCommand& ru
   // Shortcuts of the desktop.
   if ((event.modifiers & (GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0) return;
   const int modifiers = event.modifiers & (GLFW_MOD_SHIFT | GLFW_MOD_CONTROL);
-  const Control* control = controlFor(Gesture::Press, event.code, modifiers);
+  const Control* hold = controlFor(Gesture::Hold, event.code, modifiers & ~kShiftModifier);
+  // A key that flies by its place does nothing by its label. The key with the label of such a place stands
+  // in: on a French keyboard W is where Z is on a US one.
+  const bool standsIn = (modifiers & kControlModifier) == 0 && controlFor(Gesture::Hold, event.label, 0);
+  const Control* control =
+      hold ? nullptr : controlFor(Gesture::Press, standsIn ? event.code : event.label, modifiers);
   // No key acts behind an open list, and one closes it.
   if (Interface::hasPopup()) {
     if (control && control->command == Command::Close) Interface::closePopup();
     return;
   }
-  const Control* hold = controlFor(Gesture::Hold, event.code, modifiers & ~kShiftModifier);
   if (hold && event.action == GLFW_PRESS && isUsable(state, hold->command)) {
     // The first moment counts, however soon the key is released.
     run(invocationOf(*hold, {.seconds = hurry() * kFirstFrame}));

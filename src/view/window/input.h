@@ -17,6 +17,10 @@ namespace fragtrace {
 /// Either side of the edge between picture and panel, that takes hold of it; at 96 dots an inch.
 inline constexpr float kEdgePixels = 5.0f;
 
+/// Returns the Latin letter on a key in the user's layout, as GLFW's code; if there is none, the place
+/// `code`.
+int labelOf(int code, int scanCode);
+
 using RunCommand = std::function<void(const Invocation&)>;
 
 class Input {
@@ -47,6 +51,7 @@ class Input {
     int action = 0;
     int modifiers = 0;
     glm::dvec2 value{0.0};  ///< the cursor's place, or the wheel's notches
+    int label = 0;          ///< labelOf() of a key; `code` is its place
   };
   struct Button {
     int code = -1;  ///< none is down

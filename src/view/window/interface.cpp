@@ -18,6 +18,7 @@
 
 #include "view/letters/letters.h"
 #include "view/window/glfw_window.h"
+#include "view/window/input.h"
 #include "view/window/widgets.h"
 
 namespace fragtrace {
@@ -57,8 +58,13 @@ std::deque<TypedEvent>& typedEvents() {
 void queueKeys(GLFWwindow* window) {
   glfwSetKeyCallback(window, [](GLFWwindow* w, int code, int scanCode, int action, int modifiers) {
     const bool types = code < GLFW_KEY_ESCAPE && (modifiers & GLFW_MOD_CONTROL) == 0;
-    typedEvents().push_back({action == GLFW_PRESS && !types,
-                             [=] { ImGui_ImplGlfw_KeyCallback(w, code, scanCode, action, modifiers); }});
+    typedEvents().push_back({action == GLFW_PRESS && !types, [=] {
+                               ImGui_ImplGlfw_KeyCallback(w, code, scanCode, action, modifiers);
+                               const int label = labelOf(code, scanCode);
+                               if (label == code || action == GLFW_REPEAT) return;
+                               ImGui::GetIO().KeysDown[code] = false;
+                               ImGui::GetIO().KeysDown[label] = action == GLFW_PRESS;
+                             }});
   });
   glfwSetCharCallback(window, [](GLFWwindow* w, unsigned character) {
     typedEvents().push_back({false, [=] { ImGui_ImplGlfw_CharCallback(w, character); }});
