@@ -27,6 +27,8 @@ std::vector<size_t> characterStarts(std::string_view text) {
   return starts;
 }
 
+constexpr unsigned char kBeyondLatin1 = 0xc4;  // the first byte of U+0100, and of no character before
+
 /// The controls of the panel, as it names them, and their options.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 26> kControls{{
     {"--animation", "Clip"},
@@ -57,6 +59,11 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 26> kControl
     {"--traversal", "Traversal"},
 }};
 
+std::set<std::string>& charactersSoFar() {
+  static std::set<std::string> characters;
+  return characters;
+}
+
 constexpr int kNoSampleGoal = 1 << 24;  // above, samples are limited by their number alone
 constexpr double kLongest = 99.0 * 3600.0;
 constexpr double kLongestForNoise = 600.0;
@@ -66,6 +73,10 @@ constexpr double kLongestForNoise = 600.0;
 std::string shownText(std::string_view text, size_t most) {
   const std::vector<size_t> starts = characterStarts(text);
   const size_t count = starts.size() - 1;
+  for (size_t i = 0; i < count; ++i) {
+    if (static_cast<unsigned char>(text[starts[i]]) >= kBeyondLatin1)
+      charactersSoFar().emplace(text.substr(starts[i], starts[i + 1] - starts[i]));
+  }
   std::string shown(text);
   if (count > most) {
     const size_t tail = most / 4;
@@ -79,6 +90,8 @@ std::string shownText(std::string_view text, size_t most) {
   }
   return shown;
 }
+
+const std::set<std::string>& shownCharacters() { return charactersSoFar(); }
 
 std::string withControls(const std::string& text) {
   static const std::regex option(R"((^|[ (])(--[a-z-]+))");

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -23,6 +24,9 @@ inline constexpr size_t kMostPageCharacters = 4000;
 /// Returns the text if it has at most `most` characters (UTF-8); else its beginning and its end, with what is
 /// left out counted between them. Other control characters than line feeds become spaces.
 std::string shownText(std::string_view text, size_t most);
+
+/// The characters (UTF-8) beyond Latin-1 that shownText() has returned so far: the font has to have them.
+const std::set<std::string>& shownCharacters();
 
 /// Text for the command line, as a window says it: with the names of controls instead of those of options. An
 /// option alone in brackets, " (--option)", is left out if there is no control for it.

@@ -10,6 +10,7 @@ import time
 
 from clipboard import Clipboard, clipboard_text
 from support import FRAGTRACE, SCENES, Case, main, pixels_of
+from gltf_file import SQUARE, TWO_TRIANGLES, Gltf
 from xdnd import drop
 
 SMALL = ["--resolution", "160,120", "--spp", "2"]
@@ -177,6 +178,32 @@ class LongNames(Case):
         viewer.until(lambda s: s["focus"] == "popup", "the list of cameras")
         viewer.key("Escape")
         viewer.press_for_file("F12", ".png")
+        self.ends_well(viewer, viewer.close())
+
+
+class Names(Case):
+    # Polish, Turkish, Greek, Russian, Arabic, Chinese, Japanese
+    NAMES = ["Żółw łąka", "ışık ğ", "Κύβος ς", "Кубик", "مكعبة", "立方体块", "サクラの木"]
+
+    @staticmethod
+    def lacking(name):
+        """The name as a font with Latin-1 alone draws it."""
+        return "".join(c if ord(c) < 256 else "?" for c in name)
+
+    def test_every_script_is_drawn(self):
+        gltf = Gltf()
+        for name in self.NAMES + sorted(set(map(self.lacking, self.NAMES))):
+            gltf.node(name=name, mesh=gltf.mesh(gltf.accessor(TWO_TRIANGLES, "H"), position=gltf.accessor(SQUARE)))
+        viewer = self.view(gltf.write(self.folder / "立方体.gltf"), *WITH_PANEL)
+        viewer.click("section Scene")
+        places = viewer.rest(lambda s: f"node {self.NAMES[-1]}" in s["places"], "the names")["places"]
+        time.sleep(0.5)
+        width, _, pixels = viewer.grab()
+        def row(name):
+            x, y, w, h = map(int, places[f"node {name}"])
+            return [pixels[width * j + i] for j in range(y, y + h) for i in range(x, x + w)]
+        for name in self.NAMES:
+            self.assertNotEqual(row(name), row(self.lacking(name)), name)
         self.ends_well(viewer, viewer.close())
 
 

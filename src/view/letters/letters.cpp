@@ -6,9 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <string>
-#include <system_error>
+#include <utility>
+
+#include "view/letters/fonts.h"
 
 namespace fragtrace {
 
@@ -27,21 +28,12 @@ struct FontPicture {
 };
 
 void load(FontPicture& picture, const std::string& text) {
-  ImFontGlyphRangesBuilder builder;
-  builder.AddText(text.data(), text.data() + text.size());
-  builder.AddRanges(picture.atlas.GetGlyphRangesDefault());
-  ImVector<ImWchar> ranges;
-  builder.BuildRanges(&ranges);
-  ImFontConfig config;
-  config.OversampleH = 1;
-  config.PixelSnapH = true;
-  for (const char* path : kFonts) {
-    std::error_code error;
-    if (picture.font == nullptr && std::filesystem::exists(path, error))
-      picture.font = picture.atlas.AddFontFromFileTTF(path, kFontSize, &config, ranges.Data);
-  }
-  config.SizePixels = kBuiltInFontSize;
-  if (picture.font == nullptr) picture.font = picture.atlas.AddFontDefault(&config);
+  ImFontGlyphRangesBuilder characters;
+  characters.AddText(text.data(), text.data() + text.size());
+  ImFontConfig look;
+  look.OversampleH = 1;
+  look.PixelSnapH = true;
+  picture.font = buildFont(picture.atlas, kFontSize, std::move(characters), look);
   picture.atlas.GetTexDataAsAlpha8(&picture.pixels, &picture.width, &picture.height);
 }
 

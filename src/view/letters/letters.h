@@ -2,7 +2,6 @@
 // Text as pixels, behind a shared object of our own, since it links Dear ImGui. `sheet` opens it.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -23,14 +22,5 @@ using WriteLetters = Letters(std::string_view text, int width, int mostLines);
 inline constexpr const char* kLettersLibrary = "libfragtrace_letters.so";
 inline constexpr const char* kLettersEntry = "fragtraceLetters";
 extern "C" WriteLetters fragtraceLetters;
-
-// Where systems keep a legible font.
-
-/// The fonts that are tried, in order. Without any, Dear ImGui's own is taken.
-inline constexpr std::array kFonts{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-                                   "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
-                                   "/usr/share/fonts/TTF/DejaVuSans.ttf"};
-
-inline constexpr float kBuiltInFontSize = 13.0f;  ///< the only one that its pixels are drawn for
 
 }  // namespace fragtrace

@@ -12,11 +12,12 @@
 #include <cfloat>
 #include <cmath>
 #include <deque>
-#include <filesystem>
 #include <functional>
 #include <glm/common.hpp>
+#include <utility>
 
-#include "view/letters/letters.h"
+#include "view/letters/fonts.h"
+#include "view/shown_text.h"
 #include "view/window/glfw_window.h"
 #include "view/window/input.h"
 #include "view/window/widgets.h"
@@ -28,16 +29,9 @@ namespace {
 constexpr float kFontSize = 15.0f;  // pixels at 96 dots an inch
 
 void loadFont(float scale) {
-  ImGuiIO& io = ImGui::GetIO();
-  io.Fonts->Clear();
-  for (const char* path : kFonts) {
-    std::error_code error;
-    if (!std::filesystem::exists(path, error)) continue;
-    if (io.Fonts->AddFontFromFileTTF(path, std::round(kFontSize * scale))) return;
-  }
-  ImFontConfig config;
-  config.SizePixels = kBuiltInFontSize * std::max(1.0f, std::floor(scale));
-  io.Fonts->AddFontDefault(&config);
+  ImFontGlyphRangesBuilder characters;
+  for (const std::string& character : shownCharacters()) characters.AddText(character.c_str());
+  buildFont(*ImGui::GetIO().Fonts, std::round(kFontSize * scale), std::move(characters), {});
 }
 
 #if IMGUI_VERSION_NUM < 18700
@@ -144,22 +138,25 @@ void Interface::fit() {
   glm::vec2 content(1.0f);
   glfwGetWindowContentScale(window_, &content.x, &content.y);
   const float scale = displayScale(content);
-  if (scale == scale_) return;
-  scale_ = scale;
+  if (scale == scale_ && !lacksCharacters()) return;
+  const bool replaces = std::exchange(scale_, scale) > 0.0f;
+  characters_ = shownCharacters().size();
   loadFont(scale);
-  // The next frame makes them again; it makes the texture of the fonts only together with all else.
-  ImGui_ImplOpenGL3_DestroyDeviceObjects();
+  if (replaces) {
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+  }
   ImGuiStyle style = themeStyle();
   style.ScaleAllSizes(scale);
   ImGui::GetStyle() = style;
 }
 
 void Interface::begin() {
+  ImGui_ImplOpenGL3_NewFrame();
   fit();
 #if IMGUI_VERSION_NUM < 18700
   passKeys();
 #endif
-  ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   scaleFrame(window_);
   ImGui::NewFrame();
@@ -174,7 +171,10 @@ void Interface::discard() { ImGui::EndFrame(); }
 
 bool Interface::holding() { return ImGui::IsAnyItemActive(); }
 
-bool Interface::waiting() {
+bool Interface::lacksCharacters() const { return characters_ != shownCharacters().size(); }
+
+bool Interface::waiting() const {
+  if (lacksCharacters()) return true;
 #if IMGUI_VERSION_NUM >= 18700
   return ImGui::GetCurrentContext()->InputEventsQueue.Size > 0;
 #else

@@ -34,8 +34,8 @@ class Interface {
   /// Returns true if a slider or button is held, or a text edited.
   static bool holding();
 
-  /// True while events are left for the next frame.
-  static bool waiting();
+  /// True while events, or characters that the font lacks, are left for the next frame.
+  bool waiting() const;
 
   /// The receiver of keys: "text" that is edited, a "popup", or the "picture".
   static const char* focus();
@@ -48,8 +48,10 @@ class Interface {
 
  private:
   void fit();
+  bool lacksCharacters() const;
   GLFWwindow* window_;
   float scale_ = 0.0f;
+  size_t characters_ = 0;  ///< of shownCharacters() that the font has
 };
 
 }  // namespace fragtrace

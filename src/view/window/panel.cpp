@@ -445,6 +445,7 @@ void drawBookmarks(ViewState& state, ViewFacts& facts) {
   Places& places = facts.places;
   const float button = ImGui::CalcTextSize("Keep view").x + 4 * ImGui::GetStyle().FramePadding.x;
   ImGui::SetNextItemWidth(-button);
+  shownText(state.bookmarkName.data(), state.bookmarkName.size());  // the font gets what is typed
   const bool typed =
       placed(places, "Bookmark name",
              ImGui::InputTextWithHint("##bookmark", "name of this view", state.bookmarkName.data(),

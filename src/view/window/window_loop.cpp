@@ -151,7 +151,7 @@ void Window::run() {
 bool Window::iconified() const { return glfwGetWindowAttrib(window_.get(), GLFW_ICONIFIED) != 0; }
 
 void Window::wait() {
-  if (Interface::waiting()) frames_ = std::max(frames_, kFramesAfterEvent);
+  if (interface_.waiting()) frames_ = std::max(frames_, kFramesAfterEvent);
   double seconds = kLongestSleep;
   const double now = glfwGetTime();
   const auto atMost = [&](double limit) { seconds = std::clamp(limit, 0.0, seconds); };
@@ -167,7 +167,7 @@ void Window::wait() {
     glfwWaitEventsTimeout(seconds);
   else
     glfwPollEvents();
-  if (input_.waiting() || Interface::waiting() || input_.active() || requestedMoving_)
+  if (input_.waiting() || interface_.waiting() || input_.active() || requestedMoving_)
     frames_ = std::max(frames_, kFramesAfterEvent);
 }
 
@@ -225,6 +225,8 @@ void Window::take(ViewedScene scene) {
   const std::vector<ChangedNumber> changed = numbersSavedIn(scene);
   const LightOptions lightBefore = state_.edit.shared.light;
   showScene(state_, std::move(scene));
+  // The font gets all names at once, not each as it is scrolled to.
+  for (const SceneNode& node : state_.scene->nodes) shownText(node.name, kMostNameCharacters);
   rebase(history_, state_, changed, lightBefore);
   glfwSetWindowTitle(window_.get(), windowTitle(state_.scene->options.scene).c_str());
   wanted_ = state_.scene->options;
