@@ -172,7 +172,10 @@ class Coverage {
       const glm::dvec2& a = corners[i];
       const glm::dvec2& b = corners[(i + 1) % corners.size()];
       if ((a.y <= middle) == (b.y <= middle)) continue;
-      const double x = a.x + (b.x - a.x) * (middle - a.y) / (b.y - a.y);
+      // From the upper end, so that polygons on both sides of an edge find the same place: no pixel is
+      // between them.
+      const auto& [upper, lower] = std::minmax(a, b, [](const auto& p, const auto& q) { return p.y < q.y; });
+      const double x = upper.x + (lower.x - upper.x) * (middle - upper.y) / (lower.y - upper.y);
       left = std::min(left, x);
       right = std::max(right, x);
     }

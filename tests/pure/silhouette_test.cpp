@@ -55,6 +55,18 @@ TEST(Silhouette, TakesWhatIsBelowANode) {
   EXPECT_TRUE(nodesBelow(stage.scene, 4).empty());
 }
 
+TEST(Silhouette, HasNoGapBetweenTheTrianglesOfASquare) {
+  OutlinedScene stage;
+  stage.camera.position = stage.place + glm::dvec3(0.5, 0.5, 2.08);
+  stage.camera.fovY = glm::radians(60.0);
+  const NodeSet square{false, false, true};
+  for (int pixels = 16; pixels < 200; ++pixels) {
+    const auto lines =
+        outlineOfNodes(stage.scene, square, projectionOf(stage.camera, 1.0), glm::ivec2(pixels));
+    EXPECT_EQ(lines.size(), 4u) << pixels;
+  }
+}
+
 TEST(Silhouette, KnowsTheBox) {
   const OutlinedScene stage;
   const BoundsDouble instance = boundsOfNodes(stage.scene, nodesBelow(stage.scene, 3));
