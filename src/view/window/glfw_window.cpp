@@ -165,6 +165,12 @@ WindowHandle openWindow(glm::ivec2 size, const std::string& title) {
 #endif
   // Full screen, it stays when another window gets the keyboard, as on a second screen.
   glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);
+  // Desktops find the icon and the menu entry by these: fragtrace.desktop.
+  glfwWindowHintString(GLFW_X11_CLASS_NAME, "fragtrace");
+  glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "fragtrace");
+#ifdef GLFW_WAYLAND_APP_ID
+  glfwWindowHintString(GLFW_WAYLAND_APP_ID, "fragtrace");
+#endif
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
   WindowHandle window(glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr));
