@@ -140,11 +140,11 @@ struct LoadStatus {
   bool operator==(const LoadStatus&) const = default;
 };
 
-/// A file to be made of what a side has accumulated, linear or as a display shows it, or of both sides.
+/// A file to be made of what a side has accumulated, linear or as a display shows it, or of all sides.
 struct SaveRequest {
   std::filesystem::path path;
   size_t side = 0;
-  bool both = false;  ///< both sides as they are shown, rather than one
+  bool all = false;  ///< all sides as they are shown, rather than one
   Composition composition{};
 };
 

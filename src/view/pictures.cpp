@@ -35,6 +35,21 @@ glm::dvec4 displayed(const glm::dvec4& texel, const ComposedSide& side, const Co
   return {applyToneMap(curve, glm::dvec3(texel) / coverage * factor) * coverage, coverage};
 }
 
+/// R, G, B and perhaps A of each pixel.
+template <typename Paint>
+Image painted(glm::ivec2 size, bool alpha, const Paint& paint) {
+  Image picture{size.x, size.y, {"R", "G", "B"}, {}, {}};
+  if (alpha) picture.channels.emplace_back("A");
+  picture.values.reserve(size_t(size.x) * size_t(size.y) * picture.channelCount());
+  for (int y = 0; y < size.y; ++y) {
+    for (int x = 0; x < size.x; ++x) {
+      const glm::dvec4 value = paint({x, y});
+      for (int c = 0; c < (alpha ? 4 : 3); ++c) picture.values.push_back(float(value[c]));
+    }
+  }
+  return picture;
+}
+
 size_t binOf(double value) {
   if (!(value > 0.0)) return 0;
   const double part = (std::log2(value) - kLowestStop) / (kHighestStop - kLowestStop);
@@ -52,29 +67,23 @@ int texelOf(int pixel, int step, int pixels, int texels) {
 
 }  // namespace
 
-Image composite(const std::array<ComposedSide, 2>& sides, glm::ivec2 size, const Composition& composition) {
+Image composite(std::span<const ComposedSide> sides, glm::ivec2 size, const Composition& composition) {
   const bool difference = composition.difference;
-  const bool alpha = !difference && (sides[0].image.channelCount() > 3 || sides[1].image.channelCount() > 3);
-  Image picture{size.x, size.y, {"R", "G", "B"}, {}, {}};
-  if (alpha) picture.channels.emplace_back("A");
-  picture.values.reserve(size_t(size.x) * size_t(size.y) * picture.channelCount());
+  const bool alpha = !difference && std::ranges::any_of(sides, [](const ComposedSide& side) {
+    return side.image.channelCount() > 3;
+  });
   const int bar = int(std::lround(composition.bar * size.x));
   const double factor = std::exp2(composition.differenceStops);
-  for (int y = 0; y < size.y; ++y) {
-    for (int x = 0; x < size.x; ++x) {
-      glm::dvec4 value(0.0, 0.0, 0.0, 1.0);
-      if (difference) {
-        const glm::dvec4 apart =
-            texelAt(sides[0].image, {x, y}, size) - texelAt(sides[1].image, {x, y}, size);
-        value = glm::dvec4(applyToneMap(ToneMap::Linear, glm::abs(glm::dvec3(apart)) * factor), 1.0);
-      } else {
-        const ComposedSide& side = sides[x >= bar ? 1 : 0];
-        value = displayed(texelAt(side.image, {x, y}, size), side, composition);
-      }
-      for (int c = 0; c < (alpha ? 4 : 3); ++c) picture.values.push_back(float(value[c]));
-    }
-  }
-  return picture;
+  const bool tiles = sides.size() > 2;
+  return painted(tiles ? size * kCells : size, alpha, [&](glm::ivec2 pixel) {
+    const glm::ivec2 cell = pixel / size;
+    const size_t side = tiles ? size_t(cell.y * kCells + cell.x) : pixel.x >= bar ? 1 : 0;
+    if (side >= sides.size()) return glm::dvec4(0.0, 0.0, 0.0, 1.0);
+    if (!difference)
+      return displayed(texelAt(sides[side].image, pixel % size, size), sides[side], composition);
+    const glm::dvec4 apart = texelAt(sides[0].image, pixel, size) - texelAt(sides[1].image, pixel, size);
+    return glm::dvec4(applyToneMap(ToneMap::Linear, glm::abs(glm::dvec3(apart)) * factor), 1.0);
+  });
 }
 
 Histogram histogramOf(const Image& image, double exposure, size_t mostPixels) {

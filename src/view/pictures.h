@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 
 #include "image/display/tone_map.h"
 #include "image/image.h"
@@ -63,10 +64,15 @@ struct Composition {
   ToneMap toneMap = ToneMap::Neutral;
 };
 
-/// The split view as the window shows it (shaders/entry/window.frag), as linear display values 0..1 for a
-/// linear tone map: left of the bar one side, right of it the other, or the absolute difference of radiance
-/// times 2^differenceStops. R, G, B and, for the bar, premultiplied A.
-Image composite(const std::array<ComposedSide, 2>& sides, glm::ivec2 size, const Composition& composition);
+/// Cells of the overview in a row and in a column: as many, so that each has the picture's proportions.
+inline constexpr int kCells = 3;
+
+/// What the window shows of several sides (shaders/entry/window.frag), as linear display values 0..1 for a
+/// linear tone map: R, G, B and, unless it is a difference, premultiplied A where a side has that. Of two,
+/// the split view, of `size`: left of the bar one side, right of it the other, or the absolute difference of
+/// radiance times 2^differenceStops. Of more, the overview: rows of kCells pictures of `size`, black beside
+/// them.
+Image composite(std::span<const ComposedSide> sides, glm::ivec2 size, const Composition& composition);
 
 // The histogram of the radiance in a picture.
 

@@ -183,9 +183,6 @@ bool sameNodes(const RenderOptions& a, const RenderOptions& b);
 /// area.
 glm::dvec2 magnifiedPlace(const ViewState& state, const glm::dvec2& place);
 
-/// Cells of the overview in a row and in a column: as many, so that each has the picture's proportions.
-inline constexpr int kCells = 3;
-
 /// The side that is shown there; kMostSides or more: none.
 size_t sideAt(const ViewState& state, const glm::dvec2& place);
 

@@ -36,9 +36,9 @@ class Materials(Case):
         return self.start(*arguments, environment=environment)
 
     def is_asked_for(self, viewer):
-        """Quitting says that numbers are not saved, and does nothing else at first."""
+        """Quitting asks what becomes of numbers that are not saved."""
         viewer.key("ctrl+q")
-        viewer.until(lambda s: any("are not saved" in m for m in s["messages"]), "asked")
+        self.settled(viewer, "Discard")
 
     def picture(self, viewer):
         return pixels_of(viewer.press_for_file("F12", ".png"))
@@ -59,9 +59,9 @@ class Materials(Case):
         return place
 
     def slide(self, viewer, name, part):
-        """Presses on a slider at a part of its width."""
+        """Presses on a slider at a part of its width, which ends before the button that goes back to the file's value."""
         x, y, width, height = self.settled(viewer, name)
-        viewer.at(round(x + part * width), round(y + height / 2))
+        viewer.at(round(x + part * (width - height - 4)), round(y + height / 2))
         time.sleep(0.1)
         before = viewer.status()["set"]
         viewer.xdotool("click", 1)
@@ -103,6 +103,8 @@ class Materials(Case):
         viewer.key("ctrl+y")
         viewer.rest(lambda s: s["set"], "again")
         self.is_asked_for(viewer)
+        viewer.click("Cancel")
+        viewer.until(lambda s: s["focus"] == "picture", "not quit")
         # So does opening another file.
         asks = lambda s: "messages" in s["places"] and "open again" in s["messages"][-1]
         viewer.key("ctrl+o")
@@ -152,7 +154,54 @@ class Materials(Case):
         self.assertEqual(viewer.rest(lambda s: len(s["set"]) == 2, "undone")["set"][place], [9])
         self.same(self.picture(viewer), whole)
         self.is_asked_for(viewer)
-        self.ends_well(viewer, viewer.close())
+        self.portal.answers = [(CHOSEN, f"file://{self.scene}")]
+        viewer.click("Save...")
+        self.ends_well(viewer, viewer.end())
+        self.assertIn('"intensity": 9,', self.scene.read_text())
+
+    def test_rows_go_back_to_the_file_and_colours_are_shown_as_a_display_shows_them(self):
+        viewer = self.start("plastics")
+        viewer.at(215, 215)
+        viewer.xdotool("click", 1)
+        viewer.rest(lambda s: s["pick"], "picked")
+        self.slide(viewer, "Roughness", 0.9)
+        viewer.click("reset Roughness")
+        viewer.until(lambda s: not s["set"], "the file's value")
+        x, y, width, height = self.settled(viewer, "Base colour")
+        square = round(x + width - 1.5 * height - 4), round(y + height / 2)
+
+        def is_shown(color):
+            """The square has the linear colour's levels on a display, by the formula of IEC 61966-2-1."""
+            levels = [255 * (12.92 * c if c <= 0.0031308 else 1.055 * c ** (1 / 2.4) - 0.055) for c in color]
+            window_width, _, pixels = viewer.grab()
+            for shown, level in zip(pixels[window_width * square[1] + square[0]], levels):
+                self.assertAlmostEqual(shown, level, delta=1)
+        is_shown(json.loads(self.scene.read_text())["materials"][4]["pbrMetallicRoughness"]["baseColorFactor"][:3])
+        viewer.at(*square)
+        viewer.xdotool("click", 1)
+        viewer.until(lambda s: s["focus"] == "popup", "the picker")
+        time.sleep(0.5)
+        window_width, _, pixels = viewer.grab()
+        top = round(y + height) + 10
+        row = pixels[window_width * top:window_width * (top + 1)]
+        white = next(i for i in range(1, window_width) if row[i - 1] == (28, 28, 28) and min(row[i]) > 240)  # the field's corner
+        viewer.at(white, top + 110)  # a grey, at its left edge
+        time.sleep(0.2)
+        viewer.xdotool("click", 1)
+        (_, [*grey, _]), = viewer.until(lambda s: s["set"], "a grey")["set"].items()
+        self.assertEqual(len(set(grey)), 1)
+        self.assertTrue(0.05 < grey[0] < 0.6, grey)
+        viewer.key("Escape")
+        viewer.until(lambda s: s["focus"] == "picture", "closed")
+        time.sleep(0.5)
+        is_shown(grey)
+        viewer.message("WM_PROTOCOLS", [viewer.screen.display.intern_atom("WM_DELETE_WINDOW"), 0, 0, 0, 0])
+        viewer.until(lambda s: "Discard" in s["places"], "asked")
+        viewer.key("Escape")
+        viewer.until(lambda s: s["focus"] == "picture", "Escape cancels")
+        self.is_asked_for(viewer)
+        viewer.click("Discard")
+        self.ends_well(viewer, viewer.end())
 
     @unittest.skipIf(WHY_NOT, WHY_NOT)
     def test_what_is_set_by_name_is_drawn_and_saved(self):

@@ -227,6 +227,13 @@ class Overview(Case):
             x, y = i % 3 * 160, i // 3 * 120
             cell = [shown[width * (y + v) + x + u] for v in range(40, 110) for u in range(160)]
             self.assertLessEqual(largest_difference(cell, rendered[160 * 40:160 * 110]), 1, stages[i])
+        sheet = pixels_of(viewer.press_for_file("F12", ".png"))
+        self.assertEqual(len(sheet), 480 * 360)
+        for i in (0, 6):
+            cell = [sheet[480 * (i // 3 * 120 + v) + i % 3 * 160 + u] for v in range(120) for u in range(160)]
+            # Files are dithered by the places of their pixels.
+            self.assertLessEqual(largest_difference(cell, pixels_of(self.folder / f"rendered/{i}.png")), 2, stages[i])
+        self.assertEqual(set(sheet[480 * 240 + 160:480 * 240 + 480]), {(0, 0, 0)})  # no eighth and ninth
         for key in ("F3", "v"):
             viewer.key(key)
             viewer.until(lambda s: not s["overview"], f"{key} is of one picture")

@@ -453,19 +453,16 @@ Image ViewTracer::seenOf(Side& side) {
   return opaque ? onlyChannels(picture, {"R", "G", "B"}) : picture;
 }
 
-void ViewTracer::saveBoth(const SaveRequest& request) {
-  std::array<ComposedSide, 2> sides;
-  for (size_t i = 0; i < 2; ++i) {
-    if (i < sides_.size()) {
-      if (!sides_[i].program) return exchange_.deliver("not written: one of the sides draws no picture");
-      RenderOptions shown = sides_[i].options;
-      shown.output.file = request.path;
-      sides[i] = {seenOf(sides_[i]), showsColors(shown), pageOf(shown)};
-    } else {
-      if (!reference_) return exchange_.deliver("not written: there is one side alone");
-      sides[i] = {*reference_, false};
-    }
+void ViewTracer::saveAll(const SaveRequest& request) {
+  std::vector<ComposedSide> sides;
+  for (Side& side : sides_) {
+    if (!side.program) return exchange_.deliver("not written: one of the sides draws no picture");
+    RenderOptions shown = side.options;
+    shown.output.file = request.path;
+    sides.push_back({seenOf(side), showsColors(shown), pageOf(shown)});
   }
+  if (sides.size() == 1 && !reference_) return exchange_.deliver("not written: there is one side alone");
+  if (sides.size() == 1) sides.push_back({*reference_, false});
   RenderOptions options = sides_[0].options;
   options.output.file = request.path;
   options.output.exposure = 0.0;
@@ -479,7 +476,7 @@ void ViewTracer::save(const SaveRequest& request) {
   Side& side = sides_[std::min(request.side, sides_.size() - 1)];
   if (!side.program) return exchange_.deliver("not written: no picture is drawn");
   try {
-    if (request.both) return saveBoth(request);
+    if (request.all) return saveAll(request);
     RenderOptions options = side.options;
     options.output.file = request.path;
     options.output.exposure = request.composition.exposure;

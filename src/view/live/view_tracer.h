@@ -141,7 +141,7 @@ class ViewTracer {
   void publish(Side& side);
   Image seenOf(Side& side);
   void save(const SaveRequest& request);
-  void saveBoth(const SaveRequest& request);
+  void saveAll(const SaveRequest& request);
   void saveModel(const std::filesystem::path& path);
   void takeReference(const std::filesystem::path& path);
   void answer(const PickRequest& request);

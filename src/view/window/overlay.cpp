@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string_view>
+#include <utility>
 
 #include "base/text.h"
 #include "view/pictures.h"
@@ -252,6 +253,27 @@ void drawError(ViewFacts& facts, const WindowLayout& layout) {
   ImGui::PopStyleColor();
 }
 
+/// Asks what becomes of numbers that are not saved, before the window closes.
+void drawSaveQuestion(ViewFacts& facts, const WindowLayout& layout) {
+  constexpr const char* kTitle = "save question";
+  if (std::exchange(facts.asksToSave, false)) ImGui::OpenPopup(kTitle);
+  const ImVec2 display = sizeOf(layout);
+  ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
+  if (!ImGui::BeginPopupModal(kTitle, nullptr,
+                              ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
+                                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoSavedSettings))
+    return;
+  ImGui::TextUnformatted("Numbers that were set are not saved");
+  const size_t before = facts.commands.size();
+  commandButton(facts, "Save...", Command::SaveModel, 1);
+  ImGui::SameLine();
+  commandButton(facts, "Discard", Command::Quit, 1);
+  ImGui::SameLine();
+  if (placed(facts.places, "Cancel", ImGui::Button("Cancel")) || facts.commands.size() > before)
+    ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+}
+
 void drawLoading(ViewFacts& facts, const WindowLayout& layout) {
   const LoadStatus& load = facts.load;
   const ImVec2 display = sizeOf(layout);
@@ -453,6 +475,7 @@ void drawOverlay(ViewState& state, ViewFacts& facts, const WindowLayout& layout,
   drawStageBar(state, facts, layout);
   if (state.sheet) drawSheet(state, facts, layout);
   if (facts.load.busy) drawLoading(facts, layout);
+  drawSaveQuestion(facts, layout);
 }
 
 void drawFigures(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {

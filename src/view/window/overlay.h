@@ -65,6 +65,7 @@ struct ViewFacts {
   bool wantsHistogram = false;     ///< the active side's histogram is shown
   bool wantsThumbnails = false;    ///< the list of environments is open
   bool errorClosed = false;        ///< the user has read the error
+  bool asksToSave = false;         ///< the window is to be closed, and numbers are not saved
   bool resting = false;
   bool canUndo = false;
   bool canRedo = false;

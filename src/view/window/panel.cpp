@@ -50,12 +50,20 @@ void drawParts(const ViewState& state, ViewFacts& facts) {
 
 constexpr float kMostBrighter = 100.0f;  // than in the file
 
-/// Linear, from 0 to 1.
-bool editColor(const char* id, float* color) {
-  if (!ImGui::ColorEdit3(id, color, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoLabel)) return false;
-  // Any number may be typed.
-  for (int i = 0; i < 3; ++i) color[i] = std::clamp(color[i], 0.0f, 1.0f);
-  return true;
+/// The room at the end of a row for the button that goes back to the file's value.
+float roomForReset() { return ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x; }
+
+/// Ends a row: sets its number if that has changed, and goes back to the file's by a button.
+void endRow(ViewState& state, Places& places, const char* name, bool changed, const SetNumber& now,
+            const SetNumber& file) {
+  if (changed) setNumber(state, now, file);
+  if (isSame(now, file)) return;
+  ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
+  ImGui::PushID(name);
+  if (placed(places, std::string("reset ") + name, ImGui::Button("x", {ImGui::GetFrameHeight(), 0.0f})))
+    setNumber(state, file, file);
+  ImGui::PopID();
+  tip(places, "back to the file's value");
 }
 
 void drawFactor(ViewState& state, Places& places, const Factor& factor, const Material& file, Material now) {
@@ -63,10 +71,16 @@ void drawFactor(ViewState& state, Places& places, const Factor& factor, const Ma
   const std::string id = std::string("##") + factor.member;
   float* first = factor.at(now);
   const ImGuiSliderFlags flags = factor.logarithmic ? kBoundedLogarithmic : kBounded;
-  const bool changed = factor.width > 1
-                           ? editColor(id.c_str(), first)
-                           : ImGui::SliderFloat(id.c_str(), first, factor.least, factor.most, "%.3f", flags);
-  if (changed) setNumber(state, numberOf(factor, now), numberOf(factor, file));
+  bool changed = false;
+  if (factor.width > 1) {
+    glm::vec3 color = glm::make_vec3(first);
+    changed = editColor(id.c_str(), color, 1.0f, true, roomForReset());
+    std::copy_n(glm::value_ptr(color), 3, first);
+  } else {
+    ImGui::SetNextItemWidth(-roomForReset());
+    changed = ImGui::SliderFloat(id.c_str(), first, factor.least, factor.most, "%.3f", flags);
+  }
+  endRow(state, places, factor.label, changed, numberOf(factor, now), numberOf(factor, file));
 }
 
 void drawLightSource(ViewState& state, Places& places, size_t index) {
@@ -74,16 +88,20 @@ void drawLightSource(ViewState& state, Places& places, size_t index) {
   LightSource now = file;
   setLight(now, index, state.edit.shared.selection.set);
   const float most = file.intensity > 0.0 ? kMostBrighter * float(file.intensity) : kMostBrighter;
-  if (slider(places, {"Light intensity", 0.0f, most, "%.4g", kBoundedLogarithmic}, now.intensity)) {
-    now.intensity = shortest(float(now.intensity));
-    setNumber(state, intensityOf(now, index), intensityOf(file, index));
-  }
+  const bool brighter = slider(places,
+                               {.name = "Light intensity",
+                                .most = most,
+                                .format = "%.4g",
+                                .flags = kBoundedLogarithmic,
+                                .spare = roomForReset()},
+                               now.intensity);
+  if (brighter) now.intensity = shortest(float(now.intensity));
+  endRow(state, places, "Light intensity", brighter, intensityOf(now, index), intensityOf(file, index));
   label(places, "Light colour");
   glm::vec3 color(now.color);
-  if (editColor("##color", glm::value_ptr(color))) {
-    now.color = {shortest(color.x), shortest(color.y), shortest(color.z)};
-    setNumber(state, colorOf(now, index), colorOf(file, index));
-  }
+  const bool colored = editColor("##color", color, 1.0f, true, roomForReset());
+  if (colored) now.color = {shortest(color.x), shortest(color.y), shortest(color.z)};
+  endRow(state, places, "Light colour", colored, colorOf(now, index), colorOf(file, index));
 }
 
 /// A row that opens.
@@ -308,9 +326,7 @@ void drawFog(ViewState& state, Places& places) {
   if (fog.density > 0.0) {
     ImGui::SameLine();
     glm::vec3 color = fog.color.value_or(glm::vec3(1.0f));
-    constexpr ImGuiColorEditFlags kColor = ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoInputs;
-    if (placed(places, "Fog colour", ImGui::ColorEdit3("##fogcolor", glm::value_ptr(color), kColor)))
-      fog.color = glm::clamp(color, glm::vec3(0.0f), glm::vec3(1.0f));
+    if (placed(places, "Fog colour", editColor("##fogcolor", color))) fog.color = color;
     tip(places, "The part of the light that the fog scatters rather than swallows (--fog-color)");
     slider(places,
            {"Fog forward", -kMostForward, kMostForward, "%.2f", kBounded,
@@ -337,10 +353,8 @@ void drawBackground(ViewState& state, Places& places) {
   if (light.background && state.scene->surroundings != Surroundings::Map) {
     ImGui::SameLine();
     glm::vec3 color = light.backgroundColor.value_or(glm::vec3(0.0f));
-    constexpr ImGuiColorEditFlags kColor =
-        ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_NoInputs;
-    if (placed(places, "Background colour", ImGui::ColorEdit3("##color", glm::value_ptr(color), kColor)))
-      light.backgroundColor = glm::clamp(color, glm::vec3(0.0f), glm::vec3(kMostColor));
+    if (placed(places, "Background colour", editColor("##color", color, kMostColor)))
+      light.backgroundColor = color;
   }
 }
 

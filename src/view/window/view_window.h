@@ -73,7 +73,8 @@ class Window {
   void load(RenderOptions options);
   void loadStep();
   void cancelLoad();
-  bool mayDiscard(const std::string& action);
+  bool isSaved() const;
+  bool mayOpen();
   bool closes();
   void copyCommand();
   void pasteCommand();
@@ -126,7 +127,9 @@ class Window {
   double fades_ = 1e30;    ///< time to draw a message paler
   std::vector<RenderOptions> requestedSides_;
   glm::ivec2 requestedSize_{0};
-  bool savesShown_ = false;  ///< a model is written over the file that is shown
+  bool discards_ = false;        ///< the window closes although numbers are not saved
+  bool quitsWhenSaved_ = false;  ///< the model that is being written is what the window waits for
+  bool savesShown_ = false;      ///< a model is written over the file that is shown
   bool requestedMoving_ = false;
   uint64_t picksRequested_ = 0;
   uint64_t picksAnswered_ = 0;   ///< picks that are answered or taken back

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "image/display/tone_map.h"
 #include "view/window/overlay.h"
 
 namespace fragtrace {
@@ -124,6 +125,31 @@ bool slider(Places& places, const Row& row, int& value) {
   return drawRow(places, row, [&](const char* id, const char* format) {
     return ImGui::SliderInt(id, &value, int(row.least), int(row.most), format, row.flags);
   });
+}
+
+bool editColor(const char* id, glm::vec3& linear, float most, bool numbers, float spare) {
+  const glm::vec3 before = linear;
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  const ImGuiColorEditFlags range = most > 1.0f ? ImGuiColorEditFlags_HDR : 0;
+  ImGui::PushID(id);
+  if (numbers) {
+    ImGui::SetNextItemWidth(-(ImGui::GetFrameHeight() + gap + spare));
+    ImGui::ColorEdit3("##numbers", &linear.x,
+                      range | ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoLabel |
+                          ImGuiColorEditFlags_NoSmallPreview | ImGuiColorEditFlags_NoPicker |
+                          ImGuiColorEditFlags_NoOptions);
+    ImGui::SameLine(0.0f, gap);
+  }
+  glm::vec3 shown;
+  for (int c = 0; c < 3; ++c) shown[c] = float(encodeSrgb(linear[c]));
+  const glm::vec3 was = shown;
+  ImGui::ColorEdit3("##square", &shown.x, range | ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel);
+  for (int c = 0; c < 3; ++c) {
+    if (shown[c] != was[c]) linear[c] = float(decodeSrgb(shown[c]));
+    linear[c] = std::clamp(linear[c], 0.0f, most);  // any number may be typed
+  }
+  ImGui::PopID();
+  return linear != before;
 }
 
 std::optional<size_t> choose(Places& places, const char* name, size_t count, std::optional<size_t> current,

@@ -5,6 +5,7 @@
 #include <imgui.h>
 
 #include <functional>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -61,6 +62,12 @@ struct Row {
 /// Draws the row of a number. Returns true when it has set the number.
 bool slider(Places& places, const Row& row, double& value);
 bool slider(Places& places, const Row& row, int& value);
+
+/// Draws a square of a linear colour as a display shows it (sRGB), which opens a picker with #RRGGBB. With
+/// `numbers` its three linear numbers stand before it, which end `spare` pixels before the end of the row.
+/// Returns true when it has set the colour, each number from 0 to `most`.
+bool editColor(const char* id, glm::vec3& linear, float most = 1.0f, bool numbers = false,
+               float spare = 0.0f);
 
 /// A row with a list of names. Returns the index of the name that is chosen; none: nothing is.
 std::optional<size_t> choose(Places& places, const char* name, size_t count, std::optional<size_t> current,

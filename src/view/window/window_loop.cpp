@@ -200,6 +200,7 @@ void Window::take(const PosedScene& posed) {
 /// The window then shows the numbers of the file, in the light that it has.
 void Window::take(SavedModel saved) {
   saved_ = std::move(saved.set);
+  if (quitsWhenSaved_) glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
   if (!std::exchange(savesShown_, false) || !state_.scene) return;
   RenderOptions again = state_.scene->options;
   nameLight(again, *state_.scene);

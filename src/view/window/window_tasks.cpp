@@ -96,6 +96,7 @@ void Window::execute(const Invocation& invocation) {
     case Command::Close:
       return close();
     case Command::Quit:
+      discards_ = invocation.argument == 1;
       return glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
     default:
       return;
@@ -205,23 +206,28 @@ RenderOptions Window::shownOptions() const {
   return o;
 }
 
-/// Returns true if no number is lost that nobody has saved, or if the user was asked, and sees it still.
-/// `action` would lose them.
-bool Window::mayDiscard(const std::string& action) {
-  const std::string question =
-      "the numbers that were set are not saved (Ctrl+Shift+S); " + action + " again to leave them";
+/// Returns true if no number would be lost that nobody has saved.
+bool Window::isSaved() const {
   const std::vector<SetNumber>& set = state_.edit.shared.selection.set;
-  const bool isSaved = set.empty() || set == saved_ || set == start_.options.selection.set;
-  if (isSaved || isSeen(facts_.messages, question, glfwGetTime())) return true;
-  notify(question);
+  return set.empty() || set == saved_ || set == start_.options.selection.set;
+}
+
+/// Returns true if another scene may be opened: nothing is lost, or the user was asked, and sees it still.
+bool Window::mayOpen() {
+  constexpr const char* kQuestion =
+      "the numbers that were set are not saved (Ctrl+Shift+S); open again to leave them";
+  if (isSaved() || isSeen(facts_.messages, kQuestion, glfwGetTime())) return true;
+  notify(kQuestion);
   return false;
 }
 
 /// Returns true if the window is to be closed.
 bool Window::closes() {
   if (glfwWindowShouldClose(window_.get()) == 0) return false;
-  if (mayDiscard("quit")) return true;
+  if (isSaved() || discards_) return true;
   glfwSetWindowShouldClose(window_.get(), GLFW_FALSE);
+  facts_.asksToSave = true;
+  frames_ = kFramesAfterEvent;
   return false;
 }
 
@@ -416,7 +422,7 @@ void Window::openFiles(const std::vector<std::filesystem::path>& files, bool isA
   if (!drop.load) return;
   const bool hasScene =
       std::ranges::any_of(toLoad, [](const auto& file) { return kindOfDropped(file) == DroppedFile::Scene; });
-  if (hasScene && !isAsked && !mayDiscard("open")) return;
+  if (hasScene && !isAsked && !mayOpen()) return;
   if (hasScene || state_.scene || facts_.load.busy) return load(*drop.load);
   wanted_ = *drop.load;
   notify(wanted_.light.hdriFile.filename().string() + " will light the model that is dropped next");
@@ -426,13 +432,13 @@ void Window::save(const std::filesystem::path& name) {
   const RenderOptions& o = state_.edit.shared;
   // A file for a display holds the picture as shown; a file of radiance holds the active side's samples.
   const bool seen = isDisplayFormat(name);
-  const bool both = state_.compares() && seen;
-  const char* side = !state_.compares() || both ? "" : state_.edit.active == 0 ? " of side A" : " of side B";
+  const bool all = (state_.compares() || state_.overview) && seen;
+  const char* side = !state_.compares() || all ? "" : state_.edit.active == 0 ? " of side A" : " of side B";
   if (!facts_.resting) notify("writing " + name.string() + side + " as soon as all of the picture is drawn");
   SaveRequest request;
   request.path = name;
   request.side = state_.shownSide();
-  request.both = both;
+  request.all = all;
   request.composition = {state_.shownBar(), state_.showsDifference(), state_.differenceStops,
                          o.output.exposure.value_or(0.0), o.output.toneMap};
   exchange_.request([&](Requests& r) { r.saves.push_back(std::move(request)); });
@@ -446,6 +452,7 @@ void Window::askForFile(const Invocation& invocation) {
   const std::filesystem::path here = std::filesystem::current_path(error);
   FileQuestion question;
   if (invocation.command == Command::SaveModel) {
+    quitsWhenSaved_ = invocation.argument == 1;
     if (o.selection.set.empty()) return notify("no number of a material or a light has been set");
     const std::filesystem::path scene = here / o.scene;
     question =
@@ -456,7 +463,7 @@ void Window::askForFile(const Invocation& invocation) {
     question = saveQuestion(freePictureName(folder, o.scene, ".png"));
   } else {
     const bool environment = invocation.argument == 1;
-    if (!environment && !dialog_.open() && !mayDiscard("open")) return;
+    if (!environment && !dialog_.open() && !mayOpen()) return;
     const std::filesystem::path& beside =
         environment && !o.light.hdriFile.empty() ? o.light.hdriFile : wanted_.scene;
     question = openQuestion((here / beside).parent_path(), environment);
