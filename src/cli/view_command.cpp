@@ -21,6 +21,7 @@
 #include "session/picture/denoising.h"
 #include "session/say.h"
 #include "version_text.h"
+#include "view/files.h"
 #include "view/live/view_loader.h"
 #include "view/live/view_tracer.h"
 #include "view/window.h"
@@ -57,6 +58,10 @@ int runView(const ViewOptions& asked) {
     width = VectorWidth::Auto;
     say(options.render,
         "warning: --vector-width 512 is left out: Mesa crashes when it draws windows with it");
+  }
+  for (const std::filesystem::path& other : options.others) {
+    if (kindOfDropped(other) != DroppedFile::Scene)
+      throw UsageError("'" + other.string() + "' is an argument too many: it is no model (.gltf, .glb)");
   }
   const NamedOutput files[] = {{"--status-file", options.statusFile},
                                {"--trace-file", options.render.output.traceFile}};
@@ -96,9 +101,11 @@ int runView(const ViewOptions& asked) {
     tracing.join();
   };
   countOneInterrupt();
-  library.run(
-      {options.render, options.statusFile, options.reference, begin, end, [] { return interrupts() > 0; }},
-      exchange);
+  std::vector<std::filesystem::path> models = options.others;
+  models.insert(models.begin(), options.render.scene);
+  library.run({options.render, options.statusFile, options.reference, models, begin, end,
+               [] { return interrupts() > 0; }},
+              exchange);
   return interrupts() > 0 ? kInterruptedStatus : 0;
 }
 

@@ -21,6 +21,9 @@ void addViewOptions(CLI::App& app, RawView& raw) {
   RenderOptions& shown = raw.render.options;
   shown.output.denoise = Denoise::Variance;
   addOption(app, "file", raw.render, "scene: a .gltf or .glb file; without one, the window waits for a file");
+  app.add_option("others", raw.others,
+                 "more models, which Left and Right show in place of those of the folder")
+      ->type_name("FILE");
   addOptions(app, OptionGroup::Tracing, raw.render);
   addOptions(app, OptionGroup::Filter, raw.render);
   app.remove_option(app.get_option("--stats"));  // there is no end that they could be of
@@ -62,6 +65,7 @@ ViewOptions finishView(RawView& raw, CLI::App& command) {
   options.watch = raw.watch;
   options.statusFile = raw.statusFile;
   options.reference = raw.reference;
+  options.others.assign(raw.others.begin(), raw.others.end());
   return options;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "options/parse_render.h"
 
@@ -11,7 +13,8 @@ struct ViewOptions {
   RenderOptions render;  ///< options of the first picture
   bool watch = false;    ///< reload when the scene's files or the shaders change
   std::filesystem::path statusFile;
-  std::filesystem::path reference;  ///< a picture that is shown as side B; empty: none
+  std::vector<std::filesystem::path> others;  ///< models beside the scene
+  std::filesystem::path reference;            ///< a picture that is shown as side B; empty: none
   // These members are for measurements alone.
   /// The most milliseconds of a picture in motion; 0: it has full resolution; none: the device decides.
   std::optional<double> movingMs{};
@@ -23,6 +26,7 @@ struct RawView {
   RawRender render;
   std::string config;
   std::string statusFile;
+  std::vector<std::string> others;
   std::string reference;
   bool watch = false;
 };

@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "base/folder.h"
 #include "image/format.h"
 
 namespace fragtrace {
@@ -108,6 +109,25 @@ Drop takeDrop(const RenderOptions& shown, std::span<const std::filesystem::path>
   }
   if (scene || environment) drop.load = options;
   return drop;
+}
+
+std::filesystem::path modelBeside(const std::filesystem::path& model,
+                                  std::span<const std::filesystem::path> given, int step) {
+  const std::filesystem::path here = std::filesystem::absolute(model);
+  std::vector<std::filesystem::path> models;
+  if (given.size() > 1) {
+    for (const std::filesystem::path& one : given) models.push_back(std::filesystem::absolute(one));
+  } else {
+    for (const FolderEntry& entry : readFolder(here.parent_path()).entries) {
+      if (!entry.isFolder && kindOfDropped(entry.name) == DroppedFile::Scene)
+        models.push_back(here.parent_path() / entry.name);
+    }
+  }
+  const auto found = std::ranges::find(models, here);
+  if (found == models.end()) return models.empty() ? std::filesystem::path() : models.front();
+  const std::ptrdiff_t count = std::ssize(models);
+  return count > 1 ? models[size_t((found - models.begin() + step + count) % count)]
+                   : std::filesystem::path();
 }
 
 std::optional<std::filesystem::path> fileOfUri(std::string_view uri) {

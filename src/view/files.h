@@ -71,6 +71,12 @@ struct Drop {
 /// SceneSelection.
 Drop takeDrop(const RenderOptions& shown, std::span<const std::filesystem::path> files, const glm::dvec3& up);
 
+/// The model `step` places after another one among those given or, if they are fewer than two, among those of
+/// its folder, in natural order and round its end. The first one if that one is not among them; empty: there
+/// is no other.
+std::filesystem::path modelBeside(const std::filesystem::path& model,
+                                  std::span<const std::filesystem::path> given, int step);
+
 /// The path of a file:// URI (RFC 8089), with its %XX decoded; nothing for another scheme, another host than
 /// this, or a URI that is malformed.
 std::optional<std::filesystem::path> fileOfUri(std::string_view uri);

@@ -130,6 +130,8 @@ void addWindow(std::vector<Control>& rows) {
   add(Press, key::kF1, 0, Command::ToggleSheet, "this sheet on or off");
   add(Press, '/', kShift, Command::ToggleSheet, "this sheet on or off");
   add(Press, key::kUp, 0, Command::Reload, "read scene and shaders again");
+  add(Press, key::kRight, 0, Command::NextModel, "the next model of the folder", 1);
+  add(Press, key::kLeft, 0, Command::NextModel, "the previous model of the folder", -1);
   add(Press, 'O', kControl, Command::Open, "open a scene or an environment");
   add(Press, 'S', kControl, Command::SaveAs, "write the picture under a name");
   add(Press, 'S', kControl | kShift, Command::SaveModel, "write the model with the numbers set in the panel");
@@ -152,9 +154,9 @@ std::vector<Control> makeControls() {
 std::string codeName(const Control& control) {
   using Name = std::pair<int, const char*>;
   constexpr std::array kKeys{
-      Name{key::kSpace, "Space"},       Name{key::kEscape, "Escape"}, Name{key::kEnter, "Enter"},
-      Name{key::kTab, "Tab"},           Name{key::kUp, "Up"},         Name{key::kPageUp, "Page Up"},
-      Name{key::kPageDown, "Page Down"}};
+      Name{key::kSpace, "Space"}, Name{key::kEscape, "Escape"},  Name{key::kEnter, "Enter"},
+      Name{key::kLeft, "Left"},   Name{key::kRight, "Right"},    Name{key::kTab, "Tab"},
+      Name{key::kUp, "Up"},       Name{key::kPageUp, "Page Up"}, Name{key::kPageDown, "Page Down"}};
   constexpr std::array kButtons{"Left", "Right", "Middle"};
   const int code = control.code;
   switch (control.gesture) {

@@ -79,6 +79,7 @@ enum class Command : uint8_t {
   SelectNode,  ///< argument: SceneNode::index
   Deselect,
   ResetAll,
+  NextModel,      ///< argument: +1 or -1
   OpenFile,       ///< Invocation::file
   DropReference,  ///< side B is traced again
   Load,           ///< Invocation::load
@@ -106,6 +107,8 @@ inline constexpr int kSpace = 32;
 inline constexpr int kEscape = 256;
 inline constexpr int kEnter = 257;
 inline constexpr int kTab = 258;
+inline constexpr int kRight = 262;
+inline constexpr int kLeft = 263;
 inline constexpr int kUp = 265;
 inline constexpr int kPageUp = 266;
 inline constexpr int kPageDown = 267;

@@ -345,8 +345,8 @@ void split(Edit& edit) {
 // The changes that commands make in the viewer's state.
 
 bool needsScene(Command command) {
-  constexpr std::array kWithout{Command::Reload, Command::Open, Command::OpenFile, Command::CancelLoad,
-                                Command::DropReference};
+  constexpr std::array kWithout{Command::Reload,     Command::Open,      Command::OpenFile,
+                                Command::CancelLoad, Command::NextModel, Command::DropReference};
   return !isForSheet(command) && std::ranges::find(kWithout, command) == kWithout.end();
 }
 

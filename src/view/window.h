@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <vector>
 
 #include "gl/context.h"
 #include "view/exchange.h"
@@ -13,8 +14,9 @@ namespace fragtrace {
 
 struct WindowStart {
   RenderOptions options;
-  std::filesystem::path statusFile;  ///< see docs/viewer.md; empty: none
-  std::filesystem::path reference;   ///< a picture to compare with; empty: none
+  std::filesystem::path statusFile;           ///< see docs/viewer.md; empty: none
+  std::filesystem::path reference;            ///< a picture to compare with; empty: none
+  std::vector<std::filesystem::path> models;  ///< the scene and others to go on to; one: those of its folder
   /// Called once the window is there, with contexts that share its objects, as far as there can be any, and
   /// live as long as it; and before the window ends, by when nothing may be drawn there any more.
   std::function<void(const SharedContexts& shared)> opened;

@@ -77,6 +77,17 @@ glm::ivec2 windowFor(glm::ivec2 picture, float scale, bool panel) {
   return picture + glm::ivec2(width, bars.x + bars.y);
 }
 
+size_t screenOf(const glm::ivec4& window, std::span<const glm::ivec4> screens) {
+  const auto shared = [&](const glm::ivec4& screen) {
+    const glm::ivec2 from(glm::max(glm::ivec2(window), glm::ivec2(screen)));
+    const glm::ivec2 to(glm::min(glm::ivec2(window) + glm::ivec2(window.z, window.w),
+                                 glm::ivec2(screen) + glm::ivec2(screen.z, screen.w)));
+    const glm::ivec2 size(glm::max(to - from, 0));
+    return size.x * size.y;
+  };
+  return size_t(std::ranges::max_element(screens, {}, shared) - screens.begin());
+}
+
 bool fitsPanel(glm::vec2 picture, float scale) { return picture.x >= kLeastForPanel * scale; }
 
 }  // namespace fragtrace

@@ -3,8 +3,11 @@
 // none covers another.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <span>
 
 namespace fragtrace {
 
@@ -37,6 +40,10 @@ WindowLayout layoutOf(glm::vec2 window, float scale, const LayoutWishes& wishes)
 
 /// The window in which a picture of that size has its room.
 glm::ivec2 windowFor(glm::ivec2 picture, float scale, bool panel);
+
+/// The index of the screen that shows most of a window, the first if none does; each as left, top, width and
+/// height.
+size_t screenOf(const glm::ivec4& window, std::span<const glm::ivec4> screens);
 
 /// Returns true if a picture is wide enough to begin with the panel open beside it.
 bool fitsPanel(glm::vec2 picture, float scale);

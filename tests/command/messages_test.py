@@ -155,7 +155,7 @@ class UnknownWords(Case):
         self.fails(2, "render", "--", "-file.glb", "-o", "x.png", cwd=self.folder, says=["'-o' is an argument too many: words after -- are files"])
         self.fails(2, "render", "-o", "x.png", "--", says=["file is required"])
         self.fails(2, "render", "-o", "x.png", "--", "", says=["an argument is empty"])
-        self.fails(2, "--", "a.glb", "b.glb", says=["'b.glb' is an argument too many"])
+        self.fails(2, "--", "a.glb", "b.png", says=["'b.png' is an argument too many"])
         self.assertIn("`fragtrace FILE` is short for `fragtrace view", run("--help").stdout)
 
     def test_no_equals_sign_follows_a_letter(self):

@@ -40,6 +40,14 @@ TEST(WindowLayout, NothingCoversAnything) {
   }
 }
 
+TEST(WindowLayout, TheScreenOfAWindowShowsMostOfIt) {
+  const std::vector<glm::ivec4> screens{{0, 0, 1920, 1080}, {1920, 0, 2560, 1440}};
+  EXPECT_EQ(screenOf({100, 100, 1280, 720}, screens), 0u);
+  EXPECT_EQ(screenOf({1200, 100, 1280, 720}, screens), 0u);
+  EXPECT_EQ(screenOf({1400, 100, 1280, 720}, screens), 1u);
+  EXPECT_EQ(screenOf({5000, 100, 1280, 720}, screens), 0u);  // nowhere
+}
+
 TEST(WindowLayout, APanelThatLeavesTooLittleStandsOverThePicture) {
   const auto docked = [](glm::vec2 window, float scale) {
     return layoutOf(window, scale, {.panel = true}).docked;

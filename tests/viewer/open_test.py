@@ -106,5 +106,27 @@ class Open(Case):
         self.ends_well(viewer, viewer.close())
 
 
+class Folder(Case):
+    def test_left_and_right_go_through_the_models_of_the_folder_or_the_ones_given(self):
+        for name in ("b 9.gltf", "b 10.gltf", "a.gltf"):
+            shutil.copy(SCENES / "furnace.gltf", self.folder / name)
+        def goes(viewer, key, name):
+            viewer.key(key)
+            viewer.rest(lambda s: s["scene"] == str(self.folder / name), f"{key}: {name}")
+        viewer = self.view(self.folder / "b 9.gltf", "--resolution", "160,120", "--spp", "1")
+        for key, name in (("Right", "b 10.gltf"), ("Right", "a.gltf"), ("Left", "b 10.gltf"), ("Left", "b 9.gltf")):
+            goes(viewer, key, name)
+        self.ends_well(viewer, viewer.close())
+        viewer = self.view(self.folder / "b 9.gltf", self.folder / "a.gltf", "--resolution", "160,120", "--spp", "1")
+        for name in ("a.gltf", "b 9.gltf", "a.gltf"):
+            goes(viewer, "Right", name)
+        self.ends_well(viewer, viewer.close())
+        (self.folder / "alone").mkdir()
+        viewer = self.view((self.folder / "a.gltf").rename(self.folder / "alone/a.gltf"), "--resolution", "160,120", "--spp", "1")
+        viewer.key("Left")
+        viewer.until(lambda s: "there is no other model in this folder" in s["messages"], "nothing to go to")
+        self.ends_well(viewer, viewer.close())
+
+
 if __name__ == "__main__":
     main()

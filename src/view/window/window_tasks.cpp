@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "base/errors.h"
@@ -24,6 +25,24 @@ namespace {
 
 /// Stands before the user as long as Escape answers it.
 constexpr const char* kQuitQuestion = "press Escape again to quit";
+
+/// The screen that shows most of the window. On Wayland no program knows where its window is.
+GLFWmonitor* monitorOf(GLFWwindow* window) {
+  if (onWayland()) return glfwGetPrimaryMonitor();
+  glm::ivec2 corner(0), size(0);
+  glfwGetWindowPos(window, &corner.x, &corner.y);
+  glfwGetWindowSize(window, &size.x, &size.y);
+  int count = 0;
+  GLFWmonitor** monitors = glfwGetMonitors(&count);
+  std::vector<glm::ivec4> screens;
+  for (GLFWmonitor* monitor : std::span(monitors, size_t(count))) {
+    const GLFWvidmode* mode = glfwGetVideoMode(monitor);
+    glm::ivec2 at(0);
+    glfwGetMonitorPos(monitor, &at.x, &at.y);
+    screens.emplace_back(at, mode ? glm::ivec2(mode->width, mode->height) : glm::ivec2(0));
+  }
+  return screens.empty() ? nullptr : monitors[screenOf(glm::ivec4(corner, size), screens)];
+}
 
 }  // namespace
 
@@ -82,6 +101,10 @@ void Window::execute(const Invocation& invocation) {
     case Command::SaveAs:
     case Command::SaveModel:
       return askForFile(invocation);
+    case Command::NextModel:
+      if (const auto next = modelBeside(wanted_.scene, start_.models, invocation.argument); !next.empty())
+        return openFiles({next});
+      return notify("there is no other model in this folder");
     case Command::OpenFile:
       return openFiles({invocation.file});
     case Command::DropReference:
@@ -236,10 +259,10 @@ void Window::toggleFullscreen() {
   if (state_.fullscreen) {
     glfwSetWindowMonitor(window, nullptr, windowed_.x, windowed_.y, windowed_.z, windowed_.w, GLFW_DONT_CARE);
   } else {
-    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    GLFWmonitor* monitor = monitorOf(window);
     const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
     if (!mode) return notify("there is no screen to fill");
-    glfwGetWindowPos(window, &windowed_.x, &windowed_.y);
+    if (!onWayland()) glfwGetWindowPos(window, &windowed_.x, &windowed_.y);
     glfwGetWindowSize(window, &windowed_.z, &windowed_.w);
     glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
   }
