@@ -232,8 +232,9 @@ class Viewer:
         except subprocess.TimeoutExpired:
             raise AssertionError(f"still there after {seconds} s: {self.status_file.read_text()}\n{self.stderr()}") from None
 
-    def cpu_seconds(self):
-        fields = Path(f"/proc/{self.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+    def cpu_seconds(self, thread=None):
+        """Of the process, or of one thread; the window's has the number of the process."""
+        fields = Path(f"/proc/{self.process.pid}/{f'task/{thread}/' if thread else ''}stat").read_text().rsplit(")", 1)[1].split()
         return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
