@@ -18,7 +18,9 @@ class GlProbe : public testing::TestWithParam<Backend> {
  protected:
   void SetUp() override {
     if (GetParam() == Backend::OsMesa && !hasOsMesa()) GTEST_SKIP() << "libOSMesa is not installed";
-    context_ = makeContext(GetParam());
+    DeviceOptions device;
+    device.backend = GetParam();
+    context_ = makeContext(device);
   }
   const Context& context() const { return *context_; }
 

@@ -10,7 +10,9 @@ namespace fragtrace {
 namespace {
 
 TEST(Variants, TheFullShaderLinksByEachEntry) {
-  const auto context = makeContext({.backend = Backend::Egl});
+  DeviceOptions device;
+  device.backend = Backend::Egl;
+  const auto context = makeContext(device);
   ShaderVariant fragments;
   fragments.stages.set();
   fragments.traits.set();

@@ -31,7 +31,9 @@ int run(const char* backend, uint32_t first, uint32_t count, const char* form) {
     std::printf("skipped: libOSMesa is not installed\n");
     return kSkipped;
   }
-  const auto context = makeContext({.backend = osMesa ? Backend::OsMesa : Backend::Egl});
+  DeviceOptions device;
+  device.backend = osMesa ? Backend::OsMesa : Backend::Egl;
+  const auto context = makeContext(device);
   const bool verbose = count == 1;
   size_t wrong = 0;
   size_t pixels = 0;

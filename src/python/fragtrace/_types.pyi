@@ -89,6 +89,7 @@ class Keywords(TypedDict, total=False):
     vector_width: Literal["auto", "256", "512"] | None
     schedule: Literal["auto", "megakernel", "wavefront"] | None
     shader_folder: str | PathLike[str] | None
+    shader_text: str | PathLike[str] | None
     scene: dict[str, Any] | str | float | None
     animation_time: float | None
     animation: dict[str, Any] | str | float | None
