@@ -220,6 +220,7 @@ int samplesOf(const RenderOptions& options, std::optional<int> asked) {
 void chooseFormat(OutputOptions& o) {
   if (o.file != "-") {
     if (o.format.empty() || o.file.empty()) return;
+    if (o.format.starts_with("rgb")) throw UsageError("--format: " + o.format + " needs --output -");
     if (o.sequence.frames || o.sequence.turntable > 0 || o.checkpointSeconds > 0.0 || o.resume)
       throw UsageError(
           "--format: of a file with any name goes neither with --frames or --turntable, nor "

@@ -298,6 +298,12 @@ struct OtherName {
 constexpr auto kOtherNames = std::to_array<OtherName>({
     {"--samples", "--spp"},
     {"--samples-per-pixel", "--spp"},
+    {"--raytracing-samples", "--spp"},
+    {"--raytracing-denoise", "--denoise"},
+    {"--camera-orthographic", "--camera-parallel-scale"},
+    {"--camera-direction", "--camera-orbit"},
+    {"--roughness", "--set \"*:roughness=VALUE\""},
+    {"--metallic", "--set \"*:metallic=VALUE\""},
     {"--size", "--resolution WIDTHxHEIGHT"},
     {"--width", "--resolution WIDTHxHEIGHT"},
     {"--height", "--resolution WIDTHxHEIGHT"},

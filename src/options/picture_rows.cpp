@@ -173,8 +173,9 @@ OptionRow formatRow() {
       "--format",
       "format of the picture, whatever the name of --output; of '-', which is standard output: " +
           joined(kFormatNames) +
-          "; rgb24 and rgba64 are pixels alone, 8 bits a channel or 16 (little-endian, straight alpha), as a "
-          ".png shows them (sRGB); --frames and --turntable write all pictures so, one after the other",
+          "; rgb24 and rgba64, for '-' alone, are pixels, 8 bits a channel or 16 (little-endian, straight "
+          "alpha), as a .png shows them (sRGB); there, --frames and --turntable write all pictures so, one "
+          "after the other",
       FRAGTRACE_MEMBER(output.format),
       {.effect = Effect::Report, .copied = false, .group = OptionGroup::Output});
   row.choices.assign(kFormatNames.begin(), kFormatNames.end());

@@ -369,6 +369,7 @@ class Videos(Case):
             (["-o", "-", "--format", "png", "--turntable", 2], ["--format rgb24 or rgba64"]),
             (["-o", "-", "--format", "rgb24", "--turntable", 2, "--continue"], ["--continue"]),
             (["-o", self.folder / "x.rgb24"], ["ends in none of"]),
+            (["-o", self.folder / "x.raw", "--format", "rgb24"], ["--format: rgb24 needs --output -"]),
         ):
             self.fails(2, "render", PLANE, *options, says=says)
         self.assertEqual(self.left(), [])

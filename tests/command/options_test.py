@@ -198,7 +198,7 @@ class Habits(Case):
     def test_hints_are_accepted(self):
         """The words of a hint, with a value where they name its form, are taken at the next try."""
         for words, meant in ((["--width", "64"], "--resolution WIDTHxHEIGHT"), (["--size", "64"], "--resolution WIDTHxHEIGHT"), (["--samples", "1"], "--spp"),
-                             (["--max-depth", "2"], "--bounces"), (["--fov", "40"], "--camera-view-angle"), (["--background", "white"], "--background-color"),
+                             (["--max-depth", "2"], "--bounces"), (["--camera-direction", "1,0,0"], "--camera-orbit"), (["--fov", "40"], "--camera-view-angle"), (["--background", "white"], "--background-color"),
                              (["--integrator", "path"], "--stage gi"), (["--transparent"], "--no-background"), (["--up-axis", "z"], "--up"),
                              (["--camera-pos", "0,1,3"], "--camera-position"), (["--tonemap", "agx"], "--tone-map"),
                              (["--env", SCENES / "sky.pfm"], "--hdri-file")):

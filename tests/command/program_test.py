@@ -112,7 +112,7 @@ class StandardOutput(Case):
         self.assertEqual(len(list(self.folder.iterdir())), 5)
         for words, says in ((("--turntable", 3), "--frames or --turntable"), (("--checkpoint", 1), "--checkpoint"), (("--half",), "--half")):
             self.fails(2, "render", BOX, "-o", self.folder / "a", "--format", "png", *SIZE, *words, says=[says])
-        self.fails(1, "render", BOX, "-o", self.folder / "none/a", "--format", "png", *SIZE, says=["none/a: "])
+        self.fails(1, "render", BOX, "-o", self.folder / "none/a", "--format", "png", *SIZE, says=["none/a: ", f"there is no folder {self.folder / 'none'}"])
 
     @unittest.skipUnless(Path("/dev/pts").is_mount(), "/dev/pts is not there")
     def test_a_terminal_is_refused(self):

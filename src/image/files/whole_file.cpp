@@ -93,7 +93,11 @@ std::filesystem::path folderOf(const std::filesystem::path& target) {
 }
 
 RenderError cannotWrite(const std::filesystem::path& path, int code) {
-  return RenderError("cannot write " + path.string() + ": " + systemReason(code));
+  std::error_code error;
+  const std::filesystem::path folder = folderOf(path);
+  const bool missing = code == ENOENT && !std::filesystem::exists(folder, error);
+  return RenderError("cannot write " + path.string() + ": " + systemReason(code) +
+                     (missing ? ": there is no folder " + folder.string() : ""));
 }
 
 /// Throws the reason in `code` if that is not 0. Then, and if the name cannot be changed, the part is
