@@ -32,7 +32,7 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "phong.glsl"
 #include "sky/sun.glsl"
 #include "environment.glsl"
-#include "environment_light.glsl"
+#include "lights/environment_light.glsl"
 #include "lights.glsl"
 #include "lights/light_tree.glsl"
 #include "lights/sample_light.glsl"

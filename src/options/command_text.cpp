@@ -23,6 +23,7 @@ RenderOptions parseCommand(const std::string& name, std::vector<std::string> wor
   RawView raw;
   raw.render.anyOutput = true;
   addViewOptions(app, raw);
+  app.remove_option(app.get_option("others"));
   if (name == "render") raw.render.options.output.denoise = RenderOptions().output.denoise;  // its default
   addOption(app, "--output", raw.render);
   addOptions(app, OptionGroup::Encoding, raw.render);

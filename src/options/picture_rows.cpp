@@ -509,10 +509,9 @@ std::vector<OptionRow> deviceRows() {
            {.effect = Effect::Method, .renewal = Renewal::Program, .kept = true}, "FOLDER"),
       word("--shader-text",
            "write the shader that traces the picture to this file, for reading: with its comments, and "
-           "without "
-           "what this scene does not need",
-           FRAGTRACE_MEMBER(output.shaderText), {.effect = Effect::Report, .copied = false, .kept = true},
-           "FILE"),
+           "without what this scene does not need",
+           FRAGTRACE_MEMBER(output.shaderText),
+           {.effect = Effect::Report, .copied = false, .kept = true, .group = OptionGroup::Output}, "FILE"),
   };
 }
 

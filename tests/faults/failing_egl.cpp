@@ -11,6 +11,7 @@
 //                        nan: none fails, but textures of floats that are read hold NaN
 //                        stall: none fails, but fences take twelve seconds from the first look at one on
 //                        second: there is one context, and no other
+//   FRAGTRACE_FAIL_ONLY  calls of this function alone are counted, and logged
 //   FRAGTRACE_FAIL_NAME  a function that does nothing and gives no error, as often as it is called
 //   FRAGTRACE_FAIL_WHEN  a file: once it is there it is removed, and the context is lost
 //   FRAGTRACE_FAIL_AGAIN after so many calls the context that took a lost one's place is lost, too; once
@@ -44,6 +45,7 @@ struct Faults {
   bool lostKind = isKind("lost");
   bool buildKind = isKind("build");
   const char* when = setting("FRAGTRACE_FAIL_WHEN");
+  const char* only = setting("FRAGTRACE_FAIL_ONLY");
   const char* never = setting("FRAGTRACE_FAIL_NAME");
   long again = std::atol(setting("FRAGTRACE_FAIL_AGAIN"));
   long untilLost = 0;  // calls; 0: never
@@ -71,6 +73,7 @@ bool allowed(const char* name) {
   if (f.lost || std::strcmp(name, f.never) == 0) return false;
   const bool builds = std::strcmp(name, "glCompileShader") == 0 || std::strcmp(name, "glLinkProgram") == 0;
   if (f.buildKind && !builds) return true;
+  if (*f.only && std::strcmp(name, f.only) != 0) return true;
   ++f.calls;
   if (f.log) {
     std::fprintf(f.log, "%s\n", name);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The light of the environment in the stages before global illumination: shaders/environment_light.glsl over
-// rows of src/pack/pack_environment.cpp.
+// The light of the environment in the stages before global illumination:
+// shaders/lights/environment_light.glsl over rows of src/pack/pack_environment.cpp.
 #include "pack/pack_environment.h"
 
 #include <gtest/gtest.h>

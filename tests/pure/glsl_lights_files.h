@@ -44,7 +44,7 @@ inline MovingTriangle movingTriangle(int /*slot*/, float /*time*/) { return {}; 
 // clang-format off
 #include "sky/sun.glsl"
 #include "environment.glsl"
-#include "environment_light.glsl"
+#include "lights/environment_light.glsl"
 #include "lights.glsl"
 #include "lights/light_tree.glsl"
 #include "lights/sample_light.glsl"
