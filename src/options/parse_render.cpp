@@ -301,7 +301,7 @@ constexpr auto kOtherNames = std::to_array<OtherName>({
     {"--raytracing-samples", "--spp"},
     {"--raytracing-denoise", "--denoise"},
     {"--camera-orthographic", "--camera-parallel-scale"},
-    {"--camera-direction", "--camera-orbit"},
+    {"--camera-direction", "--camera-orbit AZIMUTH,ELEVATION"},
     {"--roughness", "--set \"*:roughness=VALUE\""},
     {"--metallic", "--set \"*:metallic=VALUE\""},
     {"--size", "--resolution WIDTHxHEIGHT"},

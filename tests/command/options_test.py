@@ -198,13 +198,14 @@ class Habits(Case):
     def test_hints_are_accepted(self):
         """The words of a hint, with a value where they name its form, are taken at the next try."""
         for words, meant in ((["--width", "64"], "--resolution WIDTHxHEIGHT"), (["--size", "64"], "--resolution WIDTHxHEIGHT"), (["--samples", "1"], "--spp"),
-                             (["--max-depth", "2"], "--bounces"), (["--camera-direction", "1,0,0"], "--camera-orbit"), (["--fov", "40"], "--camera-view-angle"), (["--background", "white"], "--background-color"),
+                             (["--max-depth", "2"], "--bounces"), (["--fov", "40"], "--camera-view-angle"),
+                             (["--camera-direction", "1,0,0"], "--camera-orbit AZIMUTH,ELEVATION"), (["--background", "white"], "--background-color"),
                              (["--integrator", "path"], "--stage gi"), (["--transparent"], "--no-background"), (["--up-axis", "z"], "--up"),
                              (["--camera-pos", "0,1,3"], "--camera-position"), (["--tonemap", "agx"], "--tone-map"),
                              (["--env", SCENES / "sky.pfm"], "--hdri-file")):
             self.fails(2, "render", BOX, "-o", self.folder / "x.png", *words, says=[f"did you mean {meant}?"])
             option, *form = meant.split()
-            value = {"WIDTHxHEIGHT": ["8x8"], "gi": ["gi"]}[form[0]] if form else words[1:]
+            value = {"WIDTHxHEIGHT": ["8x8"], "gi": ["gi"], "AZIMUTH,ELEVATION": ["30,20"]}[form[0]] if form else words[1:]
             self.renders(BOX, "-o", self.folder / "x.png", *SMALL, option, *value)
 
     def test_hints_name_what_words_need(self):
