@@ -89,7 +89,6 @@ class Keywords(TypedDict, total=False):
     vector_width: Literal["auto", "256", "512"] | None
     schedule: Literal["auto", "megakernel", "wavefront"] | None
     shader_folder: str | PathLike[str] | None
-    shader_text: str | PathLike[str] | None
     scene: dict[str, Any] | str | float | None
     animation_time: float | None
     animation: dict[str, Any] | str | float | None
@@ -109,6 +108,7 @@ class Keywords(TypedDict, total=False):
     debug_view: Literal["none", "geometric-normal", "normal", "albedo", "roughness", "texcoords", "depth", "visits", "samples", "variance"] | None
     tree_level: int | None
     region: str | Sequence[int] | None
+    shader_text: str | PathLike[str] | None
     trace_file: str | PathLike[str] | None
     count_work: bool | None
     fps: float | None
