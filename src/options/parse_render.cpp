@@ -46,7 +46,7 @@ std::vector<double> valuesOf(const std::string& name, const std::string& text, s
   for (const std::string& part : CLI::detail::split(text, ',')) {
     const std::optional<double> value = numberIn(part);
     if (!value || !(std::abs(*value) <= bound))
-      refuse(name + ": '" + part + "' is no number from " + shortText(-bound) + " to " + shortText(bound));
+      refuse(formatted("%s: '%s' is no number from %g to %g", name.c_str(), part.c_str(), -bound, bound));
     values.push_back(*value);
   }
   if (values.size() < least || values.size() > most)
@@ -99,8 +99,10 @@ AddedLight addedLightIn(const std::string& text) {
     const size_t equals = std::min(word.find('='), word.size());
     const std::string name = word.substr(0, equals);
     if (std::ranges::find(known, name) == known.end())
-      refuse("'" + name + "' is none of " + joined(known) + " of " + kind + didYouMean(name, known));
-    if (equals + 1 >= word.size()) refuse(name + ": its value is missing, as in " + name + "=1");
+      refuse(formatted("'%s' is none of %s of %s%s", name.c_str(), joined(known).c_str(), kind.c_str(),
+                       didYouMean(name, known).c_str()));
+    if (equals + 1 >= word.size())
+      refuse(formatted("%s: its value is missing, as in %s=1", name.c_str(), name.c_str()));
     take(name, word.substr(equals + 1), light);
     given.push_back(name);
   }

@@ -205,7 +205,7 @@ Image namedParts(Image stored) {
     for (size_t i = 0; i < part.channels.size(); ++i) {
       std::string name = part.channels[i];
       const bool isPlain = &part != &parts.front() && name.find('.') == std::string::npos;
-      if (isPlain || taken.contains(name)) name = part.name + "." + name;
+      if (isPlain || taken.contains(name)) name.insert(0, part.name + ".");
       while (!taken.insert(name).second) name += "'";
       stored.channels.push_back(name);
       from.push_back(part.first + i);
