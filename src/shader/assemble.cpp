@@ -85,10 +85,10 @@ std::string texelWordsText(int buffers, bool table) {
   std::string value;
   for (int i = 0; i < buffers; ++i) {
     const std::string number = std::to_string(i);
-    text += "layout(r32ui, binding = kTexelImageBase + " + number +
-            "u) uniform readonly restrict uimageBuffer texels" + number + ";\n";
-    const std::string read = "imageLoad(texels" + number + ", index).x;\n";
-    value += i == 0 ? "  uint word = " + read : "  if (unit == " + number + "u) word = " + read;
+    text.append("layout(r32ui, binding = kTexelImageBase + ").append(number);
+    text.append("u) uniform readonly restrict uimageBuffer texels").append(number).append(";\n");
+    value.append(i == 0 ? "  uint" : formatted("  if (unit == %du)", i)).append(" word = imageLoad(texels");
+    value.append(number).append(", index).x;\n");
   }
   text += "uint readTexelWord(uint unit, int index) {\n" + value + "  return word;\n}\n";
   // Only where textures are read; not in a function, each copy of which would have a table of its own.
