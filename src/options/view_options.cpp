@@ -22,7 +22,7 @@ void addViewOptions(CLI::App& app, RawView& raw) {
   shown.output.denoise = Denoise::Variance;
   addOption(app, "file", raw.render, "scene: a .gltf or .glb file; without one, the window waits for a file");
   app.add_option("others", raw.others,
-                 "more models, which Left and Right show in place of those of the folder")
+                 "more models, which Left and Right show instead of those of the folder")
       ->type_name("FILE");
   addOptions(app, OptionGroup::Tracing, raw.render);
   addOptions(app, OptionGroup::Filter, raw.render);

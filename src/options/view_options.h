@@ -13,7 +13,7 @@ struct ViewOptions {
   RenderOptions render;  ///< options of the first picture
   bool watch = false;    ///< reload when the scene's files or the shaders change
   std::filesystem::path statusFile;
-  std::vector<std::filesystem::path> others;  ///< models beside the scene
+  std::vector<std::filesystem::path> others;  ///< models after the scene
   std::filesystem::path reference;            ///< a picture that is shown as side B; empty: none
   // These members are for measurements alone.
   /// The most milliseconds of a picture in motion; 0: it has full resolution; none: the device decides.

@@ -70,7 +70,7 @@ inline constexpr int kCells = 3;
 /// What the window shows of several sides (shaders/entry/window.frag), as linear display values 0..1 for a
 /// linear tone map: R, G, B and, unless it is a difference, premultiplied A where a side has that. Of two,
 /// the split view, of `size`: left of the bar one side, right of it the other, or the absolute difference of
-/// radiance times 2^differenceStops. Of more, the overview: rows of kCells pictures of `size`, black beside
+/// radiance times 2^differenceStops. Of more, the overview: rows of kCells pictures of `size`, black next to
 /// them.
 Image composite(std::span<const ComposedSide> sides, glm::ivec2 size, const Composition& composition);
 
