@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Renders the shots of a goldens folder (scenarios.json) and prints PSNR against Cycles, beside what other engines get.
+"""Renders the shots of a goldens folder (scenarios.json) and prints PSNR against Cycles, next to what other engines get.
 
 usage: goldens.py ASSETS_FOLDER OUTPUT_FOLDER [NAME ...] [--spp N]
 Needs numpy and Pillow. Draws each shot by bench/fidelity, as Khronos' generator would, and reduces it to the size of the engines' thumbnails. Writes
@@ -40,7 +40,7 @@ def psnr(a, b):
 
 
 def srgb(values):
-    """Returns values with the sRGB curve in place of gamma 2.2."""
+    """Returns values with the sRGB curve instead of gamma 2.2."""
     linear = values ** 2.2
     return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
 

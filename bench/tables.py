@@ -40,7 +40,7 @@ def facts(results):
 
 
 def aims_table(path):
-    """With the parts of aims-again-*.json, in their order, in place of those of `path`."""
+    """With the parts of aims-again-*.json, in their order, instead of those of `path`."""
     results = json.loads(path.read_text(encoding="utf-8"))
     text = facts(results)
     for again in sorted(path.parent.glob("aims-again-*.json")):

@@ -41,7 +41,7 @@ def arguments(words=None):
     parser.add_argument("--before", default="", help="options of render, in quotes")
     parser.add_argument("--now", default="")
     parser.add_argument("--before-program", type=Path, help="an older fragtrace (default: that of --program)")
-    parser.add_argument("--before-mitsuba", help="one of Mitsuba's integrators, such as path, in place of a program")
+    parser.add_argument("--before-mitsuba", help="one of Mitsuba's integrators, such as path, instead of a program")
     parser.add_argument("--python", default=sys.executable, help="of an environment with mitsuba and numpy")
     parser.add_argument("--program", type=Path, default=REPOSITORY / "build/fragtrace")
     parser.add_argument("--resolution", default="240,180")

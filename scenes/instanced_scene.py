@@ -33,7 +33,7 @@ def bumpy_ball(triangles):
 
 def write_field(folder, name, instances, triangles, uneven=False, normal_map=None):
     """Balls on a jittered grid over a floor, under a sun; `uneven`: scaled differently along each axis, every third one mirrored; normal_map: a
-    picture beside the scene."""
+    picture next to the scene."""
     dice = random.Random(1)
     writer = GltfWriter(Path(folder), name)
     side = math.ceil(math.sqrt(instances))

@@ -188,7 +188,7 @@ def sphere_mapped(gltf):
 # Meshes for the traversal figures
 
 def add_knot(gltf, around, along):
-    """The same bumpy knot at any fineness, and one triangle beside it."""
+    """The same bumpy knot at any fineness, and one triangle next to it."""
     clay = gltf.add_lambert("clay", (0.8, 0.72, 0.62))
     positions, indices = geometry.torus_knot(around, along, ring=2.0, tube=0.82, bump=0.05)
     gltf.place_mesh("knot", gltf.primitive(positions, indices, clay))

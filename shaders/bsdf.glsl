@@ -114,8 +114,7 @@ vec3 glassReflectance(Bsdf b, float cosine) {
 
 /// The largest channel of glassReflectance(): the probability of a reflection.
 float glassFresnel(Bsdf b, float cosine) {
-  vec3 r = glassReflectance(b, cosine);
-  return kGlassSpecular || kIridescence ? maxComponent(r) : r.x;
+  return maxComponent(glassReflectance(b, cosine));
 }
 
 /// The colour of what is reflected, its largest channel 1.
@@ -164,7 +163,6 @@ float throughChance(Bsdf b, float reflected, float through) {
 /// Chances of drawing from glass (x), the opaque specular lobe (y), the diffuse lobe (z) and what goes through
 /// diffusely (w); they add up to 1.
 vec4 lobeChances(Bsdf b, float cosine) {
-  float glass = kTransmission ? b.glass : 0.0f;
   float reflected = maxComponent(diffuseColor(b));
   float through = 0.0f;
   if (kDiffuseTransmission) {
@@ -173,25 +171,28 @@ vec4 lobeChances(Bsdf b, float cosine) {
   }
   if (!kSpecular) {
     float below = throughChance(b, reflected, through);
-    return vec4(glass, 0.0f, (1.0f - glass) * (1.0f - below), (1.0f - glass) * below);
+    return vec4(b.glass, 0.0f, (1.0f - b.glass) * (1.0f - below), (1.0f - b.glass) * below);
   }
   float specular = maxComponent(opaqueFresnel(b, cosine));
   // A layer that reflects all at this angle lets light through at those of other facets.
   float layer = b.opaque * max(throughLayer(b, cosine), float(0.001));
   float diffuse = layer * reflected;
-  if (kDiffuseTransmission) through *= layer;
   if (kCompensation) {
     diffuse = diffuse + maxComponent(b.between) * kPi * ggxLoss(cosine, b.alpha * microfacetMean(b.stretch));
   }
-  float below = throughChance(b, diffuse, through);
-  diffuse = kDiffuseTransmission ? diffuse + through : diffuse;
+  float below = 0.0f;
+  if (kDiffuseTransmission) {
+    through *= layer;
+    below = throughChance(b, diffuse, through);
+    diffuse = diffuse + through;
+  }
   float sum = specular + diffuse;
   float share = sum > 0.0f ? specular / sum : 1.0f;
-  // A black surface seen straight on reflects nothing there, but beside it.
+  // A black surface seen straight on reflects nothing there, but next to it.
   bool glossy = specular > 0.0f || (kMetals && b.metal > 0.0f) || b.opaque * b.dielectricF90 > 0.0f;
   share = diffuse > 0.0f && glossy ? clamp(share, 0.125f, 0.875f) : share;
-  float rest = (1.0f - glass) * (1.0f - share);
-  return vec4(glass, (1.0f - glass) * share, rest * (1.0f - below), rest * below);
+  float rest = (1.0f - b.glass) * (1.0f - share);
+  return vec4(b.glass, (1.0f - b.glass) * share, rest * (1.0f - below), rest * below);
 }
 
 /// The share of the light that facets of the glass lose that comes back on the side of `wo`.
@@ -260,7 +261,7 @@ BsdfValue evaluateMicrofacets(Bsdf b, vec3 wo, vec3 wi) {
 /// Value and pdf of rough glass, multiple scattering included.
 BsdfValue evaluateGlass(Bsdf b, vec3 wo, vec3 wi) {
   BsdfValue r = evaluateMicrofacets(b, wo, wi);
-  if (!kCompensation || b.glassLost <= 0.0f) return r;
+  if (b.glassLost <= 0.0f) return r;
   BsdfValue again = scatteredGlass(b, wo, wi);
   r.value = r.value + again.value;
   r.pdf += again.pdf;
@@ -322,7 +323,7 @@ BsdfValue evaluateBase(Bsdf b, vec3 wo, vec3 wi) {
 BsdfSample sampleSmoothGlass(Bsdf b, vec3 wo, float choice) {
   BsdfSample s;
   float fresnel = glassFresnel(b, wo.z);
-  float chance = kCaustics && b.sharesGlass ? sharedChance(fresnel) : fresnel;
+  float chance = b.sharesGlass ? sharedChance(fresnel) : fresnel;
   s.transmitted = choice >= chance;
   s.pdf = 0.0f;
   s.weight = glassTint(b, wo.z);
@@ -331,13 +332,12 @@ BsdfSample sampleSmoothGlass(Bsdf b, vec3 wo, float choice) {
     s.weight = b.solid ? b.baseColor / (b.eta * b.eta) : b.baseColor;
     s.wi = b.solid ? refractThrough(wo, vec3(0.0f, 0.0f, 1.0f), b.eta) : -wo;
   }
-  if (kCaustics && b.sharesGlass) s.weight *= sharedWeight(fresnel, chance, s.transmitted);
+  if (b.sharesGlass) s.weight *= sharedWeight(fresnel, chance, s.transmitted);
   return s;
 }
 
 /// The pdf of a sample whose direction is drawn, but not weighed yet.
 const float kUnweighed = float(-1.0);
-const float kLowBits = float(4096.0);  // times this, a uniform number's fraction is another uniform number
 
 /// Draws from scatteredGlass().
 BsdfSample drawScattered(Bsdf b, float u, float v) {
@@ -377,8 +377,8 @@ BsdfSample drawBase(Bsdf b, vec3 wo, float choice, float u, float v) {
     s.wi.z = -s.wi.z;
     s.transmitted = true;
   }
+  const float lowBits = float(4096.0);  // times this, a uniform number's fraction is another uniform number
   bool lost = false;
-  bool drawnAgain = kCompensation && glass && b.glassLost > 0.0f;  // the facets may lose the sample
   if (specular || glass) {
     vec3 h = sampleMicrofacet(wo, b.alpha, b.stretch, u, v);
     float oh = dot(wo, h);
@@ -387,14 +387,16 @@ BsdfSample drawBase(Bsdf b, vec3 wo, float choice, float u, float v) {
       s.wi = b.solid ? refractThrough(wo, h, b.eta) : vec3(s.wi.x, s.wi.y, -s.wi.z);
       s.transmitted = true;
     }
-    // Light that a facet sends to the wrong side is lost (single scattering). Compensated glass draws it again.
+    // Light that a facet sends to the wrong side is lost (single scattering).
     lost = s.transmitted == (s.wi.z > 0.0f);
-    if (kCompensation && drawnAgain) {
-      vec3 mirrored = vec3(s.wi.x, s.wi.y, abs(s.wi.z));
-      lost = lost || fract(choice * kLowBits) >= microfacetShadowing(wo, mirrored, b.alpha, b.stretch);
-    }
   }
-  if (kCompensation && lost && drawnAgain) return drawScattered(b, fract(u * kLowBits), fract(v * kLowBits));
+  // Compensated glass draws it again, and what its facets mask.
+  if (kCompensation && glass && b.glassLost > 0.0f) {
+    vec3 mirrored = vec3(s.wi.x, s.wi.y, abs(s.wi.z));
+    lost = lost || fract(choice * lowBits) >= microfacetShadowing(wo, mirrored, b.alpha, b.stretch);
+    if (lost) s = drawScattered(b, fract(u * lowBits), fract(v * lowBits));
+    lost = false;
+  }
   if (!lost) s.pdf = kUnweighed;
   return s;
 }

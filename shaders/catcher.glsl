@@ -4,10 +4,6 @@
 // radiance is that share so far, and its throughput is the radiance that the camera sees behind the plane. Camera rays
 // may come through glass (kTransparentGlass).
 
-/// The plane wins against a surface only if it is nearer by this much, relative to the distance. So a surface that lies
-/// on it is seen.
-const float kCatcherMargin = 1e-4;
-
 /// Distance of the catcher along a ray, 0 where there is none.
 float catcherDistance(vec3 origin, vec3 direction) {
   float above = origin.y - frame.catcherHeight;
@@ -21,15 +17,14 @@ float catcherBefore(Path p, float otherwise) {
   if (!p.cameraRay && !(kTransparentGlass && p.eye.clear)) return otherwise;
   float there = catcherDistance(p.ray.origin, p.ray.direction);
   float t = p.hit.slot < 0 ? kFarAway : p.hit.t;
-  return there > 0.0 && there < t * (1.0 - kCatcherMargin) ? there : otherwise;
+  // The plane is to be nearer than a surface by a margin. So a surface that lies on it is seen.
+  return there > 0.0 && there < t * (1.0 - 1e-4) ? there : otherwise;
 }
 
 /// The irradiance of the catcher by environment and punctual lights if nothing is in the way.
 vec3 freeIrradiance(vec3 point) {
   vec3 sum = frame.catcherIrradiance * frame.environmentScale;
-  if (!kPunctualLights) return sum;
-  int count = int(frame.punctualCount);
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < punctualLightCount(); ++i) {
     LightSample light = punctualLight(i, point);
     sum += light.irradiance * max(light.direction.y, 0.0);
   }
@@ -69,7 +64,7 @@ Path beginShadow(Path p, float t) {
     float cosine = max(light.direction.y, 0.0);
     // The scene that casts the shadow includes emissive triangles, so their light does not count.
     bool counts = light.pdf <= 0.0 || light.distance == kFarAway;
-    float weight = light.pdf > 0.0 ? balanceWeight(light.pdf, cosine * kInversePi) : 1.0;
+    float weight = misWeight(light.pdf, cosine * kInversePi, true);
     vec3 share = shareOfLight(light.irradiance * (counts ? cosine * weight : 0.0), all);
     if (kShadows) p = spawnShadowRay(p, s, light, share);
     if (p.phase == kPhaseConnect) {
@@ -83,7 +78,7 @@ Path beginShadow(Path p, float t) {
   p.ray.direction = vec3(lobe.x, lobe.z, -lobe.y);
   p.ray.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.ray.direction);
   p.ray.pdf = lobe.z * kInversePi;
-  if (kCreases) p.ray.tie = 0.0;
+  p.ray.tie = 0.0;
   if (kClearShadows && p.phase != kPhaseConnect) p.connection.light = vec3(1.0);
   p.next = kEnvironment && p.ray.pdf > 0.0 ? kPhaseBegin : kPhaseEnd;
   return p;
@@ -117,7 +112,7 @@ Path endShadow(Path p) {
   vec4 hidden = environmentAlong(p.ray.direction);
   float weight = 1.0;
   if (kEnvironmentSampling)
-    weight = balanceWeight(p.ray.pdf, frame.environmentChance * environmentPdf(hidden, p.ray.direction));
+    weight = misWeight(p.ray.pdf, frame.environmentChance * environmentPdf(hidden, p.ray.direction), true);
   vec3 share = shareOfLight(kPi * weight * hidden.rgb, freeIrradiance(p.ray.origin));
   p.radiance += arrives ? share * (vec3(1.0) - p.connection.light) : share;
   return p;
@@ -154,6 +149,6 @@ Path showShadow(Path p) {
   p.radiance = p.throughput * (vec3(1.0) - p.radiance);
   if (kTransparentGlass) p.radiance += p.eye.before;
   // The camera sees the background directly, with or without a shadow on it. So it is emission.
-  if (kAov == kAovDiffuse || kAov == kAovSpecular) p.radiance = vec3(0.0);
+  if (kLobePart) p.radiance = vec3(0.0);
   return p;
 }

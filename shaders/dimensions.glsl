@@ -4,6 +4,11 @@
 /// Paths scatter, so that --bounces can end them.
 const bool kScatters = kGi || kReflections || kRefraction;
 
+/// Where the camera of a path with this time looks.
+vec3 forwardAt(float time) {
+  return kMovingCamera ? turnedWith(cameraAt(time), frame.cameraForward) : frame.cameraForward;
+}
+
 /// Paths have a time: the camera or surfaces move while the shutter is open.
 const bool kTimed = kMovingCamera || kMoving;
 
@@ -24,12 +29,7 @@ const uint kLevelDimension = 14u;
 const uint kFlightDimensions = 0x80000000u;  // hashed; 4,096 per bounce
 const uint kShadowFlights = 0x40000000u;      // shadow rays add this to kFlightDimensions
 
-/// The largest probabilities to survive roulette. Paths through smooth glass that absorbs nothing get fewer by a factor
-/// from each scattering to the next; were that factor above the survival, their variance would be infinite.
-const float kGlassSurvival = 0.99;
-const float kGuidedSurvival = 0.95;
-const float kLateSurvival = 0.999;  // of all paths from kLatestRoulette on: light may lose nothing in a closed box
-const int kLatestRoulette = 1000;   // the scattering from which on roulette decides at smooth glass in any stage
+const int kLatestRoulette = 1000;  // the scattering from which on roulette decides at smooth glass in any stage
 
 /// Dimensions of light paths; their bounces have the dimensions of camera paths.
 const uint kAimDimensions = 0u;     // these are 0 and 1

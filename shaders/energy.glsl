@@ -3,8 +3,6 @@
 // and the albedo of rough glass. Each has one row per cell with the values at its corners, over the roots of cosine and
 // alpha. The first table continues with one row per cell of the average loss.
 
-const int kEnergyRows = int(kEnergyCells * kEnergyCells + kEnergyCells);
-
 /// Returns a value of a table that begins `first` rows behind the energy table, or before it.
 float energyTableAt(int first, float cosine, float alpha) {
   const int cells = int(kEnergyCells);
@@ -17,11 +15,10 @@ float energyTableAt(int first, float cosine, float alpha) {
 }
 
 /// 1 - albedo of a surface whose facets reflect everything, seen at `cosine`.
-float ggxLoss(float cosine, float alpha) { return kCompensation ? energyTableAt(0, cosine, alpha) : 0.0; }
+float ggxLoss(float cosine, float alpha) { return energyTableAt(0, cosine, alpha); }
 
 /// The cosine-weighted mean of the loss over all directions.
 float ggxAverageLoss(float alpha) {
-  if (!kCompensation) return 0.0;
   const int cells = int(kEnergyCells);
   float y = sqrt(clamp(alpha, 0.0, 1.0)) * float(cells);
   int j = min(int(y), cells - 1);
@@ -33,6 +30,6 @@ float ggxAverageLoss(float alpha) {
 /// tables of all indices of refraction follow the other tables, two for each index.
 float glassAlbedo(int table, bool front, float cosine, float alpha) {
   const int rows = int(kEnergyCells * kEnergyCells);
-  int first = kEnergyRows + (2 * table + (front ? 0 : 1)) * rows;
+  int first = rows + int(kEnergyCells) + (2 * table + (front ? 0 : 1)) * rows;
   return energyTableAt(first, cosine, alpha);
 }

@@ -69,7 +69,7 @@ vec3 mapBesideSun(vec3 direction) {
   return kMapSun && isMapSun(there) ? vec3(0.0f) : there;
 }
 
-/// Radiance that camera rays see in place of the environment (kBackdrop).
+/// Radiance that camera rays see instead of the environment (kBackdrop).
 vec3 backdropAlong(vec3 direction) {
   ivec2 size = frame.backdropSize;
   int first = mapRows(ivec2(frame.environmentSize));

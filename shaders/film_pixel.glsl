@@ -45,7 +45,7 @@ FilmPixel addSample(FilmPixel f, vec3 radiance, float alpha) {
   return f;
 }
 
-/// Adds guides (kAovGuides), in plain sums: the normal in place of the compensation, depth in place of the squares
+/// Adds guides (kAovGuides), in plain sums: the normal instead of the compensation, depth instead of the squares
 /// (Film::readGuides).
 FilmPixel addGuides(FilmPixel f, vec3 albedo, vec3 normal, float depth, float alpha) {
   f.samples += 1u;

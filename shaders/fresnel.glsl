@@ -52,14 +52,12 @@ vec3 mirrorDirection(vec3 wo, vec3 normal) { return 2.0f * dot(wo, normal) * nor
 /// Reflectance of two parallel interfaces, all reflections between them counted.
 float thinReflectance(float single) { return 2.0f * single / (1.0f + single); }
 
-/// The least chance of a delta lobe of glass that shares its paths.
-const float kLeastLobe = float(0.2);
-
 /// The chance that glass which shares its paths reflects one. By two reflections of 4 %, one of 600 paths would meet a
 /// lamp, as a bright dot.
 float sharedChance(float reflectance) {
+  const float least = float(0.2);
   bool both = reflectance > 0.0f && reflectance < 1.0f;
-  return both ? clamp(reflectance, kLeastLobe, 1.0f - kLeastLobe) : reflectance;
+  return both ? clamp(reflectance, least, 1.0f - least) : reflectance;
 }
 
 /// The weight of such a path.

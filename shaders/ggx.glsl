@@ -48,7 +48,6 @@ vec3 acrossMicrofacets(vec3 h, float stretch) { return kAnisotropy ? vec3(h.x / 
 
 /// The pdf of the half vectors visible from `wo` (z > 0).
 float microfacetPdf(vec3 wo, vec3 h, float alpha, float stretch) {
-  if (!kAnisotropy) return visibleGgxPdf(wo, h, alpha);
   float masked = ggxD(acrossMicrofacets(h, stretch), alpha) * ggxMasking(alongMicrofacets(wo, stretch), alpha);
   return masked * max(0.0f, dot(wo, h)) / max(wo.z, float(1e-12));
 }

@@ -64,7 +64,7 @@ TriangleHit intersectTriangle(vec3 origin, RayShear s, vec3 v0, vec3 v1, vec3 v2
   float inverse = 1.0f / sum;
   h.t = (u * a.z + v * b.z + w * c.z) * s.z * inverse;
   h.hit = (positive || negative) && sum != 0.0f;
-  // The edge functions of a triangle that is small beside its distance from the ray are only rounding
+  // The edge functions of a triangle that is small compared with its distance from the ray are only rounding
   // (docs/design/numerics.md, "Zero from far away").
   h.hit = h.hit && !zeroBeyond(ax, bx, cx) && !zeroBeyond(ay, by, cy);
   h.front = (s.z > 0.0f) == (sum > 0.0f);
@@ -85,7 +85,7 @@ vec4 planeThrough(vec3 v0, vec3 v1, vec3 v2) {
 }
 
 /// The distance along the ray to the plane dot(normal, x) = distance of a triangle, within the depths of its vertices.
-/// The weighted depths of a sliver have an error of rounding times its aspect ratio, so a ray that starts beside it
+/// The weighted depths of a sliver have an error of rounding times its aspect ratio, so a ray that starts next to it
 /// could find it behind itself (docs/design/numerics.md, "Distance along the ray"). Farther away than a 64th of those
 /// depths, `weighted` is kept where it is the better one: its error is eps L^3 / 4A, that of the plane mostly less than
 /// 1.5 eps times the largest coordinate over the cosine to the normal.

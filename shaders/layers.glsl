@@ -71,17 +71,19 @@ float underSheen(Bsdf b, vec3 wo, vec3 wi) {
 /// drawn too rarely.
 vec3 layerChances(Bsdf b, vec3 wo) {
   float coat = coatShare(b, wo);
-  float sheen = kSheen ? maxComponent(b.sheenColor) * sheenShare(wo.z, b.sheenAlpha) : 0.0f;
-  float glass = kTransmission ? b.glass : 0.0f;
+  float strongest = kSheen ? maxComponent(b.sheenColor) : 0.0f;
+  float sheen = strongest * sheenShare(wo.z, b.sheenAlpha);
   float reflected = maxComponent(diffuseColor(b));
   float diffuse = kDiffuseTransmission ? mix(reflected, maxComponent(b.throughColor), b.diffuseThrough) : reflected;
-  float base = glass + b.opaque * diffuse + maxComponent(opaqueFresnel(b, wo.z));
+  float base = b.glass + b.opaque * diffuse + maxComponent(opaqueFresnel(b, wo.z));
   float below = sheen + (1.0f - sheen) * min(base, 1.0f);
   float coatChance = coat > 0.0f ? clamp(coat / (coat + (1.0f - coat) * below), 0.125f, 0.875f) : 0.0f;
-  bool hasSheen = kSheen && maxComponent(b.sheenColor) > 0.0f;
-  float sheenChance = hasSheen ? clamp(sheen / max(below, float(1e-6)), 0.125f, 0.875f) : 0.0f;
+  float sheenChance = strongest > 0.0f ? clamp(sheen / max(below, float(1e-6)), 0.125f, 0.875f) : 0.0f;
   return vec3(coatChance, (1.0f - coatChance) * sheenChance, (1.0f - coatChance) * (1.0f - sheenChance));
 }
+
+/// A direction in the frame of the clearcoat. Without normal maps its normal is that of the base.
+vec3 toCoat(Frame3 around, vec3 v) { return kNormalMaps ? toFrame(around, v) : v; }
 
 /// Value (without its share) and pdf of the rough clearcoat, about its own normal.
 BsdfValue evaluateCoat(Bsdf b, vec3 wo, vec3 wi) {
@@ -89,8 +91,8 @@ BsdfValue evaluateCoat(Bsdf b, vec3 wo, vec3 wi) {
   r.value = vec3(0.0f);
   r.pdf = 0.0f;
   Frame3 around = frameAround(b.coatNormal);
-  vec3 o = kNormalMaps ? toFrame(around, wo) : wo;
-  vec3 i = kNormalMaps ? toFrame(around, wi) : wi;
+  vec3 o = toCoat(around, wo);
+  vec3 i = toCoat(around, wi);
   if (o.z <= 0.0f || i.z <= 0.0f) return r;
   vec3 h = normalize(o + i);
   float pdf = visibleGgxPdf(o, h, b.coatAlpha) / max(4.0f * dot(o, h), float(1e-12));
@@ -100,7 +102,7 @@ BsdfValue evaluateCoat(Bsdf b, vec3 wo, vec3 wi) {
 }
 
 BsdfValue evaluateBsdf(Bsdf b, vec3 wo, vec3 wi) {
-  if (kCountWork) countWork(kWorkBsdfs, 1u);
+  countBsdfEvaluations(1u);
   BsdfValue r = evaluateBase(b, wo, wi);
   if (!kClearcoat && !kSheen) return r;
   vec3 chances = layerChances(b, wo);
@@ -136,7 +138,7 @@ vec3 diffuseUnderLayers(Bsdf b, vec3 wo, vec3 wi) {
 /// as sampleBsdf draws that direction.
 vec3 straightThrough(Bsdf b, vec3 wo) {
   bool bends = b.solid && !(kMatchedGlass && abs(b.eta - 1.0f) < kEqualIndices);
-  if (!kTransmission || bends || !isSmoothGlass(b)) return vec3(0.0f);
+  if (bends || !isSmoothGlass(b)) return vec3(0.0f);
   vec3 weight = (b.glass * (1.0f - glassFresnel(b, wo.z))) * b.baseColor;
   return weight * ((1.0f - coatShare(b, wo)) * underSheen(b, wo, -wo));
 }
@@ -148,7 +150,7 @@ BsdfSample drawCoat(Bsdf b, vec3 wo, float chance, float u, float v) {
   s.pdf = 0.0f;
   s.weight = vec3(0.0f);
   Frame3 around = frameAround(b.coatNormal);
-  vec3 o = kNormalMaps ? toFrame(around, wo) : wo;
+  vec3 o = toCoat(around, wo);
   bool smoothCoat = isSmoothCoat(b);
   vec3 h = smoothCoat ? vec3(0.0f, 0.0f, 1.0f) : sampleVisibleGgx(o, b.coatAlpha, u, v);
   vec3 i = mirrorDirection(o, h);
@@ -190,10 +192,7 @@ BsdfSample drawLayered(Bsdf b, vec3 wo, float choice, float u, float v) {
 /// together. choice decides between reflection and refraction at glass, and between both sides of diffuse light. Each
 /// is uniform in [0, 1).
 BsdfSample drawBsdf(Bsdf b, vec3 wo, float choice, float u, float v) {
-  BsdfSample s;
-  if (kClearcoat || kSheen) s = drawLayered(b, wo, choice, u, v);
-  if (!kClearcoat && !kSheen) s = drawBase(b, wo, choice, u, v);
-  return s;
+  return kClearcoat || kSheen ? drawLayered(b, wo, choice, u, v) : drawBase(b, wo, choice, u, v);
 }
 
 /// A direction with the weight and the pdf that evaluateBsdf() finds for it.

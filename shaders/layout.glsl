@@ -1,31 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Bindings, sentinels and packed layouts that C++ and GLSL share (src/shader/layout.h includes this file).
 
-// Scene buffers: each is read through one function (src/shader/assemble.cpp).
-const uint kNodesBinding = 0u;         // kNodeRows uvec4 per node; behind them kInstanceRows per instance
-const uint kLeavesBinding = 1u;        // 5 uvec4 per leaf: two primitives, structure of arrays
-// kFaceRows uvec4 per leaf slot (leaf * 2 + side): what shading needs of a primitive; behind them 1 per slot: kCreases
-const uint kFacesBinding = 2u;
-const uint kNormalsBinding = 3u;       // 1 vec4 per vertex
-const uint kTexcoordsBinding = 4u;     // 1 vec4 per vertex: TEXCOORD_0, TEXCOORD_1
-const uint kTangentsBinding = 5u;      // 1 vec4 per vertex
-const uint kColorsBinding = 6u;        // 1 vec4 per vertex
-const uint kMaterialsBinding = 7u;     // kMaterialRows uvec4 per material
-// The grid of densities: its table, 1 uvec2 per brick (brickEntry of media/volume.glsl), and the bricks: each has
-// kBrickTexels uvec2s of 4 densities, then, if the grid emits, 1 of radiance per voxel
-const uint kBricksBinding = 8u;
-const uint kEmittersBinding = 9u;      // kEmitterRows uvec4 per emitter
-const uint kLightsBinding = 10u;       // kLightRows vec4 per punctual light
-// 1 uvec4 per two texels (src/pack/pack_environment.h): radiance, pdf over the area of the map (mean 1). Those of the
-// backdrop follow, if camera rays see one instead of the map, and before gi the environment's light: factors of the
-// irradiance; width, height and first row of each level of lobes; the levels (src/pack/pack_environment.h)
-const uint kEnvironmentBinding = 11u;
-// 1 uvec4 per step: of the rows, then of each row (src/pack/pack_environment.h)
-const uint kEnvironmentInversionBinding = 12u;
+// Scene buffers, each of which is read through one function: src/shader/layout.h lists them.
 const uint kSceneBufferCount = 13u;
-
-// The first image unit of scene buffers that are read as images; the film has those before it.
-const uint kSceneImageBase = 3u;
 
 // Film images, one texel per pixel.
 const uint kFilmSumBinding = 0u;           // rgba32f: sum of radiance, sum of alpha
@@ -35,6 +12,7 @@ const uint kFilmCountsBinding = 2u;        // rgba32ui: samples, rays, non-finit
 // Storage buffers that the tracer writes.
 const uint kPathStatesBinding = 13u;
 const uint kProgressBinding = 14u;
+const uint kWorkBinding = 15u;
 // uvec4s a path (path_rows.glsl); where no ray passes surfaces, the wavefront leaves the last ones out. Behind those of
 // a suspended path come one more, those of its stack, and those of its integrator's state.
 const uint kPathRows = 12u;
@@ -56,26 +34,17 @@ const uint kFogBinding = 1u;
 const uint kVolumeBinding = 2u;
 const uint kShutterBinding = 3u;
 
-// A program draws an AOV in place of radiance (kAov); as enum Aov of src/shader/render_options.h.
+// A program draws an AOV instead of radiance (kAov). These are known by their numbers, as in enum Aov of
+// src/shader/render_options.h; integrators/first_hit.glsl has the others.
 const int kAovNone = 0;
-const int kAovAlbedo = 1;
-const int kAovNormal = 2;
-const int kAovDepth = 3;
-const int kAovGeometricNormal = 4;
-const int kAovRoughness = 5;
-const int kAovTexcoords = 6;
-const int kAovPosition = 7;
 const int kAovObject = 8;
 const int kAovMaterial = 9;
 const int kAovEmission = 10;
 const int kAovDiffuse = 11;
 const int kAovSpecular = 12;
-const int kAovGuides = 13;
-const int kAovCryptoObject = 14;
-const int kAovCryptoMaterial = 15;
 
 // Film flags.
-const uint kPixelSuspended = 1u;  // the path of this pixel goes on in the next draw
+const uint kPixelSuspended = 1u;  // the path of this pixel continues in the next draw
 const uint kPixelBudgetHit = 2u;  // a loop was ended by something other than its own condition
 const uint kPixelOverWhite = 4u;    // its luminance is that of the pixel laid over white: the shadow is in alpha alone
 const uint kPixelTargetShift = 3u;  // above: the most samples this pixel is to have; 0: what the draw says
@@ -98,8 +67,8 @@ const uint kLeafBlock = 4u;  // the iterative traversal tests this many leaves i
 
 // An instance is the only leaf of a node of the upper tree. Its index is kInstanceLeaf + its number, which is that of
 // its first row / kInstanceRows. The node kInstanceEnd leads back out of it. Rows: three of the matrix from local space
-// into its mesh's, beside them the mesh's origin in local space; root of its tree, and scale of offsets; three rows of
-// the matrix back, beside them what is added to offsets, -1 where the matrix mirrors, else 1, and how much lengths can
+// into its mesh's, next to them the mesh's origin in local space; root of its tree, and scale of offsets; three rows of
+// the matrix back, next to them what is added to offsets, -1 where the matrix mirrors, else 1, and how much lengths can
 // grow on the way into the mesh's space.
 const int kInstanceLeaf = 0x04000000;
 const int kInstanceEnd = -2;
@@ -108,10 +77,9 @@ const uint kInstanceRows = 7u;
 const float kAlbedoFloor = 0.04f;  // part of white in the albedo by which denoising divides light
 const float kMeshReach = 1.75f;  // a shared mesh lies within this distance of its origin: coordinates are at most 1
 
-// Primitive words in a leaf: flags, and the reach of coincidence as the exponent of a float, 0 where it has none
-// (src/scene/coincidence.h).
+// Primitive words in a leaf: flags, and in the lowest byte the reach of coincidence as the exponent of a float, 0 where
+// it has none (src/scene/coincidence.h).
 const uint kPrimitiveNone = 0xffffffffu;
-const uint kPrimitiveReachMask = 0xffu;
 const uint kPrimitiveEmits = 0x08000000u;
 const uint kPrimitiveCull = 0x80000000u;    // the back is not there
 const uint kPrimitivePasses = 0x40000000u;  // light may pass: alpha, or glass
@@ -138,26 +106,7 @@ const uint kMaterialVolume = 4u;       // extinction coefficient (1 / local spac
 // normal scale, occlusion strength, emitter pdf (1 / area in local space), flags
 const uint kMaterialMaps = 5u;
 const uint kMaterialPerlin = 6u;       // frequency, amplitude, octaves; and the number of the glTF material, from 1
-const uint kMaterialTextures = 7u;     // then one row per texture slot
-const uint kSlotBaseColor = 0u;
-const uint kSlotMetallicRoughness = 1u;
-const uint kSlotNormal = 2u;
-const uint kSlotEmission = 3u;
-const uint kSlotTransmission = 4u;
-const uint kSlotSpecular = 5u;
-const uint kSlotSpecularColor = 6u;
-const uint kSlotClearcoat = 7u;
-const uint kSlotClearcoatRoughness = 8u;
-const uint kSlotClearcoatNormal = 9u;
-const uint kSlotSheenColor = 10u;
-const uint kSlotSheenRoughness = 11u;
-const uint kSlotAnisotropy = 12u;
-const uint kSlotIridescence = 13u;
-const uint kSlotIridescenceThickness = 14u;
-const uint kSlotDiffuseTransmission = 15u;
-const uint kSlotDiffuseTransmissionColor = 16u;
-const uint kSlotScatterStrength = 17u;
-const uint kSlotMultiscatterColor = 18u;
+const uint kMaterialTextures = 7u;     // then one row per texture slot (src/shader/layout.h)
 const uint kSlotCount = 19u;
 // Extensions add these rows; they are read only where a material of the scene has them.
 const uint kMaterialClearcoat = kMaterialTextures + kSlotCount;       // weight, roughness, normal scale, dispersion
@@ -202,10 +151,8 @@ const uint kTextureMirrorV = 64u;
 const uint kTextureWide = 128u;  // its texels have 16 bits a channel
 const uint kTextureLevelShift = 8u;  // of an array texture, only while a texel is read (tune/texels_arrays.glsl)
 const uint kTexturePlaceShift = 16u;
-// Pictures lie in up to this many buffers of words (tune/texels_words.glsl), whose image units are behind those of the
-// scene buffers; or in array textures (tune/texels_arrays.glsl), whose three units are behind those of reservoirs.
-const uint kMostTexelBuffers = 8u;
-const uint kTexelImageBase = kSceneImageBase + kSceneBufferCount;
+// Pictures lie in buffers of words (tune/texels_words.glsl); or in array textures (tune/texels_arrays.glsl), whose
+// three units are behind those of reservoirs.
 
 // The table of a row of the environment has half as many steps as the row has texels, but at least one and at most
 // these.
@@ -217,13 +164,9 @@ const uint kLobeLevels = 6u;
 
 // The sun before a sky (sky/sun.glsl), behind the map and its backdrop: its direction before the map is turned and the
 // chance that a light sample of the environment takes it; radiance and pdf in its middle; the luminance from which on a
-// place of the map is its sun (kMapSun). Its radius in radians, and the powers of the cosine at its surface by which it
-// gets darker to the limb (SunDisc, src/scene/sky/sky.h).
+// place of the map is its sun (kMapSun). Its radius in radians.
 const uint kSunRows = 3u;
 const float kSunRadius = 0.004651303f;
-const float kLimbRed = 0.456f;
-const float kLimbGreen = 0.508f;
-const float kLimbBlue = 0.605f;
 
 // Emitter rows: the first and the last emitter that its equal share of the numbers draws, the last number that draws
 // itself, probability (float); of an emissive triangle its first vertex and material, its edges from there with 1 /
@@ -249,8 +192,8 @@ const uint kNoLightNode = 0xffffffffu;
 const uint kNoNormal = 0xffffffu;  // replaces a normal as three 8-bit numbers (packNormal)
 
 // Behind the lights, where there are casters of caustics: guiding lobes (caustics/guiding.glsl), kGuidingLobes rows for
-// each of kGuidingCells. Rows: focus; spread as a float with 11 bits of its fraction, kGuidingAway in place of its
-// sign, and the share up to the lobe in place of its last bits.
+// each of kGuidingCells. Rows: focus; spread as a float with 11 bits of its fraction, kGuidingAway instead of its
+// sign, and the share up to the lobe instead of its last bits.
 const uint kGuidingCells = 16384u;
 const int kGuidingLobes = 8;
 const uint kGuidingAway = 0x80000000u;
@@ -260,16 +203,12 @@ const uint kGuidingShareMask = 0xfffu;
 // Light rows: intensity + type, position + range, direction + spot scale, spot offset.
 const uint kLightRows = 4u;
 const uint kLightCandidates = 4u;  // number of candidates for a light sample (reuse/candidates.glsl)
-// Spatial reuse (reuse/reservoir.glsl): neighbours of a pixel that take part, and how far away they are, pixels; what
-// is kept of the numbers that draw a direction of the environment, as a number of 24 bits; the first of its two texture
-// units, behind those of the scene buffers.
+// Spatial reuse (reuse/reservoir.glsl): neighbours of a pixel that take part; the unit of the numbers of 24 bits that
+// draw a direction of the environment; the first of its two texture units, behind those of the scene buffers.
 const uint kReuseNeighbours = 4u;
-const float kReuseRadius = 16.0f;
-const uint kReservoirBits = 0xffffff00u;
 const uint kReservoirUnit = 256u;
 const uint kReservoirTextures = kSceneBufferCount;
 const uint kTexelTextures = kReservoirTextures + 2u;
-const float kLightPoint = 0.0f;
 const float kLightSpot = 1.0f;
 const float kLightDirectional = 2.0f;
 
@@ -351,7 +290,6 @@ struct Volume {
 };
 const int kBrickTexels = 128;
 const int kMostVolumeSteps = 1024;  // limit of steps of one walk through the grid
-const float kFaintVolume = 0.05f;   // transmittance from which on roulette decides
 
 // The report of one draw.
 const float kCutUnits = 65536.0f;  // units for a throughput of 1

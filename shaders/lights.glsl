@@ -22,9 +22,7 @@ LightSample noLight() { return makeLight(vec3(0.0f, 0.0f, 1.0f), kFarAway, vec3(
 
 /// The MIS weight of a light sample that scattering would find with the other pdf.
 float lightWeight(LightSample s, float other) {
-  if (s.pdf <= 0.0f) return 1.0f;
-  bool environment = kEnvironmentSampling && s.distance == kFarAway;
-  return environment ? balanceWeight(s.pdf, other) : misWeight(s.pdf, other);
+  return misWeight(s.pdf, other, kEnvironmentSampling && s.distance == kFarAway);
 }
 
 /// The factor by which the range of a punctual light (0: none) dims it at a squared distance (KHR_lights_punctual).
@@ -71,8 +69,7 @@ uvec4 emitterRow(int emitter, int row) {
 vec3 emittedFrom(uint material, int slot, vec2 weights, float cosine) {
   uvec4 place = kTexcoords || kVertexColors ? faceRow(slot, 1) : uvec4(0u);
   vec4 texcoords = vec4(0.0f);
-  if (kTexcoords &&
-      (readsSlot(kSlotEmission) || readsSlot(kSlotClearcoat) || (kAlpha && readsSlot(kSlotBaseColor)))) {
+  if (kLampTextures) {
     texcoords = interpolate(readTexcoordsAt(int(place.y)), readTexcoordsAt(int(place.z)), readTexcoordsAt(int(place.w)),
                             weights);
   }
@@ -153,10 +150,17 @@ int emitterAt(uint bits) {
   return low;
 }
 
+bool isPunctual(uint kind) { return kPunctualLights && (kind & kEmitterPunctual) != 0u; }
+
+int punctualLightCount() { return kPunctualLights ? int(frame.punctualCount) : 0; }
+
+/// There are lamps among which light samples choose.
+bool hasLamps() { return kPunctualLights || kEmissiveTriangles; }
+
 /// A light sample of an emitter that was chosen with `chance`; u and v choose the point on an emissive triangle.
 LightSample lightOfEmitter(int emitter, float chance, vec3 point, float u, float v, bool onlyTriangles, float time) {
   uint kind = emitterRow(emitter, 3).w;
-  bool punctual = kPunctualLights && (kind & kEmitterPunctual) != 0u;
+  bool punctual = isPunctual(kind);
   LightSample s = noLight();
   if (chance <= 0.0f) return s;
   if (punctual && !onlyTriangles) {

@@ -17,11 +17,11 @@
 
 /// Rays are traced from end to end: what the budget ends begins its sample again in the next draw, and no traversal is
 /// kept from round to round.
-const bool kWholeRays = kGi && !kPassing && !kResumable && kAov == kAovNone;
+const bool kWholeRays = kGi && !kPassing && !kResumable && kDrawsLight && !kLightPart;
 
 /// Starts a traversal behind the surface that the ray has met at distance t, and passes.
 Path beginBehind(Path p, float limit, float t, int slot) {
-  if (kCountWork) countWork(kWorkPassed, 1u);
+  countSurfacesPassed(1u);
   p = beginTraversal(p, limit);
   p.traversal.tMin = t;
   p.traversal.tMinSlot = slot;
@@ -33,10 +33,10 @@ Path extend(Path p) {
   bool passes = kPassing && p.phase == kPhasePass;
   if (passes) p = beginBehind(p, kFarAway, p.hit.t, p.hit.slot);
   if (!passes) p = beginTraversal(p, kFarAway);
-  if (kCreases) p.traversal.tie = p.ray.tie;
-  if (kCoincident) p.traversal.extends = true;
-  if (kLightPaths) p.traversal.both = true;
-  if (kMedia && !(kShadowCatcher && passes && p.eye.caught)) p = limitFlight(p, passes ? p.hit.t : 0.0);
+  p.traversal.tie = p.ray.tie;
+  p.traversal.extends = true;
+  p.traversal.both = true;
+  if (kMedia && !(passes && p.eye.caught)) p = limitFlight(p, passes ? p.hit.t : 0.0);
   p.phase = kPhaseExtend;
   return p;
 }
@@ -81,7 +81,7 @@ Path connect(Path p) {
   int slot = p.traversal.slot;
   bool passes = false;
   if (kPassing && slot >= 0 && slot != kOpaqueSlot) {
-    if (kCountWork) countWork(kWorkShadowSurfaces, 1u);
+    countShadowSurfaces(1u);
     Surface s = surfaceAt(slot, p.traversal.hitInstance, p.connection.origin, p.connection.direction, p.traversal.t,
                           p.traversal.weights, p.time);
     p.connection.light *= passed(p, s);
@@ -103,7 +103,7 @@ Path connect(Path p) {
 Path connectTraced(Path p) {
   if (!isDone(p.traversal)) return p;
   p.rays += 1;
-  if (kCountWork) countShadowRay();
+  countShadowRay();
   return connect(p);
 }
 
@@ -121,7 +121,7 @@ Path advance(Path p, int budget, TreeFrame tree) {
     if (kWholeRays) p = withHit(p, p.traversal);
     if (!connects && isDone(p.traversal)) {
       p.rays += 1;
-      if (kCountWork) countRay(p);
+      countRay(p);
       if (!kWholeRays) p = withHit(p, p.traversal);
       p.phase = kPhaseMeet;
     }
@@ -129,7 +129,7 @@ Path advance(Path p, int budget, TreeFrame tree) {
   if (kGpu && connects) p = connectTraced(p);
   if (p.phase == kPhaseMeet) {
     p = meet(p);
-    p.traversal.steps += kCandidateSteps;
+    p.traversal.steps += kCandidateIterations / 3;  // a step is three
   }
   if (!kGpu && kShadows && p.phase == kPhaseConnect) p = connectTraced(traced(p, true, budget, tree));
   return p;

@@ -9,12 +9,10 @@ vec4 materialFloats(uint material, uint row) { return uintBitsToFloat(materialRo
 
 uvec4 textureSlot(uint material, uint slot) { return materialRow(material, kMaterialTextures + slot); }
 
-/// Returns true if the variant reads the textures of a slot. src/shader/live_text.cpp settles the calls.
-bool readsSlot(uint slot) { return (kTextureSlots >> slot & 1) != 0; }
-
-vec4 sampleSlot(uint material, uint slot, vec4 texcoords, bool srgb) {
-  return sampleTexture(textureSlot(material, slot), texcoords, srgb);
-}
+// slots.glsl is written by src/shader/assemble.cpp: for each texture of kTextureRefs (src/scene/scene.h) its row of a
+// material and its texel, as slotBaseColour(material) and texelBaseColour(material, texcoords). Where the scene has no
+// such texture, the row is empty and the texel white.
+#include "slots.glsl"
 
 /// Light may go through surfaces.
 const bool kPassesLight = kTransmission || kDiffuseTransmission;
@@ -25,7 +23,7 @@ uint materialFlags(uint material) { return materialRow(material, kMaterialMaps).
 vec4 baseColorAt(uint material, vec4 texcoords, vec4 vertexColor) {
   vec4 color = materialFloats(material, kMaterialBaseColor);
   if (kVertexColors) color *= vertexColor;
-  if (readsSlot(kSlotBaseColor)) color *= sampleSlot(material, kSlotBaseColor, texcoords, true);
+  color *= texelBaseColour(material, texcoords);
   return color;
 }
 
@@ -39,7 +37,7 @@ float alphaAt(uint material, uint flags, float alpha) {
 vec3 emissionAt(uint material, vec4 texcoords) {
   if (!kEmission) return vec3(0.0);
   vec3 radiance = materialFloats(material, kMaterialEmission).rgb;
-  if (readsSlot(kSlotEmission)) radiance *= sampleSlot(material, kSlotEmission, texcoords, true).rgb;
+  radiance *= texelEmission(material, texcoords).rgb;
   return radiance;
 }
 
@@ -63,24 +61,20 @@ SurfaceMaterial materialAt(uint material, vec3 baseColor, vec4 texcoords) {
   m.roughness = surface.y;
   m.ior = surface.z;
   m.transmission = kTransmission ? surface.w : 0.0;
-  if (readsSlot(kSlotMetallicRoughness)) {
-    vec4 texel = sampleSlot(material, kSlotMetallicRoughness, texcoords, false);
-    m.metallic *= texel.b;
-    m.roughness *= texel.g;
-  }
-  if (readsSlot(kSlotTransmission)) m.transmission *= sampleSlot(material, kSlotTransmission, texcoords, false).r;
+  vec4 texel = texelMetalAndRoughness(material, texcoords);
+  m.metallic *= texel.b;
+  m.roughness *= texel.g;
+  m.transmission *= texelTransmission(material, texcoords).r;
   m.specular = 0.0;
   m.dielectricF0 = vec3(0.0);
   vec4 specular = vec4(0.0);
   float glossiness = 1.0;
   if (kSpecular || kSpecularGlossiness) {
     specular = materialFloats(material, kMaterialSpecular);
-    if (readsSlot(kSlotSpecular)) specular.a *= sampleSlot(material, kSlotSpecular, texcoords, false).a;
-    if (readsSlot(kSlotSpecularColor)) {
-      vec4 texel = sampleSlot(material, kSlotSpecularColor, texcoords, true);
-      specular.rgb *= texel.rgb;
-      glossiness = texel.a;
-    }
+    specular.a *= texelSpecular(material, texcoords).a;
+    texel = texelSpecularColour(material, texcoords);
+    specular.rgb *= texel.rgb;
+    glossiness = texel.a;
   }
   if (kSpecularGlossiness && (materialFlags(material) & kMaterialSpecularGlossiness) != 0u) {
     m.baseColor *= 1.0 - maxComponent(specular.rgb);

@@ -6,15 +6,13 @@
 vec3 anisotropyAt(uint material, vec4 texcoords) {
   vec3 row = materialFloats(material, kMaterialAnisotropy).xyz;
   vec2 direction = vec2(1.0, 0.0);
-  if (readsSlot(kSlotAnisotropy)) {
-    uvec4 slot = textureSlot(material, kSlotAnisotropy);
-    if ((slot.z & kTexturePresent) != 0u) {
-      vec3 texel = sampleTexture(slot, texcoords, false).rgb;
-      vec2 d = texel.xy * 2.0 - 1.0;
-      float squared = dot(d, d);
-      direction = squared > 1e-8 ? d * inversesqrt(squared) : direction;
-      row.x *= texel.b;
-    }
+  uvec4 slot = slotAnisotropy(material);
+  if ((slot.z & kTexturePresent) != 0u) {
+    vec3 texel = sampleTexture(slot, texcoords, false).rgb;
+    vec2 d = texel.xy * 2.0 - 1.0;
+    float squared = dot(d, d);
+    direction = squared > 1e-8 ? d * inversesqrt(squared) : direction;
+    row.x *= texel.b;
   }
   return vec3(row.y * direction.x - row.z * direction.y, row.z * direction.x + row.y * direction.y, row.x);
 }
@@ -36,10 +34,8 @@ Bsdf addFilm(Bsdf b, uint material, vec4 texcoords) {
   vec4 row = materialFloats(material, kMaterialIridescence);
   b.film = row.x;
   b.filmIndex = row.y;
-  float place = 1.0;
-  if (readsSlot(kSlotIridescence)) b.film *= sampleSlot(material, kSlotIridescence, texcoords, false).r;
-  if (readsSlot(kSlotIridescenceThickness)) place = sampleSlot(material, kSlotIridescenceThickness, texcoords, false).g;
-  b.filmThickness = mix(row.z, row.w, place);
+  b.film *= texelIridescence(material, texcoords).r;
+  b.filmThickness = mix(row.z, row.w, texelIridescenceThickness(material, texcoords).g);
   return b;
 }
 
@@ -47,10 +43,8 @@ Bsdf addDiffuseTransmission(Bsdf b, uint material, vec4 texcoords) {
   vec4 row = materialFloats(material, kMaterialDiffuseTransmission);
   b.diffuseThrough = row.w;
   b.throughColor = row.rgb;
-  if (readsSlot(kSlotDiffuseTransmission))
-    b.diffuseThrough *= sampleSlot(material, kSlotDiffuseTransmission, texcoords, false).a;
-  if (readsSlot(kSlotDiffuseTransmissionColor))
-    b.throughColor *= sampleSlot(material, kSlotDiffuseTransmissionColor, texcoords, true).rgb;
+  b.diffuseThrough *= texelDiffuseTransmission(material, texcoords).a;
+  b.throughColor *= texelDiffuseTransmissionColour(material, texcoords).rgb;
   return b;
 }
 
@@ -61,9 +55,8 @@ Bsdf addThinScattering(Bsdf b, uint material, vec4 texcoords) {
   float strength = materialFloats(material, kMaterialScatterStrength).x;
   if (b.solid || strength <= 0.0) return b;
   vec4 scatter = materialFloats(material, kMaterialScatter);
-  if (readsSlot(kSlotScatterStrength)) strength *= sampleSlot(material, kSlotScatterStrength, texcoords, false).a;
-  if (readsSlot(kSlotMultiscatterColor))
-    scatter.rgb *= sampleSlot(material, kSlotMultiscatterColor, texcoords, true).rgb;
+  strength *= texelScattering(material, texcoords).a;
+  scatter.rgb *= texelScatteringColour(material, texcoords).rgb;
   float scattered = b.glass * strength;
   float through = scattered * (0.5 + 0.5 * scatter.w);
   vec3 back = b.opaque * b.baseColor + (scattered - through) * scatter.rgb;
@@ -75,14 +68,11 @@ Bsdf addThinScattering(Bsdf b, uint material, vec4 texcoords) {
   return b;
 }
 
-/// Below this roughness sheen's lobe is narrower than its table.
-const float kLeastSheenRoughness = 0.05;
-
 Bsdf addSheen(Bsdf b, uint material, vec4 texcoords) {
   vec4 row = materialFloats(material, kMaterialSheen);
-  if (readsSlot(kSlotSheenColor)) row.rgb *= sampleSlot(material, kSlotSheenColor, texcoords, true).rgb;
-  if (readsSlot(kSlotSheenRoughness)) row.a *= sampleSlot(material, kSlotSheenRoughness, texcoords, false).a;
-  float roughness = max(row.a, kLeastSheenRoughness);
+  row.rgb *= texelSheen(material, texcoords).rgb;
+  row.a *= texelSheenRoughness(material, texcoords).a;
+  float roughness = max(row.a, 0.05);  // below, the lobe is narrower than its table
   b.sheenColor = row.rgb;
   b.sheenAlpha = roughness * roughness;
   return b;
@@ -91,14 +81,13 @@ Bsdf addSheen(Bsdf b, uint material, vec4 texcoords) {
 /// Weight and roughness of the clearcoat.
 vec2 clearcoatAt(uint material, vec4 texcoords) {
   vec2 coat = materialFloats(material, kMaterialClearcoat).xy;
-  if (readsSlot(kSlotClearcoat)) coat.x *= sampleSlot(material, kSlotClearcoat, texcoords, false).r;
-  if (readsSlot(kSlotClearcoatRoughness)) coat.y *= sampleSlot(material, kSlotClearcoatRoughness, texcoords, false).g;
+  coat.x *= texelClearcoat(material, texcoords).r;
+  coat.y *= texelClearcoatRoughness(material, texcoords).g;
   return coat;
 }
 
 /// The share of the emitted light that leaves through the clearcoat, seen at `cosine` to the triangle.
 float emissionUnderCoat(uint material, vec4 texcoords, float cosine) {
-  if (!kClearcoat) return 1.0;
   return 1.0 - clearcoatAt(material, texcoords).x * fresnelSchlick(vec3(kCoatF0), 1.0, cosine).x;
 }
 
@@ -106,11 +95,9 @@ float emissionUnderCoat(uint material, vec4 texcoords, float cosine) {
 vec3 coatNormalAt(Surface s, Frame3 around, vec3 wo) {
   if (!kNormalMaps) return vec3(0.0, 0.0, 1.0);
   vec3 normal = s.shadingNormal;
-  if (readsSlot(kSlotClearcoatNormal)) {
-    uvec4 slot = textureSlot(s.material, kSlotClearcoatNormal);
-    float scale = materialFloats(s.material, kMaterialClearcoat).z;
-    if ((slot.z & kTexturePresent) != 0u) normal = normalFromMap(s, texturedNormal(slot, scale, s.texcoords));
-  }
+  uvec4 slot = slotClearcoatNormals(s.material);
+  float scale = materialFloats(s.material, kMaterialClearcoat).z;
+  if ((slot.z & kTexturePresent) != 0u) normal = normalFromMap(s, texturedNormal(slot, scale, s.texcoords));
   normal = reflectingNormal(facingNormal(normal, wo), s.geometricNormal, wo);
   return normalize(toFrame(around, normal));
 }

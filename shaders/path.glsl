@@ -53,14 +53,16 @@ bool withinFisheye(vec2 point) {
   return length(point * whole) <= min(whole.x, whole.y);
 }
 
-/// Camera rays that do not go on have numbers from the far half of the sequence. The one that goes on has those of a
-/// sample with one ray, so that its numbers of all samples are stratified together.
+/// Camera rays that do not continue have numbers from the far half of the sequence. The one that continues has those of
+/// a sample with one ray, so that its numbers of all samples are stratified together.
 const uint kFarHalf = 0x80000000u;
 const uint kShortRays = uint(kCameraRays) - 1u;
 
+bool isShort(int earlier) { return uint(earlier) < kShortRays; }
+
 /// The index in the sequence of a sample's camera ray that has so many earlier ones.
 uint indexOfRay(uint sampleIndex, int earlier) {
-  return uint(earlier) < kShortRays ? kFarHalf + sampleIndex * kShortRays + uint(earlier) : sampleIndex;
+  return isShort(earlier) ? kFarHalf + sampleIndex * kShortRays + uint(earlier) : sampleIndex;
 }
 
 /// Starts with the camera ray that has so many earlier ones in its sample.
@@ -76,7 +78,7 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int earlier, int steps) 
   vec2 point = place / vec2(frame.pictureSize) * 2.0 - 1.0;
   if (kLensShift) point += frame.lensShift;
   CameraRay ray;
-  if (kPanorama || kFisheye) {
+  if (kRoundCamera) {
     ray = roundCameraRay(point);
   } else {
     ray = makeCameraRay(frame.cameraPosition, frame.cameraRight, frame.cameraUp,
@@ -111,7 +113,7 @@ vec3 clampIndirect(vec3 light, int scatterings) {
 
 /// Scatterings that --bounces limits. Those at smooth glass end by roulette alone: a thick rim or nested glasses take
 /// dozens.
-int limitedScatterings(Path p) { return kTransmission || kMedia ? p.bounce - p.freeBounces : p.bounce; }
+int limitedScatterings(Path p) { return p.bounce - p.freeBounces; }
 
 /// The scatterings that --clamp-indirect counts. Light straight through thin walls counts as if there were no walls.
 int countedScatterings(Path p) { return kThroughGlass ? p.bounce - p.straightBounces : p.bounce; }
@@ -154,7 +156,8 @@ Path meetSurroundings(Path p) {
   float weight = 1.0;
   if (kEnvironmentSampling && p.ray.pdf > 0.0) {
     float samples = lightSamplesAt(countedScatterings(p) - 1);
-    weight = balanceWeight(p.ray.pdf, samples * frame.environmentChance * environmentPdf(seen, p.ray.direction));
+    float other = samples * frame.environmentChance * environmentPdf(seen, p.ray.direction);
+    weight = misWeight(p.ray.pdf, other, true);
   }
   return addLight(p, clampIndirect(p.throughput * (weight * seen.rgb), countedScatterings(p)));
 }
@@ -174,9 +177,10 @@ uint normalOfLight(Surface s, SurfaceMaterial m) {
 /// Returns true if a lobe of a material with these flags makes caustics.
 bool isCaster(uint flags, bool delta) { return (flags & (delta ? kMaterialCaster : kMaterialGlossyCaster)) != 0u; }
 
-/// The probability to survive roulette: the throughput as seen from outside of all solids, at most `most`.
+/// The probability to survive roulette: the throughput as seen from outside of all solids, at most `most`. Late paths
+/// have less than 1: light may lose nothing in a closed box.
 float survivalOf(Path p, float most) {
-  float late = p.bounce >= kLatestRoulette ? min(most, kLateSurvival) : most;
+  float late = p.bounce >= kLatestRoulette ? min(most, 0.999) : most;
   return min(maxComponent(p.throughput) * p.etaScale, late);
 }
 
@@ -188,9 +192,9 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
   p.throughput *= weight;
   bool deltaGlass = atDeltaGlass(m, pdf);
   bool straight = goesStraight(p.ray.medium, s, m, deltaGlass, transmitted);
-  // The last camera ray of a sample alone goes on, for all.
+  // The last camera ray of a sample alone continues, for all.
   if (kCameraRays > 1 && countedScatterings(p) == 0 && !straight)
-    p.throughput *= earlierRays(p) < kCameraRays - 1 ? 0.0 : float(kCameraRays);
+    p.throughput *= isShort(earlierRays(p)) ? 0.0 : float(kCameraRays);
   bool ends = maxComponent(p.throughput) <= 0.0;
   if (transmitted && m.solid) {
     p.ray.medium = behindBoundary(p.ray.medium, s);
@@ -208,13 +212,15 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
                   p.bounce >= (deltaGlass ? min(frame.rouletteDepth, kLatestRoulette) : frame.rouletteDepth);
   // A path that guiding has aimed carries little, but goes where light comes from.
   bool isGuided = kGuided && p.prefix == kPrefixGuided;
-  float most = deltaGlass ? kGlassSurvival : isGuided ? kGuidedSurvival : 1.0;
+  // Paths through smooth glass that absorbs nothing get fewer by a factor from each scattering to the next; were that
+  // factor above the survival, their variance would be infinite.
+  float most = deltaGlass ? 0.99 : isGuided ? 0.95 : 1.0;
   float survival = isGuided ? most : survivalOf(p, most);
   uint rouletteDimension = kBounceDimensions * uint(p.bounce) + kRouletteDimension;
   if (roulette && drawFloat(p.sampler, rouletteDimension) >= survival) ends = true;
   if (roulette) p.throughput /= survival;
   p.cameraRay = false;
-  if (kTransparentGlass) p.eye.clear = p.eye.clear && transmitted && m.transmission > 0.0;
+  p.eye.clear = p.eye.clear && transmitted && m.transmission > 0.0;
   if (kCaustics) p.prefix = prefixBehind(p, s, pdf, straight);
   // Straight through a thin wall the path keeps its ray, and the pdf that light sampling shares with it.
   p.straightBounces += straight ? 1 : 0;
@@ -235,10 +241,9 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
 float weightOfEmission(Path p, Surface s, float cosine) {
   if (!kEmissiveTriangles || !s.emitter || p.ray.pdf <= 0.0) return 1.0;
   int slot = kMoving ? slotInFirst(p.hit.slot, p.time) : p.hit.slot;
-  float pdf = 0.0;
-  if (kLightTree) pdf = treePdf(slot, p.ray.origin, p.ray.normal, p.hit.t, cosine);
-  if (!kLightTree) pdf = emitterPdf(s.material, p.hit.t, cosine);
-  return misWeight(p.ray.pdf, lightSamplesAt(countedScatterings(p) - 1) * pdf);
+  float pdf = kLightTree ? treePdf(slot, p.ray.origin, p.ray.normal, p.hit.t, cosine)
+                         : emitterPdf(s.material, p.hit.t, cosine);
+  return misWeight(p.ray.pdf, lightSamplesAt(countedScatterings(p) - 1) * pdf, false);
 }
 
 /// Emission of the point hit, weighted against light sampling.
@@ -256,23 +261,22 @@ vec3 emittedAt(Path p, Surface s) {
 }
 
 /// Sets up the shadow ray of a light sample of a point that would add `value`; without shadows it is added at once. The
-/// ray begins at `origin`, beside the point.
+/// ray begins at `origin`, next to the point.
 Path spawnShadowRayFrom(Path p, vec3 point, vec3 origin, LightSample light, vec3 value) {
   bool lit = maxComponent(value) > 0.0;
   if (!kShadows && !lit) return p;
   value = clampIndirect(value, countedScatterings(p) + 1);
-  if (!kDims && !kShadows) return addLight(p, value);
   p.connection.light = kLightPart ? p.eye.aovWeight * value : value;
   p.connection.origin = origin;
   p.connection.direction = light.direction;
-  p.connection.limit = kShadows ? kFarAway : light.distance;
+  p.connection.limit = kFarAway;
   if (!kShadows) {
     if (kDims) p = dimShadow(p, innermost(p.connection.medium), 0.0, light.distance);
     p.radiance += p.connection.light;
     return p;
   }
   if (light.distance < kFarAway) {
-    // The ray begins beside the point, and is aimed again: near a light, a parallel one would end behind it.
+    // The ray begins next to the point, and is aimed again: near a light, a parallel one would end behind it.
     vec3 towards = light.distance * light.direction - (origin - point);
     float distance = length(towards);
     p.connection.direction = distance > 0.0 ? towards / distance : light.direction;

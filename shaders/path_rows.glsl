@@ -31,17 +31,17 @@ const bool kPassingRows = kPassing || kResumable || kMedia || kRayCones;
 const int kSuspendedRows = kRowOwn + int(kPathOwnRows);
 
 /// The count of scatterings and, above it, the prefix.
-uint scatteringsOf(Path p) { return uint(p.bounce) | (kCaustics ? uint(p.prefix) << 29 : 0u); }
+uint scatteringsOf(Path p) { return uint(p.bounce) | uint(p.prefix) << 29; }
 
 /// Both counts in a word: roulette ends a path long before either is 65,535.
 uint bounceCounts(Path p) { return uint(p.freeBounces) | (kThroughGlass ? uint(p.straightBounces) << 16 : 0u); }
 
 /// Returns the count of scatteringsOf().
-int bounceIn(uint scatterings) { return int(kCaustics ? scatterings & 0x1fffffffu : scatterings); }
+int bounceIn(uint scatterings) { return int(scatterings & 0x1fffffffu); }
 
 Path withCounts(Path p, uint scatterings, uint freeBounces) {
   p.bounce = bounceIn(scatterings);
-  p.prefix = int(kCaustics ? scatterings >> 29 : 0u);
+  p.prefix = int(scatterings >> 29);
   p.freeBounces = int(kThroughGlass ? freeBounces & 0xffffu : freeBounces);
   p.straightBounces = int(kThroughGlass ? freeBounces >> 16 : 0u);
   return p;
@@ -54,7 +54,7 @@ uvec4 metBy(Traversal t) { return uvec4(floatBitsToUint(t.t), uint(t.slot), floa
 /// fewer rows of such a path.
 void savePath(Path p, int row, bool begins) {
   uint flags = uint(p.phase) | (begins ? 8u : 0u) | (p.cameraRay ? 16u : 0u) | (p.oneChannel ? 32u : 0u) |
-               (p.covered ? 64u : 0u) | (p.connection.throughGlass ? 128u : 0u) | (kLightTree ? p.ray.normal << 8 : 0u);
+               (p.covered ? 64u : 0u) | (p.connection.throughGlass ? 128u : 0u) | p.ray.normal << 8;
   pathStates[row + kRowRay] = uvec4(floatBitsToUint(p.ray.origin), floatBitsToUint(p.ray.tie));
   pathStates[row + kRowDirection] = uvec4(floatBitsToUint(p.ray.direction), p.ray.medium);
   pathStates[row + kRowHit] = uvec4(floatBitsToUint(p.hit.t), uint(p.hit.slot), floatBitsToUint(p.hit.weights));
@@ -94,12 +94,12 @@ Path loadPath(int row, uint key) {
   p.oneChannel = (a.w & 32u) != 0u;
   p.covered = (a.w & 64u) != 0u;
   p.connection.throughGlass = (a.w & 128u) != 0u;
-  p.ray.normal = kLightTree ? a.w >> 8 : kNoNormal;
+  p.ray.normal = a.w >> 8;
   bool begins = !kResumable && (a.w & 8u) != 0u;
   f = uintBitsToFloat(readPathStates(row + kRowThroughput));
   p.throughput = begins ? vec3(1.0 / float(kCameraRays)) : f.xyz;
   p.ray.pdf = begins ? 0.0 : f.w;
-  if (kMovingCamera || kMoving) p.time = timeOf(p.sampler);
+  if (kTimed) p.time = timeOf(p.sampler);
   p.rays = int(counts.y);
   p = withCounts(p, counts.z, counts.w);
   if (kShadowRows) {
@@ -130,7 +130,7 @@ Path loadShadow(Path p, int row) {
   return p;
 }
 
-/// A path that goes on in the next draw, in whatever phase and wherever in a traversal.
+/// A path that continues in the next draw, in whatever phase and wherever in a traversal.
 void suspendPath(Path p, int row) {
   savePath(p, row, false);
   Traversal t = p.traversal;
@@ -158,7 +158,7 @@ Path resumePath(int row, uint key) {
   p.traversal.leaves = a.w;
   if (kInstances) p.traversal.instance = int(readPathStates(row + kRowInstances).z);
   p.traversal.extends = p.phase == kPhaseExtend;
-  p.traversal.both = kLightPaths && p.phase == kPhaseExtend;
+  p.traversal.both = p.phase == kPhaseExtend;
   p.traversal.tie = p.phase == kPhaseExtend ? p.ray.tie : 0.0;
   if (!kIterative && !kLiterals) p.traversal.stack = loadStack(row + kRowStack);
   return resumeOwn(p, row + kRowOwn);

@@ -15,9 +15,16 @@ const float kTie = 9.5367431640625e-7;  // 2^-20: 16 roundings of a distance
 /// The AOV is a number of a part of the scene. Such numbers have no mean: they are those of the pixel's middle.
 const bool kIdAov = kAov == kAovObject || kAov == kAovMaterial;
 
-/// The AOV is a part of the radiance. Paths are traced to their ends for it, as for the picture.
-const bool kLightPart = kAov == kAovEmission || kAov == kAovDiffuse || kAov == kAovSpecular;
+/// The AOV is a part of the radiance: what one kind of lobe scatters first, or what is emitted. Paths are traced to
+/// their ends for it, as for the picture.
+const bool kDiffusePart = kAov == kAovDiffuse;
+const bool kLobePart = kDiffusePart || kAov == kAovSpecular;
+const bool kEmittedPart = kAov == kAovEmission;
+const bool kLightPart = kLobePart || kEmittedPart;
 const bool kDrawsLight = kAov == kAovNone || kLightPart;
+
+/// The camera sees by angles.
+const bool kRoundCamera = kPanorama || kFisheye;
 
 /// Light may be scattered between surfaces (media/).
 const bool kMedia = (kScattering || kFog || kDensityGrid) && kDrawsLight;
@@ -35,8 +42,8 @@ const bool kThroughGlass = kThinGlass || kMatchedGlass;
 const bool kClearShadows = kShadowCatcher && kTransmission && kDrawsLight;
 
 /// The light samples that global illumination takes in a sample where its paths scatter for the time with this index,
-/// from 0 on. All camera rays of a sample take one where they first scatter; the last alone goes on.
-float lightSamplesAt(int scattering) { return kCameraRays > 1 && scattering == 0 ? float(kCameraRays) : 1.0; }
+/// from 0 on. All camera rays of a sample take one where they first scatter; the last alone continues.
+float lightSamplesAt(int scattering) { return scattering == 0 ? float(kCameraRays) : 1.0; }
 
 /// A path's own ray.
 struct Ray {
@@ -121,7 +128,7 @@ Path newPath(vec3 origin, vec3 direction, Sampler sampler) {
   p.ray = Ray(origin, direction, 0.0, kPrimitiveNone, kNoNormal, 0u, 0.0);
   p.hit = Hit(-1, 0.0, -1, vec2(0.0));
   p.connection = Connection(vec3(0.0), vec3(0.0, 0.0, 1.0), 0.0, kPrimitiveNone, false, vec3(0.0));
-  p.eye = Eye(vec3(kAov == kAovDiffuse || kAov == kAovSpecular ? 0.0 : 1.0), true, false, vec3(0.0));
+  p.eye = Eye(vec3(kLobePart ? 0.0 : 1.0), true, false, vec3(0.0));
   p.traversal = startTraversal(kFarAway, frame.leafCount);
   return p;
 }
@@ -129,11 +136,11 @@ Path newPath(vec3 origin, vec3 direction, Sampler sampler) {
 /// A word holds the rays of a sample, its camera rays before this one, and how many of these have met a surface.
 const int kEarlierRay = 1 << 24;
 const int kCoveredRay = 1 << 28;
-int tracedRays(Path p) { return kCameraRays > 1 ? p.rays & (kEarlierRay - 1) : p.rays; }
+int tracedRays(Path p) { return p.rays & (kEarlierRay - 1); }
 int earlierRays(Path p) { return kCameraRays > 1 ? p.rays >> 24 & 15 : 0; }
 
 /// Camera rays of the sample that have met a surface, with this one.
-int coveredRays(Path p) { return (kCameraRays > 1 ? p.rays >> 28 : 0) + (p.covered ? 1 : 0); }
+int coveredRays(Path p) { return (p.rays >> 28) + (p.covered ? 1 : 0); }
 
 /// The path with the hit of its ray.
 Path withHit(Path p, Traversal hit) {

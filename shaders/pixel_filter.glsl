@@ -24,9 +24,6 @@ vec2 blackmanHarris(float t) {
   return vec2(pdf, integral) / float(0.35875);
 }
 
-/// No filter reaches farther from the middle of its pixel, in pixels.
-const float kFilterReach = float(2.0);
-
 /// Undoes the integral by five steps of Newton's method, which leave 2e-6 pixels.
 float sampleBlackmanHarris(float u) {
   float low = min(u, 1.0f - u);

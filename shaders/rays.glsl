@@ -2,6 +2,7 @@
 // Traversal alone: one ray per pixel, or lane, comes from a buffer, and its hit goes into another.
 #include "layout.glsl"
 layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frame; };
+#include "work/count.glsl"
 #include "read.glsl"
 #include "random.glsl"
 #include "intersect.glsl"
@@ -13,15 +14,12 @@ layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frame; };
 #include "tree/leaf.glsl"
 #include "traverse.glsl"
 
-// These buffers use bindings that the tracer uses for others.
-const uint kRaysBinding = kPathStatesBinding;
-const uint kRayHitsBinding = kProgressBinding;
 bool letsPass(Traversal hit, vec3 origin, vec3 direction) { return false; }
 
-const uint kRayUnfinished = 0xfffffffeu;  // replaces a slot: the step limit ended the ray
-
-layout(std430, binding = kRaysBinding) readonly restrict buffer RaysBlock { vec4 rays[]; };  // origin, limit; direction
-layout(std430, binding = kRayHitsBinding) writeonly restrict buffer RayHitsBlock { uvec2 rayHits[]; };  // slot, t
+// These buffers use bindings that the tracer uses for others.
+// Rays are origin, limit; direction. Hits are slot, t.
+layout(std430, binding = kPathStatesBinding) readonly restrict buffer RaysBlock { vec4 rays[]; };
+layout(std430, binding = kProgressBinding) writeonly restrict buffer RayHitsBlock { uvec2 rayHits[]; };
 
 void traceRay(ivec2 pixel, bool anyHit) {
   int index = pixel.y * frame.pictureSize.x + pixel.x;
@@ -30,5 +28,6 @@ void traceRay(ivec2 pixel, bool anyHit) {
   TreeFrame tree = TreeFrame(frame.treeRounding, frame.leafCount);
   Traversal s = startTraversal(a.w, a.w > 0.0f ? tree.leafCount : 0);
   s = traverse(a.xyz, direction, a.w, s, tree, frame.stepBudget, anyHit);
-  rayHits[index] = uvec2(isDone(s) ? uint(s.slot) : kRayUnfinished, floatBitsToUint(s.t));
+  const uint unfinished = 0xfffffffeu;  // the step limit ended the ray
+  rayHits[index] = uvec2(isDone(s) ? uint(s.slot) : unfinished, floatBitsToUint(s.t));
 }

@@ -81,17 +81,16 @@ vec2 sampleTriangle(float u, float v) {
   return vec2(root * (1.0f - v), root * v);
 }
 
-/// The weight of a sample drawn with pdf `own` where `other` could have drawn it too (Veach and Guibas, 1995:
-/// power heuristic, exponent 2). Zero when `own` is zero.
-float misWeight(float own, float other) {
-  if (own <= 0.0f) return 0.0f;
+/// The MIS weight of a direction that was drawn with pdf `own` and that another strategy draws with pdf `other`, times
+/// the number of its samples. A pdf `own` of 0 says that no other strategy can: a delta lobe, a punctual light. By the
+/// power heuristic, exponent 2 (Veach and Guibas, 1995); of light of the environment by the balance heuristic, for
+/// which its MIS compensation is derived, and which is smooth, so that it preserves stratification.
+float misWeight(float own, float other, bool environment) {
+  if (own <= 0.0f) return 1.0f;
+  if (environment) return own / (own + other);
   float ratio = other / own;
   return 1.0f / (1.0f + ratio * ratio);
 }
-
-/// Returns the same by the balance heuristic, for which the MIS compensation of the environment is derived. It is
-/// smooth, which preserves stratification.
-float balanceWeight(float own, float other) { return own > 0.0f ? own / (own + other) : 0.0f; }
 
 /// The share of a diffuse reflection that is left towards `wi`. Where an interpolated normal sees light near the
 /// horizon of its flat triangle, light fades; otherwise it would end abruptly, triangle by triangle (Chiang, Li and

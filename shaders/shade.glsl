@@ -28,7 +28,7 @@ float glassLostAt(Bsdf b, Surface s, float cosine) {
   return max(0.0, 1.0 - glassAlbedo(table, s.front, cosine, b.alpha));
 }
 
-/// A path that meets dispersive glass goes on for one of red, green and blue, which stands for all three.
+/// A path that meets dispersive glass continues for one of red, green and blue, which stands for all three.
 Path disperse(Path p, SurfaceMaterial m, uint material) {
   if (p.oneChannel || !m.solid || m.transmission * (1.0 - m.metallic) <= 0.0) return p;
   if (materialFloats(material, kMaterialClearcoat).w <= 0.0) return p;
@@ -108,21 +108,13 @@ vec3 clearThrough(Surface s, vec3 baseColor, vec3 direction) {
 
 /// The depth of a point at a distance along the camera's ray of a path with this time, in metres.
 float depthAlong(vec3 direction, float t, float time) {
-  vec3 forward = frame.cameraForward;
-  if (kMovingCamera) forward = turnedWith(cameraAt(time), forward);
-  return (kPanorama || kFisheye ? t : t * dot(direction, forward)) * frame.metresPerUnit;
+  return (kRoundCamera ? t : t * dot(direction, forwardAt(time))) * frame.metresPerUnit;
 }
 
 /// Metres along the view axis, or from a panorama or a fisheye; of a path with this time.
 float depthOf(Surface s, float time) {
-  vec3 way = s.position - frame.cameraPosition;
-  vec3 forward = frame.cameraForward;
-  if (kMovingCamera) {
-    CameraPose pose = cameraAt(time);
-    way = s.position - pose.position;
-    forward = turnedWith(pose, forward);
-  }
-  return (kPanorama || kFisheye ? length(way) : dot(way, forward)) * frame.metresPerUnit;
+  vec3 way = s.position - (kMovingCamera ? cameraAt(time).position : frame.cameraPosition);
+  return (kRoundCamera ? length(way) : dot(way, forwardAt(time))) * frame.metresPerUnit;
 }
 
 /// The surface that the path's ray has hit.
@@ -138,7 +130,7 @@ bool arrives(inout Path p, Surface s, vec3 baseColor) {
   bool unlit = isUnlit(s.material);
   if (unlit) p = addLight(p, p.throughput * baseColor);
   if (kEmission && !unlit) p = addLight(p, clampIndirect(p.throughput * emittedAt(p, s), countedScatterings(p)));
-  if (unlit || kAov == kAovEmission) return false;
+  if (unlit || kEmittedPart) return false;
   bool cut = kScatters && limitedScatterings(p) > frame.maxBounces;
   if (cut) p.next = kPhaseCut;
   return !cut;

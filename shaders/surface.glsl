@@ -29,6 +29,9 @@ vec3 rotateBy(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + 
 /// Row of the face in a leaf slot.
 uvec4 faceRow(int slot, int row) { return kLiterals ? literalFace(slot, row) : readFaces(slot * int(kFaceRows) + row); }
 
+/// Returns true if the word of a face (row 0) is that of a sphere.
+bool isSphereFace(uint word) { return kSpheres && (!kTriangles || (word & kFaceSphere) != 0u); }
+
 /// Row of the creases of a leaf slot; the frame knows how many leaves there are.
 uvec4 insetRow(int slot) {
   return kLiterals ? literalInset(slot, 0) : readFaces(frame.leafCount * 2 * int(kFaceRows) + slot);
@@ -83,11 +86,13 @@ MovingTriangle movingTriangle(int slot, float time) {
 Surface triangleSurface(uvec4 face, uvec4 place, vec3 origin, vec3 direction, float t, vec2 w, MovingTriangle moving) {
   Surface s;
   s.geometricNormal = uintBitsToFloat(face.xyz);
-  Corners at = moving.at;
-  if (kMoving) s.geometricNormal = vec3(planeThrough(at.v0, at.v1, at.v2));
-  s.front = dot(s.geometricNormal, direction) < 0.0;
   s.position = pointOnPlane(origin, direction, t, s.geometricNormal, uintBitsToFloat(place.x));
-  if (kMoving) s.position = (1.0 - w.x - w.y) * at.v0 + w.x * at.v1 + w.y * at.v2;
+  if (kMoving) {
+    Corners at = moving.at;
+    s.geometricNormal = vec3(planeThrough(at.v0, at.v1, at.v2));
+    s.position = (1.0 - w.x - w.y) * at.v0 + w.x * at.v1 + w.y * at.v2;
+  }
+  s.front = dot(s.geometricNormal, direction) < 0.0;
   s.shadingNormal = s.geometricNormal;
   ivec3 v = ivec3(place.yzw);
   ivec3 to = v + frame.segments.w;
@@ -139,7 +144,7 @@ Surface inLocalSpace(Surface s, int instance) {
 /// The point that a ray of a path with this time hits on the primitive of a leaf slot (shown by an instance, or -1), at
 /// distance t and with barycentric weights.
 Surface surfaceAt(int slot, int instance, vec3 origin, vec3 direction, float t, vec2 weights, float time) {
-  if (kCountWork) countWork(kWorkSurfaces, 1u);
+  countSurfaces(1u);
   if (kRayCones) coveredAreas = vec2(0.0);
   uvec4 face = faceRow(slot, 0);
   uvec4 place = faceRow(slot, 1);
@@ -151,7 +156,7 @@ Surface surfaceAt(int slot, int instance, vec3 origin, vec3 direction, float t, 
     direction = r.direction / longer;
     t = (t - r.start) * longer;
   }
-  bool isSphere = kSpheres && (!kTriangles || (face.w & kFaceSphere) != 0u);
+  bool isSphere = isSphereFace(face.w);
   float error = uintBitsToFloat((face.w >> kFaceErrorShift) << kFloatErrorShift);
   MovingTriangle moving;
   if (kMoving) {
@@ -208,8 +213,8 @@ vec3 normalFromMap(Surface s, vec3 mapped) {
 vec3 mappedNormal(Surface s) {
   if (!kNormalMaps) return s.shadingNormal;
   vec3 mapped = vec3(0.0, 0.0, 1.0);
-  uvec4 slot = textureSlot(s.material, kSlotNormal);
-  if (readsSlot(kSlotNormal) && (slot.z & kTexturePresent) != 0u) {
+  uvec4 slot = slotNormals(s.material);
+  if ((slot.z & kTexturePresent) != 0u) {
     mapped = texturedNormal(slot, materialFloats(s.material, kMaterialMaps).x, s.texcoords);
   }
   vec4 perlin = materialFloats(s.material, kMaterialPerlin);

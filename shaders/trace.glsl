@@ -82,7 +82,7 @@ int numberInTile(ivec2 pixel) {
 
 /// Adds the finished path to the film.
 FilmPixel endSample(FilmPixel film, Path p, ivec2 pixel) {
-  if (kCountWork) endWork(numberInTile(pixel));
+  endWork(numberInTile(pixel));
   film.rays += uint(tracedRays(p));
   return record(film, p, pixel);
 }
@@ -101,8 +101,10 @@ void reportCut(float cut) {
   if (before + units < before) atomicAdd(progress.cutHigh, 1u);
 }
 
-/// Advances one pixel (y from the bottom) until it has the samples wanted or has used the step budget of this draw. On
-/// GPUs its film stays in memory while a path goes on.
+/// The film of a pixel. On GPUs it stays in memory while a path continues.
+FilmPixel filmNow(FilmPixel film, ivec2 pixel) { return kGpu ? loadFilm(pixel) : film; }
+
+/// Advances one pixel (y from the bottom) until it has the samples wanted or has used the step budget of this draw.
 void tracePixel(ivec2 pixel) {
   FilmPixel film = loadFilm(pixel);
   fetchFrame(film.flags);  // the flags keep compilers from reading the block in the loops
@@ -111,7 +113,7 @@ void tracePixel(ivec2 pixel) {
   TreeFrame tree = treeFrame();
   bool advanced = false;
   float cut = 0.0;  // throughput that was lost to kBounces
-  if (kCountWork) forgetWork();
+  forgetWork();
   Path p;
   p.phase = kPhaseEnd;
   p.traversal.steps = 0;
@@ -121,16 +123,16 @@ void tracePixel(ivec2 pixel) {
   bool tracing = p.phase != kPhaseEnd;
   while (p.traversal.steps < budget) {
     if (!tracing) {
-      if (kGpu) film = loadFilm(pixel);
+      film = filmNow(film, pixel);
       if (film.samples >= samplesWanted(film)) break;
-      if (kCountWork) beginWork(numberInTile(pixel));
+      beginWork(numberInTile(pixel));
       p = beginPath(pixel, film.samples, p.traversal.steps);
       tracing = true;
     }
     p = advance(p, budget, tree);
     if (p.phase >= kPhaseEnd) {
       cut += cutThroughput(p);
-      if (kGpu) film = loadFilm(pixel);
+      film = filmNow(film, pixel);
       if (hasMoreRays(p)) {
         p = nextRay(p, pixel, film.samples);
       } else {
@@ -142,7 +144,7 @@ void tracePixel(ivec2 pixel) {
     }
   }
 
-  if (kGpu) film = loadFilm(pixel);
+  film = filmNow(film, pixel);
   film.flags &= ~kPixelSuspended;
   if (tracing || film.samples < samplesWanted(film)) {
     // The budget alone may end the loop: one that ended below it was cut by the driver.
@@ -150,7 +152,7 @@ void tracePixel(ivec2 pixel) {
     atomicAdd(progress.unfinished, 1u);
     if (kResumable && tracing) {
       film.flags |= kPixelSuspended;
-      if (kCountWork) keepWork(numberInTile(pixel));
+      keepWork(numberInTile(pixel));
       suspendPath(p, row);
     }
     // Else the sample begins again in the next draw, unless it is longer than a whole draw.

@@ -10,11 +10,10 @@
 /// fixed order, and only the ray's own limit discards. Boxes are padded, so that rounding in the slab test cannot lose
 /// one that holds a hit (docs/design/numerics.md).
 Traversal stepNode(Traversal s, TreeRay ray, float rayLimit, TreeFrame tree, bool there) {
-  if (kCountWork) countWork(kWorkNodes, uint(there));
-  if (kCountWork) countWork(kWorkBoxes, 4u * uint(there));
-  WideNode n;
-  if (kMoving) n = loadMovingNode(there ? s.node : 0, ray.inverse, s.part);
-  if (!kMoving) n = loadNode(there ? s.node : 0, ray.inverse);
+  countNodeSteps(uint(there));
+  countBoxesTested(4u * uint(there));
+  int node = there ? s.node : 0;
+  WideNode n = kMoving ? loadMovingNode(node, ray.inverse, s.part) : loadNode(node, ray.inverse);
   float limit = kFrontToBack ? s.t : rayLimit;
   // A surface must not end the ray before others at its distance.
   if (kPassing || kCoincident) limit += roundingOf(limit, tree);
@@ -88,6 +87,13 @@ bool isWalking(Traversal s, int stepLimit) {
   return (s.node | int(kBaseMask - s.leaves) | (stepLimit - 1 - s.steps)) >= 0;
 }
 
+/// Counts a step, and the nodes and leaves that it has visited.
+Traversal counted(Traversal s, int visits) {
+  s.steps += 1;
+  if (kCountVisits) s.visits += visits;
+  return s;
+}
+
 /// While-while traversal of the tree (Aila and Laine, Understanding the Efficiency of Ray Traversal on GPUs, 2009).
 Traversal traverseTree(vec3 origin, vec3 direction, float rayLimit, Traversal s, TreeFrame tree, int stepLimit,
                        bool anyHit) {
@@ -97,20 +103,14 @@ Traversal traverseTree(vec3 origin, vec3 direction, float rayLimit, Traversal s,
     // its head.
     bool walks = isWalking(s, stepLimit);
     do {
-      if (walks) {
-        s = stepNode(s, ray, rayLimit, tree, true);
-        s.steps += 1;
-        if (kCountVisits) s.visits += 1;
-      }
+      if (walks) s = counted(stepNode(s, ray, rayLimit, tree, true), 1);
       walks = isWalking(s, stepLimit);
     } while (walks);
     if (kInstances && changesSpace(s)) {
       s = changeSpace(s);
       ray = treeRayOf(s, origin, direction, tree);
     } else if (s.leaves >= kFirstChild) {
-      s = meetLeaf(s, ray, origin, direction, anyHit);
-      s.steps += 1;
-      if (kCountVisits) s.visits += 1;
+      s = counted(meetLeaf(s, ray, origin, direction, anyHit), 1);
     }
   }
   return s;
@@ -123,8 +123,7 @@ Traversal traverseIterative(vec3 origin, vec3 direction, Traversal s, TreeFrame 
     for (int i = 0; i < int(kLeafBlock); ++i) {
       s = meetPrimitives(s, s.node + i, ray, origin, direction, anyHit);
     }
-    s.steps += 1;
-    if (kCountVisits) s.visits += int(kLeafBlock);
+    s = counted(s, int(kLeafBlock));
     s.node += int(kLeafBlock);
     if (s.node >= tree.leafCount || (anyHit && isStopped(s))) s.node = kTraversalDone;
   }

@@ -9,13 +9,6 @@
 /// Rows of a path.
 const int kWaveRows = int(kPassingRows ? kPathRows : kPathRows - kPathPassingRows);
 
-const int kWaveSamples = 64;  // largest number of samples per round that end in the surroundings at once
-
-// Steps count iterations of loops, as llvmpipe does, which ends all of them at 65,535 (src/render/renderer.cpp):
-// samples that fall out so are never drawn. A round: its own iteration, and the first of each of the five loops in it,
-// which all lanes take.
-const int kWaveLoops = 6;
-
 /// The lane's pixels, a bit each. One that is in none of hits, misses, rays and shadows has its samples.
 struct Wave {
   int first;     // row of the states of the first
@@ -26,6 +19,8 @@ struct Wave {
   uint blocked;  // the shadow ray has hit something; while the path does not wait for it, something light may pass
   uint rays;     // the ray is to be traced
   uint shadows;
+  // Iterations of loops, as llvmpipe counts them, which ends all of them at 65,535 (src/render/renderer.cpp): samples
+  // that fall out so are never drawn.
   int steps;
   float cut;
 };
@@ -57,7 +52,7 @@ Path takeUp(inout Wave v, int k) {
   }
   p.radiance += arrives ? light : vec3(0.0);
   p.rays += waited ? 1 : 0;
-  if (kCountWork && waited) countShadowRay();
+  if (waited) countShadowRay();
   v.waiting &= ~bit;
   v.blocked &= ~bit;
   return p;
@@ -110,8 +105,8 @@ Wave sendRay(Wave v, uint bit, Traversal t) {
   return v;
 }
 
-/// Shadow rays that have met a surface that may let light pass go on behind it where it does; what their paths do next
-/// waits for them.
+/// Shadow rays that have met a surface that may let light pass continue behind it where it does; what their paths do
+/// next waits for them.
 Wave passShadows(Wave v, uint left, TreeFrame tree) {
   for (; left != 0u; left &= left - 1u) {
     int k = findLSB(left);
@@ -127,11 +122,11 @@ Wave passShadows(Wave v, uint left, TreeFrame tree) {
     v.waiting |= bit;
     if (p.phase == kPhaseConnect) {
       pathStates[row + kRowCounts].y += 1u;
-      if (kCountWork) countShadowRay();
+      countShadowRay();
       v.blocked &= ~bit;
       v = sendShadow(v, bit, row, beginConnection(p, tree));
     }
-    if (kCountWork) keepWork(numberOf(v, k));
+    keepWork(numberOf(v, k));
   }
   return v;
 }
@@ -147,7 +142,7 @@ Wave shadeHits(Wave v, uint left, TreeFrame tree) {
     v.steps += 1 + kCandidateIterations;
     Path p = takeUp(v, k);
     p.rays += 1;
-    if (kCountWork) countRay(p);
+    countRay(p);
     p.pixel = v.corner + ivec2(0, k);
     p = kMedia ? meet(p) : hit(p);
     bool shadow = kShadows && p.phase == kPhaseConnect;
@@ -156,7 +151,7 @@ Wave shadeHits(Wave v, uint left, TreeFrame tree) {
     v.cut += cutThroughput(p);
     bool goesOn = p.phase <= kPhasePass;
     if (goesOn) p = extend(p);
-    if (kDensityGrid) v.steps += p.traversal.steps;
+    v.steps += p.traversal.steps;
     Traversal t = p.traversal;
     if (goesOn) t = beginExtension(p, tree);
     p.traversal = t;
@@ -168,7 +163,7 @@ Wave shadeHits(Wave v, uint left, TreeFrame tree) {
       v.waiting |= bit;
       v = sendShadow(v, bit, row, beginConnection(p, tree));
     }
-    if (kCountWork) keepWork(numberOf(v, k));
+    keepWork(numberOf(v, k));
   }
   return v;
 }
@@ -176,6 +171,7 @@ Wave shadeHits(Wave v, uint left, TreeFrame tree) {
 /// Ends the samples whose rays have met nothing, or whose paths have ended, and begins the next ones. What ends in the
 /// surroundings at once goes no farther than here.
 Wave beginSamples(Wave v, uint left, TreeFrame tree) {
+  const int most = 64;  // samples of a round that end in the surroundings at once
   bool more = false;
   int k = 0;
   int samples = 0;
@@ -192,7 +188,7 @@ Wave beginSamples(Wave v, uint left, TreeFrame tree) {
       p = takeUp(v, k);
     }
     if (p.phase == kPhaseExtend) {
-      if (kCountWork) countRay(p);
+      countRay(p);
       p = miss(p);
       p.phase = kPhaseEnd;
       p.rays += 1;
@@ -206,13 +202,13 @@ Wave beginSamples(Wave v, uint left, TreeFrame tree) {
     uint bit = 1u << k;
     int row = rowOf(v, k);
     if (another || film.samples < samplesWanted(film)) {
-      if (kCountWork && !another) beginWork(numberOf(v, k));
+      if (!another) beginWork(numberOf(v, k));
       p = another ? nextRay(p, pixel, film.samples) : beginPath(pixel, film.samples, 0);
       p = extend(p);
-      if (kDensityGrid) v.steps += p.traversal.steps;
+      v.steps += p.traversal.steps;
       Traversal t = beginExtension(p, tree);
       samples += 1;
-      more = isDone(t) && !isMeeting(t) && samples < kWaveSamples;
+      more = isDone(t) && !isMeeting(t) && samples < most;
       if (!more) {
         p.traversal = t;
         savePath(withHit(p, t), row, !(kPassesLight && frame.cameraSolids != kPrimitiveNone));
@@ -220,7 +216,7 @@ Wave beginSamples(Wave v, uint left, TreeFrame tree) {
       }
     }
     if (!more) storeFilm(pixel, film);
-    if (kCountWork && !more) keepWork(numberOf(v, k));
+    if (!more) keepWork(numberOf(v, k));
   }
   return v;
 }
@@ -236,8 +232,10 @@ Wave settleRay(Wave v, Traversal t, int current, bool isShadow) {
   v.misses |= !isShadow && !isMeeting(t) ? bit : 0u;
   if (kPassing || !isShadow) {
     pathStates[row + (isShadow ? kRowShadowHit : kRowHit)] = metBy(t);
-    if (kInstances && !isShadow) pathStates[row + kRowContribution].w = uint(t.hitInstance);
-    if (kInstances && isShadow) pathStates[row + kRowInstances].y = uint(t.hitInstance);
+    if (kInstances) {
+      if (isShadow) pathStates[row + kRowInstances].y = uint(t.hitInstance);
+      if (!isShadow) pathStates[row + kRowContribution].w = uint(t.hitInstance);
+    }
   }
   return v;
 }
@@ -264,8 +262,8 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
       limit = isShadow ? a.w : kFarAway;
       if (kMedia && !isShadow) limit = uintBitsToFloat(readPathStates(row + kRowHit).x);
       t = startTraversal(limit, frame.leafCount);
-      if (kCreases) t.tie = isShadow ? 0.0 : a.w;
-      if (kCoincident) t.extends = !isShadow;
+      t.tie = isShadow ? 0.0 : a.w;
+      t.extends = !isShadow;
       if (kTestsAlpha) {
         uvec4 counts = readPathStates(row + kRowCounts);
         t.chances = chancesOf(makeSampler(keyOf(v, current), counts.x), bounceIn(counts.z));
@@ -297,7 +295,7 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
     }
     v.steps += 1;
     if (isDone(t)) v = settleRay(v, t, current, isShadow);
-    if (kCountWork && isDone(t)) keepWork(numberOf(v, current));
+    if (isDone(t)) keepWork(numberOf(v, current));
   }
   if (!isDone(t)) v.rays |= 1u << current;
   return v;
@@ -314,7 +312,7 @@ Wave beginAnew(Wave v, uint left) {
   for (; left != 0u; left &= left - 1u) {
     int row = rowOf(v, findLSB(left));
     v.steps += 1;
-    if (kCountWork) beginWork(numberOf(v, findLSB(left)));
+    beginWork(numberOf(v, findLSB(left)));
     pathStates[row + kRowRadiance] = uvec4(0u, 0u, 0u, uint(kPhaseNone));
     pathStates[row + kRowCounts] = uvec4(0u);
   }
@@ -341,7 +339,7 @@ void traceWave(ivec2 lane) {
   v.shadows = 0u;
   v.steps = 0;
   v.cut = 0.0;
-  if (kCountWork) forgetWork();
+  forgetWork();
   if (frame.tileGoesOn == 0) v = beginAnew(v, count < 32 ? (1u << count) - 1u : 0xffffffffu);
   bool advanced = false;
 
@@ -363,7 +361,7 @@ void traceWave(ivec2 lane) {
     v = beginSamples(v, misses, tree);
     settleStates();
     v = traceRays(v, budget, tree);
-    v.steps += kWaveLoops;
+    v.steps += 6;  // the round, and the first iteration of each of the five loops in it, which all lanes take
     uint lost = v.rays | v.shadows;
     advanced = advanced || lost == 0u;
     v = beginAnew(v, lost);

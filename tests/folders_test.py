@@ -10,7 +10,7 @@ from pathlib import Path
 
 # "." is what the build generates.
 LAYERS = (".", "base", "base/worker", "image", "image/display", "image/compare", "image/worker", "image/files", "image/denoise", "scene/volume", "scene/volume/worker", "scene/sky", "scene", "scene/motion", "bvh", "gltf",
-          "gltf/codecs/worker", "gltf/read", "gltf/check", "gltf/codecs", "gltf/build", "gltf/edit", "shader", "options/library", "options", "pack/textures", "pack", "render/film", "gl", "render",
+          "gltf/codecs/worker", "gltf/read", "gltf/check", "gltf/codecs", "gltf/assemble", "gltf/edit", "shader", "options/library", "options", "pack/textures", "pack", "render/film", "gl", "render",
           "view", "view/letters", "view/window", "session", "session/picture", "python", "view/live", "cli",
           # The instruments see the product, which does not see them.
           "bench/report", "tests/instruments/rays", "tests/instruments/stress", "bench/command", "bench/gpu", "bench/peers")

@@ -110,7 +110,7 @@ void parseRender(const GivenOptions& shared, BenchConfiguration& c, const std::s
     if (!isNew && addsUp) own->second.back() += "," + option.back();
   }
   c.samplesGiven = given.contains("--spp");
-  // An adaptive one goes on until its goal.
+  // An adaptive one continues until its goal.
   if (defaultSamples != nullptr && !given.contains("--noise") && !given.contains("--time"))
     given.try_emplace("--spp", std::vector<std::string>{"--spp", defaultSamples});
   std::vector<std::string> arguments;

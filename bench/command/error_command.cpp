@@ -136,7 +136,9 @@ ErrorSample finish(Contender& c, const View& view, const Judge& judge, const Dra
   double seconds = draw.seconds;
   for (const ShaderVariant& variant : c.tracer.aovs) {
     const int samples = samplesOfLayer(options, variant.aov, draw.layerSamples);
-    const LayerDraw layer = addLayer(picture, *c.tracer.renderer, variant, view, samples);
+    const LayerDraw layer =
+        drawLayer({picture.width, picture.height}, *c.tracer.renderer, variant, view, samples);
+    appendChannels(picture, layer.image, layer.image.channels);
     seconds += 0.001 * layer.times.renderMs;
     compileMs += layer.compileMs;
   }

@@ -131,7 +131,6 @@ void setFactor(ViewState& state, std::string_view member, const std::function<fl
 ViewedScene awaitScene(Exchange& exchange) {
   for (;;) {
     Results results = exchange.take();
-    throwFailure(results);
     for (Result& result : results.queue) {
       if (auto* scene = std::get_if<ViewedScene>(&result)) return std::move(*scene);
     }
@@ -239,7 +238,6 @@ MotionFigures runMotion(const MotionPlan& plan, const std::function<bool(double 
       next = std::max(next + plan.intervalMs, now);
     }
     Results results = exchange.take();
-    throwFailure(results);
     if (!results.status.error.empty()) throw RenderError(results.status.error);
     for (TracedPicture& picture : results.pictures) {
       const double at = steadyMilliseconds();

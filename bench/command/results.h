@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The files that a benchmark writes beside its table.
+// The files that a benchmark writes next to its table.
 #pragma once
 
 #include <filesystem>

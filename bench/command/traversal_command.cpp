@@ -172,7 +172,7 @@ Dispatch dispatchOf(const DeviceOptions& device, const Context& context) {
   return context.software ? Dispatch::Fragment : Dispatch::Compute;
 }
 
-/// The plain tracer with a tree of its own, without triangles beside it.
+/// The plain tracer with a tree of its own, without triangles next to it.
 struct PlainTracer {
   Bvh bvh;
   RayCaster caster;

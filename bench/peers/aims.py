@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The table of aims beside Mitsuba 3, Cycles and Embree: each row both sides in turn, with pictures that are checked.
+"""The table of aims next to Mitsuba 3, Cycles and Embree: each row both sides in turn, with pictures that are checked.
 
 usage: aims.py FRAGTRACE --assets DIR --json FILE [--parts NAME,...] [--python PYTHON] [--clock cpu] [--rounds N] [--before PROGRAM]
-FILE keeps what each part found: what stands there is not measured again unless a peer was missing, so the same command goes on after an interruption, and ends with the
+FILE keeps what each part found: what stands there is not measured again unless a peer was missing, so the same command continues after an interruption, and ends with the
 table of all that is there. DIR holds scenes/FlightHelmet and env/lightroom_14b.hdr. PYTHON has mitsuba 3.9.1 and numpy; blender and libembree-dev are
 installed. Status 1: a picture is not right, or a part could not be measured; what falls short of an aim is no failure. bench/tables.py puts the table of
 docs/measurements/data/aims.json into docs/measurements/peers.md, which says more.

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Beside other path tracers: the same scenes in fragtrace, Mitsuba 3 and Cycles, in turn, with pictures that are checked.
+"""Next to other path tracers: the same scenes in fragtrace, Mitsuba 3 and Cycles, in turn, with pictures that are checked.
 
 usage: compare.py FRAGTRACE [--scenes NAME,...] [--only PEERS] [--spp N] [--rounds N] [--measure both] ...
 A peer that is not installed is said and left out. Times are those of drawing alone: without start-up, loading, building trees and

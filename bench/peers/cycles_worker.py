@@ -189,7 +189,7 @@ def main():
     bpy.ops.wm.read_factory_settings(use_empty=True)
     if description["kind"] == "asset":
         import numpy
-        numpy.bool = bool  # Blender 3.4's importer asks for the name that numpy 1.24, which Debian ships beside it, has no more
+        numpy.bool = bool  # Blender 3.4's importer asks for the name that numpy 1.24, which Debian ships with it, has no more
         bpy.ops.import_scene.gltf(filepath=description["gltf"])
     for mesh in description["meshes"]:
         add_mesh(mesh)

@@ -65,7 +65,7 @@ class Worker:
 
     def __init__(self, name, command):
         self.name, self.lines, self.more = name, [], {}
-        # Debian's Blender takes its Python's home from the first python3 in PATH: let that be the one beside it.
+        # Debian's Blender takes its Python's home from the first python3 in PATH: let that be the one next to it.
         program = shutil.which(command[0]) or command[0]
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                                         env={**os.environ, "PATH": os.path.dirname(program) + os.pathsep + os.environ["PATH"]})

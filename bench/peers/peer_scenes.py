@@ -61,7 +61,7 @@ def ball(middle=(0, -0.35, 0), radius=0.6, bump=0.05, cells=BALL_CELLS):
     def corner(origin, right, up, i, j):
         cube = tuple(round(o + r * i / cells + u * j / cells, 9) for o, r, u in zip(origin, right, up))
         if cube not in places:
-            # Equal angles in place of equal steps: cells of about the same size.
+            # Equal angles instead of equal steps: cells of about the same size.
             d = normalize(tuple(math.tan(x * math.pi / 4) for x in cube))
             r = radius * (1 + bump * math.sin(14 * d[0]) * math.sin(14 * d[1] + 1) * math.sin(14 * d[2] + 2))
             places[cube] = len(positions)

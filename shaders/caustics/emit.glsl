@@ -76,7 +76,7 @@ Emission sunEmission(float share, float choice, vec2 uv, vec2 aim) {
   vec4 disc = discAlong(sun, towards);
   Aim a = aimAlong(-towards, choice, aim);
   Emission e = noEmission();
-  // Rounding may draw what lies just beside the disc.
+  // Rounding may draw what lies just next to the disc.
   if (disc.w <= 0.0f) return e;
   e.origin = a.origin;
   e.direction = a.direction;
@@ -108,13 +108,13 @@ Emission drawEmission(Sampler sampler) {
   }
   if (ofSun) return sunEmission(sunChance, choice, drawPair(sampler, kEmitterPointDimensions), aim);
   Emission e = noEmission();
-  if (!kPunctualLights && !kEmissiveTriangles) return e;
+  if (!hasLamps()) return e;
   if (kSunPaths) bits = stretchBits(bits, border, 1.0f / (1.0f - sunChance));
   int emitter = emitterAt(bits);
   float share = uintBitsToFloat(emitterRow(emitter, 0).w);
   if (kSunPaths) share *= 1.0f - sunChance;
   uint kind = emitterRow(emitter, 3).w;
-  bool punctual = kPunctualLights && (kind & kEmitterPunctual) != 0u;
+  bool punctual = isPunctual(kind);
   if (share <= 0.0f) return e;
   if (punctual) e = punctualEmission(int(kind & ~kEmitterPunctual), share, choice, aim);
   if (kEmissiveTriangles && !punctual) {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The form of a path decides if it is found from the camera or from the lamp. In Heckbert's notation (E the camera, D a
 // rough surface, S a delta lobe, L a lamp or the sun) light paths bring the light of E D S+ L and of E D (D|S)* D S+ L,
-// where all of the S+ beside the lamp are casters. Camera paths leave out exactly these. Straight passages through thin
-// walls may lie anywhere but beside the camera. A glossy caster is a D to the camera and to the lamp's path on its way,
-// and an S where a run of casters begins.
+// where all of the S+ next to the lamp are casters. Camera paths leave out exactly these. Straight passages through
+// thin walls may lie anywhere but next to the camera. A glossy caster is a D to the camera and to the lamp's path on
+// its way, and an S where a run of casters begins.
 
 /// Light paths begin at the sun of the sky or of the map, too.
 const bool kSunPaths = kCaustics && (kSun || kMapSun) && kEnvironmentSampling;
 
-/// A scattering beside the camera counts as a delta lobe if its direction is drawn with a larger pdf, in 1/sr, from the
-/// camera's side. A lamp's path that meets so narrow a lobe by chance would leave a bright dot.
+/// A scattering next to the camera counts as a delta lobe if its direction is drawn with a larger pdf, in 1/sr, from
+/// the camera's side. A lamp's path that meets so narrow a lobe by chance would leave a bright dot.
 const float kNarrow = 5.0;
 
 const int kPrefixNone = 0;     // camera path: another form; light path: no caster yet

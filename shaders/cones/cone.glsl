@@ -15,12 +15,10 @@ vec2 unpackCone(uint cone) { return uintBitsToFloat(uvec2(cone & 0xffff0000u, co
 /// The cone of a camera ray: it holds its pixel.
 uint cameraCone(Path p) {
   float pixel = 2.0 * length(frame.cameraRight) / float(frame.pictureSize.x);
-  if (kPanorama || kFisheye) return packCone(vec2(0.0, pixel));
+  if (kRoundCamera) return packCone(vec2(0.0, pixel));
   if (frame.orthographic != 0.0) return packCone(vec2(pixel, 0.0));
-  vec3 forward = frame.cameraForward;
-  if (kMovingCamera) forward = turnedWith(cameraAt(p.time), forward);
   // A pixel at the border is farther away and seen at an angle.
-  float cosine = max(dot(p.ray.direction, forward), 0.0);
+  float cosine = max(dot(p.ray.direction, forwardAt(p.time)), 0.0);
   return packCone(vec2(0.0, pixel * cosine * sqrt(cosine)));
 }
 
@@ -30,23 +28,19 @@ float coneWidth(Path p) {
   return cone.x + cone.y * p.hit.t;
 }
 
-/// A cone holds this part of the lobe that drew its ray: the cones of 16 samples hold all of it.
-const float kConeShare = 1.0 / 16.0;
-
 /// The cone of a ray that leaves the path's hit. pdf: by which the direction was drawn; 0: it follows from that of the
-/// ray.
+/// ray. A cone holds a 16th of the lobe that drew its ray: the cones of 16 samples hold all of it.
 uint coneBehind(Path p, float bent, float pdf) {
   float width = coneWidth(p);
   float spread = unpackCone(p.ray.cone).y + bent * width;
-  if (pdf > 0.0) spread = max(spread, sqrt(kConeShare / pdf));
+  if (pdf > 0.0) spread = max(spread, sqrt(1.0 / 16.0 / pdf));
   return packCone(vec2(width, spread));
 }
 
 /// The vertices of the triangle that the path's ray has hit, in local space.
 Corners cornersHit(Path p) {
-  Corners c;
-  if (kMoving) c = movingTriangle(p.hit.slot, p.time).at;
-  if (!kMoving) c = cornersIn(loadLeaf(p.hit.slot / 2), p.hit.slot % 2 == 1);
+  Corners c = kMoving ? movingTriangle(p.hit.slot, p.time).at
+                      : cornersIn(loadLeaf(p.hit.slot / 2), p.hit.slot % 2 == 1);
   if (kInstances && p.hit.instance >= 0) {
     InstanceReturn back = loadInstanceReturn(p.hit.instance);
     c.v0 = timesRows(back.row0, back.row1, back.row2, c.v0);
@@ -56,7 +50,7 @@ Corners cornersHit(Path p) {
   return c;
 }
 
-bool hasHitSphere(Path p) { return kSpheres && (!kTriangles || (faceRow(p.hit.slot, 0).w & kFaceSphere) != 0u); }
+bool hasHitSphere(Path p) { return kSpheres && isSphereFace(faceRow(p.hit.slot, 0).w); }
 
 /// The radius of the sphere that the path's ray has hit.
 float radiusHit(Path p) {

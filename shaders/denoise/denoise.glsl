@@ -7,12 +7,6 @@ const float kDarkSquared = 0.01;   // dark light, squared, which is added to the
 const float kBrightest = 1e12;     // largest light
 const int kWindow = 2;             // pixels each way, of the passes that look at noise
 
-// The steps of summary.frag and their sums: light, pixels that have any, samples; logarithms of light; observed
-// variance, and that of independent samples.
-const int kMeans = 0;
-const int kLogarithms = 1;
-const int kShares = 2;
-
 /// The least light that counts in the geometric mean, a thousandth of the arithmetic one. A lamp that is a thousand
 /// times as bright as all else then hardly counts.
 float leastLight(vec4 means) { return 1e-3 * means.x / max(means.y, 1.0); }

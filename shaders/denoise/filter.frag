@@ -10,19 +10,13 @@ layout(location = 1) uniform int stride;
 
 layout(location = 0) out vec4 filtered;
 
-const float kDeviationsSquared = 2.5 * 2.5;  // difference of light, in standard deviations, squared
-// A quiet pixel assumes at most this many times its own variance for a noisy one, and the reverse, so no light is lost.
-const float kUnlike = 20.0;
-const float kRounding = 1e-6;                // rounding of light, squared: such a difference is no noise
-// Share of luminance that is added to the divisor of a channel's difference.
-const float kTint = 0.2;
-
 /// The squared difference of luminance, or the one that it would be if all channels differed as much relative to their
 /// size, whichever is larger. Noise is known for luminance only, and most of it is as coloured as the light itself.
 float differenceOf(vec3 a, vec3 b) {
+  const float tint = 0.2;  // share of luminance that is added to the divisor of a channel's difference
   float both = luminance(a) + luminance(b);
   float apart = luminance(a) - luminance(b);
-  vec3 relative = (a - b) * (1.0 + kTint) * both / (a + b + kTint * both + 1e-20);
+  vec3 relative = (a - b) * (1.0 + tint) * both / (a + b + tint * both + 1e-20);
   return max(apart * apart, dot(relative, relative) / 3.0);
 }
 
@@ -31,7 +25,11 @@ void main() {
   vec4 own = texelFetch(lights, pixel, 0);
   Guide guide = guideOf(texelFetch(guides, pixel, 0));
   float bright = luminance(own.rgb);
-  float rounding = kRounding * bright * bright + 1e-30;
+  const float deviations = 2.5 * 2.5;  // difference of light, in standard deviations, squared
+  // A quiet pixel assumes at most this many times its own variance for a noisy one, and the reverse, so no light is
+  // lost.
+  const float unlike = 20.0;
+  float rounding = 1e-6 * bright * bright + 1e-30;  // of light, squared: such a difference is no noise
   vec3 sum = vec3(0.0);
   float variance = 0.0;
   float weights = 0.0;
@@ -44,7 +42,7 @@ void main() {
       bool there = inside(other);
       other = clamp(other, ivec2(0), size - 1);
       vec4 light = texelFetch(lights, other, 0);
-      float noise = kDeviationsSquared * min(own.a + light.a, kUnlike * min(own.a, light.a)) + rounding;
+      float noise = deviations * min(own.a + light.a, unlike * min(own.a, light.a)) + rounding;
       float exponent = likeness(guide, guideOf(texelFetch(guides, other, 0)), vec2(away)) -
                        differenceOf(light.rgb, own.rgb) / noise;
       float weight = there ? kernel[abs(x)] * kernel[abs(y)] * exp(exponent) : 0.0;

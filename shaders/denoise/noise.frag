@@ -13,8 +13,6 @@ layout(location = 1) uniform bool wasObserved;
 layout(location = 0) out vec4 light;   // alpha: the variance that the filter uses
 layout(location = 1) out float noise;  // the variance that the pixel's own samples tell
 
-const float kPrior = 8.0;  // pixels that the whole picture's share counts for
-
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec4 own = texelFetch(lights, pixel, 0);
@@ -60,7 +58,7 @@ void main() {
   if (wasObserved && whole.y > 0.0 && independent > 0.0) {
     // Observed / independent variance of the whole picture.
     float share = min(whole.x / whole.y, 1.0);
-    float prior = kPrior * independentSquares / independent;
+    float prior = 8.0 * independentSquares / independent;  // that share counts for 8 pixels
     left = min((observations + prior * share) / (independent + prior), 1.0);
   }
   noise = left * own.a;

@@ -8,7 +8,9 @@ layout(binding = 1) uniform sampler2D albedos;
 layout(binding = 2) uniform sampler2D counts;
 layout(binding = 3) uniform sampler2D means;    // the steps before this one
 layout(binding = 4) uniform sampler2D logarithms;
-layout(location = 1) uniform int part;          // kMeans, kLogarithms, kShares
+// The sum: 0 of light, of pixels that have any, and of samples; 1 of logarithms of light; 2 of observed variance, and
+// of that of independent samples.
+layout(location = 1) uniform int part;
 
 layout(location = 0) out vec4 sum;
 
@@ -21,8 +23,8 @@ vec4 termOf(ivec2 pixel) {
   bool counted = albedo.a > 0.0 && abs(light) < 3e38;
   light = max(light, 0.0);
   vec4 mean = texelFetch(means, ivec2(0), 0);
-  if (part == kMeans) return vec4(counted ? vec2(light, 1.0) : vec2(0.0), max(count.x, 0.0), 0.0);
-  if (part == kLogarithms) return vec4(counted ? log(max(light, leastLight(mean))) : 0.0);
+  if (part == 0) return vec4(counted ? vec2(light, 1.0) : vec2(0.0), max(count.x, 0.0), 0.0);
+  if (part == 1) return vec4(counted ? log(max(light, leastLight(mean))) : 0.0);
   float scale = scaleOf(mean, texelFetch(logarithms, ivec2(0), 0));
   float bright = luminance(scaledLight(radiance.rgb, scale));
   float weight = count.x > 1.0 ? 1.0 / (bright * bright + kDarkSquared) : 0.0;

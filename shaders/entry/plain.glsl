@@ -13,10 +13,6 @@ layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frame; };
 layout(std430, binding = kPathStatesBinding) readonly restrict buffer RaysBlock { vec4 rays[]; };
 layout(std430, binding = kProgressBinding) writeonly restrict buffer RayHitsBlock { uvec2 rayHits[]; };
 
-const int kPlainStack = 32;  // kMaxBvhDepth
-const uint kPlainLeaf = 0x80000000u;
-const uint kPlainEnd = 0xffffffffu;
-
 /// Where a ray enters a box, or `limit` where it does not.
 float plainEntry(vec3 low, vec3 high, vec3 origin, vec3 inverse, float limit) {
   vec3 a = (low - origin) * inverse;
@@ -45,19 +41,21 @@ float plainDistance(int row, vec3 origin, vec3 direction, float limit) {
 }
 
 void tracePlain(ivec2 lane, bool anyHit) {
+  const uint leafFlag = 0x80000000u;
+  const uint end = 0xffffffffu;
   int index = lane.y * frame.pictureSize.x + lane.x;
   vec4 ray = rays[2 * index];
   vec3 direction = rays[2 * index + 1].xyz;
   vec3 inverse = 1.0 / mix(direction, vec3(1e-18), lessThan(abs(direction), vec3(1e-18)));
   float t = ray.w;
-  uint slot = kPlainEnd;
-  uint stack[kPlainStack];
+  uint slot = end;
+  uint stack[32];  // kMaxBvhDepth
   int count = 0;
-  uint node = t > 0.0 ? 0u : kPlainEnd;
-  while (node != kPlainEnd) {
-    uint next = kPlainEnd;
-    if (node >= kPlainLeaf) {
-      uint leaf = node & ~kPlainLeaf;
+  uint node = t > 0.0 ? 0u : end;
+  while (node != end) {
+    uint next = end;
+    if (node >= leafFlag) {
+      uint leaf = node & ~leafFlag;
       for (uint side = 0u; side < 2u; ++side) {
         float found = plainDistance(int(6u * leaf + 3u * side), ray.xyz, direction, t);
         slot = found < t ? 2u * leaf + side : slot;
@@ -71,11 +69,11 @@ void tracePlain(ivec2 lane, bool anyHit) {
       float a = plainEntry(uintBitsToFloat(first.xyz), high, ray.xyz, inverse, t);
       high = uintBitsToFloat(readNodes(row + 3).xyz);
       float b = plainEntry(uintBitsToFloat(second.xyz), high, ray.xyz, inverse, t);
-      next = a < t && (a <= b || b >= t) ? first.w : b < t ? second.w : kPlainEnd;
+      next = a < t && (a <= b || b >= t) ? first.w : b < t ? second.w : end;
       if (a < t && b < t) stack[count++] = a <= b ? second.w : first.w;
     }
-    if (next == kPlainEnd && count > 0) next = stack[--count];
-    node = anyHit && slot != kPlainEnd ? kPlainEnd : next;
+    if (next == end && count > 0) next = stack[--count];
+    node = anyHit && slot != end ? end : next;
   }
   rayHits[index] = uvec2(slot, floatBitsToUint(t));
 }

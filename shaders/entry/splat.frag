@@ -7,7 +7,7 @@
 layout(location = 0) flat in vec3 light;
 layout(location = 1) flat in vec2 place;
 
-layout(location = 4) uniform float weight;  // of the light path beside those of other passes (path_share.h)
+layout(location = 4) uniform float weight;  // of the light path compared with those of other passes (path_share.h)
 
 layout(location = 0) out vec4 added;
 

@@ -8,7 +8,7 @@ layout(binding = 0) uniform sampler2D lights;  // light, x of where it is seen i
 layout(binding = 1) uniform sampler2D places;  // y
 layout(location = 0) uniform vec2 corner;  // place of the film's first pixel in the picture
 layout(location = 1) uniform vec2 size;    // of the viewport, whose margin of so many pixels keeps points that lie
-layout(location = 2) uniform float margin;  // beside the film
+layout(location = 2) uniform float margin;  // next to the film
 layout(location = 3) uniform ivec2 tile;    // size of that of light paths
 
 layout(location = 0) flat out vec3 light;

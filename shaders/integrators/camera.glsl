@@ -9,14 +9,14 @@
 vec3 aovShare(Bsdf b, vec3 all, vec3 wo, vec3 wi) {
   vec3 diffuse = diffuseUnderLayers(b, wo, wi);
   vec3 share = clamp(diffuse / max(all, vec3(1e-30)), vec3(0.0), vec3(1.0));
-  return kAov == kAovDiffuse ? share : vec3(1.0) - share;
+  return kDiffusePart ? share : vec3(1.0) - share;
 }
 
 /// The sampler of a light sample. Where the paths of a sample scatter first, their light samples are points of one
 /// sequence: nothing else depends on these.
 Sampler samplerOfLight(Path p) {
   Sampler s = p.sampler;
-  if (kCameraRays == 1 || !kSobol || countedScatterings(p) > 0) return s;
+  if (kShortRays == 0u || !kSobol || countedScatterings(p) > 0) return s;
   uint index = bitfieldReverse(s.reversed);
   uint earlier = uint(earlierRays(p));
   uint sampleIndex = earlier == kShortRays ? index : (index - kFarHalf) / max(kShortRays, 1u);
@@ -118,14 +118,11 @@ BsdfSample weighedByBoth(inout Path p, Surface s, BsdfSample next, Guiding g) {
   return next;
 }
 
-/// Glass draws both its lobes often in so many scatterings of a camera path. Each makes what lies behind it noisier.
-const int kSharedScatterings = 4;
-
 /// Returns true if glass is to draw both its lobes often: the path has met glass alone, so no light path brings the
-/// lamp that it may see.
+/// lamp that it may see. Each time makes what lies behind the glass noisier.
 bool sharesGlass(Path p) {
   bool glassAlone = p.prefix == kPrefixNone && p.freeBounces == p.bounce;
-  return casterCount > 0 && glassAlone && p.bounce < kSharedScatterings;
+  return casterCount > 0 && glassAlone && p.bounce < 4;
 }
 
 /// More lobes than a diffuse and a specular one. One loop evaluates them for both directions of a surface, since
@@ -165,7 +162,7 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   if (kGuided) next = weighedByBoth(p, s, next, g);
   if (kLightPart && p.bounce == 0) {
     bool delta = next.pdf == 0.0;
-    vec3 share = vec3(kAov == kAovSpecular ? 1.0 : 0.0);
+    vec3 share = vec3(kDiffusePart ? 0.0 : 1.0);
     p.eye.aovWeight = delta ? share : aovShare(at.b, along.value, at.wo, next.wi);
   }
   vec3 direction = normalize(toWorld(at.around, next.wi));
@@ -212,7 +209,9 @@ Path resumeOwn(Path p, int row) {
 FilmPixel record(FilmPixel film, Path p, ivec2 pixel) {
   if (kShadowCatcher && p.eye.caught && frame.shadowFade != vec2(0.0)) p.radiance *= shadowLeft(inPicture(pixel));
   float alpha = coverageOf(p);
-  if (kShadowCatcher) p = showShadow(p);
-  if (kShadowCatcher && frame.backgroundShows < 0.0) film.flags |= kPixelOverWhite;
+  if (kShadowCatcher) {
+    p = showShadow(p);
+    if (frame.backgroundShows < 0.0) film.flags |= kPixelOverWhite;
+  }
   return addSample(film, p.radiance, alpha);
 }

@@ -18,7 +18,7 @@ Path connected(Path p) {
 }
 
 /// Returns true if the sample of a finished path has more camera rays.
-bool hasMoreRays(Path p) { return earlierRays(p) < kCameraRays - 1; }
+bool hasMoreRays(Path p) { return isShort(earlierRays(p)); }
 
 /// The next camera ray of a finished path's sample.
 Path nextRay(Path p, ivec2 pixel, uint samples) {
@@ -30,10 +30,13 @@ Path nextRay(Path p, ivec2 pixel, uint samples) {
 }
 
 /// The path's own ray has been traced.
-void countRay(Path p) { countWork(p.cameraRay ? kWorkCameraRays : kWorkBounceRays, 1u); }
+void countRay(Path p) {
+  countCameraRays(uint(p.cameraRay));
+  countBounceRays(uint(!p.cameraRay));
+}
 
 /// A shadow ray has been traced.
-void countShadowRay() { countWork(kWorkShadowRays, 1u); }
+void countShadowRay() { countShadowRays(1u); }
 
 int prefixBehind(Path p, Surface s, float pdf, bool straight) {
   bool caster = isCaster(materialFlags(s.material), pdf == 0.0);

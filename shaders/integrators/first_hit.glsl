@@ -15,24 +15,29 @@ float objectNumber(int slot, int instance) {
   return float(place == 0 ? four.x : place == 1 ? four.y : place == 2 ? four.z : four.w);
 }
 
-/// Returns the AOV of the point that a camera ray hits.
-vec3 aovAt(Surface s, int slot, int instance, vec3 baseColor, vec3 wo, float time) {
-  if (kAov == kAovAlbedo || kAov == kAovNone) return baseColor;
-  if (kAov == kAovNormal) return facingNormal(mappedNormal(s), wo);
-  if (kAov == kAovGeometricNormal) return s.geometricNormal;
-  if (kAov == kAovRoughness) return vec3(materialAt(s.material, baseColor, s.texcoords).roughness);
-  if (kAov == kAovTexcoords) return vec3(s.texcoords.xy, 0.0);
-  if (kAov == kAovPosition) return frame.worldOrigin + frame.metresPerUnit * s.position;
-  if (kAov == kAovObject || kAov == kAovCryptoObject) return vec3(objectNumber(slot, instance));
-  if (kAov == kAovMaterial || kAov == kAovCryptoMaterial) return vec3(materialFloats(s.material, kMaterialPerlin).w);
-  return vec3(depthOf(s, time));
+// Each layer by its name: its value at the surface that the camera ray hits.
+vec3 layerAlbedo(Path p, Surface s, vec3 baseColor) { return baseColor; }
+vec3 layerNormal(Path p, Surface s, vec3 baseColor) { return facingNormal(mappedNormal(s), -p.ray.direction); }
+vec3 layerDepth(Path p, Surface s, vec3 baseColor) { return vec3(depthOf(s, p.time)); }
+vec3 layerGeometricNormal(Path p, Surface s, vec3 baseColor) { return s.geometricNormal; }
+vec3 layerRoughness(Path p, Surface s, vec3 baseColor) {
+  return vec3(materialAt(s.material, baseColor, s.texcoords).roughness);
 }
+vec3 layerTexcoords(Path p, Surface s, vec3 baseColor) { return vec3(s.texcoords.xy, 0.0); }
+vec3 layerPosition(Path p, Surface s, vec3 baseColor) { return frame.worldOrigin + frame.metresPerUnit * s.position; }
+vec3 layerObject(Path p, Surface s, vec3 baseColor) { return vec3(objectNumber(p.hit.slot, p.hit.instance)); }
+vec3 layerMaterial(Path p, Surface s, vec3 baseColor) {
+  return vec3(materialFloats(s.material, kMaterialPerlin).w);
+}
+
+// layer.glsl is written by src/shader/assemble.cpp: layerAt(), the layer that the program draws.
+#include "layer.glsl"
 
 Path hit(Path p) {
   Surface s = surfaceHit(p);
   vec3 baseColor = vec3(baseColorAt(s.material, s.texcoords, s.color));
   p.covered = !kCountVisits;
-  p.radiance = aovAt(s, p.hit.slot, p.hit.instance, baseColor, -p.ray.direction, p.time);
+  p.radiance = layerAt(p, s, baseColor);
   return p;
 }
 
@@ -42,7 +47,7 @@ Path intercept(Path p, float t) { return p; }
 
 /// The stage flat shows the background.
 Path miss(Path p) {
-  if (kAov == kAovNone) p = meetSurroundings(p);
+  if (kDrawsLight) p = meetSurroundings(p);
   return p;
 }
 

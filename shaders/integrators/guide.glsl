@@ -15,13 +15,8 @@ struct Guide {
   vec3 lastNormal;
 } guide;
 
-const float kGuideAlpha = 0.01;    // the roughest that is followed: what it shows is hardly blurred
-const int kGuideScatterings = 16;  // largest number of scatterings
-const float kGuideRest = 0.01;     // share of a ray below which surfaces behind no longer count
-const float kGuideFog = 1e-3;      // optical depth of the thinnest fog that counts
-
 /// The share of the ray that alpha has let pass so far.
-float guideRest() { return kAlpha ? 1.0 - guide.share : 1.0; }
+float guideRest() { return 1.0 - guide.share; }
 
 /// Ends a share of the ray at a surface of this albedo.
 void addGuide(float share, vec3 albedo, vec3 normal) {
@@ -61,7 +56,8 @@ Path hit(Path p) {
   vec3 normal = facingNormal(mappedNormal(s), -p.ray.direction);
   bool blends = kAlpha && (flags & (kMaterialMask | kMaterialBlend)) != 0u;
   float share = blends ? guideRest() * alphaAt(s.material, flags, base.a) : 1.0;
-  if (blends && guideRest() - share > kGuideRest) {
+  const float least = 0.01;  // share of a ray below which surfaces behind no longer count
+  if (blends && guideRest() - share > least) {
     if (p.cameraRay) guide.depth += share * depthOf(s, p.time);
     addGuide(share, guideTint(p) * base.rgb, normal);
     p.next = kPhasePass;
@@ -70,11 +66,12 @@ Path hit(Path p) {
   p = takeGuide(p, depthOf(s, p.time), normal);
   SurfaceMaterial m;
   if (kSmoothSurfaces) m = materialAt(s.material, base.rgb, s.texcoords);
-  bool follows = kSmoothSurfaces && p.bounce < kGuideScatterings && m.roughness * m.roughness < kGuideAlpha;
+  // Smoother surfaces show all else hardly blurred.
+  bool follows = kSmoothSurfaces && p.bounce < 16 && m.roughness * m.roughness < 0.01;
   bool refracts = kRefraction && follows && m.transmission * (1.0 - m.metallic) > 0.5;
   // Milk hides what is behind it.
   if (kScattering) refracts = refracts && (flags & kMaterialScatters) == 0u;
-  if (kRefraction && refracts) return scatterGlass(p, s, m, normal, 0.5);
+  if (refracts) return scatterGlass(p, s, m, normal, 0.5);
   if (kReflections && follows && m.metallic > 0.5) return scatterMirror(p, s, m, normal, 1.0);
   return guideStop(p, base.rgb);
 }
@@ -108,9 +105,9 @@ float interceptedAt(Path p) {
 
 Path intercept(Path p, float t) { return kShadowCatcher ? guideAtCatcher(p, t) : guideInMedium(p, t); }
 
-/// Fog counts before the surroundings.
+/// Fog counts before the surroundings, unless it is thin.
 Path miss(Path p) {
-  if (kFog && p.cameraRay && fogDepth(fog, p.ray.origin, p.ray.direction, 0.0, kFarAway) >= kGuideFog) {
+  if (kFog && p.cameraRay && fogDepth(fog, p.ray.origin, p.ray.direction, 0.0, kFarAway) >= 1e-3) {
     p = guideInMedium(p, insideFog(fog, p.ray.origin, p.ray.direction, 0.0).y);
   }
   return p;
@@ -134,7 +131,7 @@ FilmPixel record(FilmPixel film, Path p, ivec2 pixel) {
   if (kShadowCatcher && p.eye.caught && frame.shadowFade != vec2(0.0) && shadowLeft(inPicture(pixel)) <= 0.0) {
     p.covered = false;
   }
-  float alpha = p.covered ? 1.0 : kAlpha ? guide.share : 0.0;
+  float alpha = p.covered ? 1.0 : guide.share;
   if (p.covered) addGuide(guideRest(), guideTint(p), guide.lastNormal);
   return addGuides(film, guide.albedo, guide.normal, guide.depth, alpha);
 }

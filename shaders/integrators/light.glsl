@@ -47,7 +47,7 @@ SeenFrom roundCameraFrom(vec3 point) {
 /// lens: a point of the aperture, in local space along right and up. The film is the plane in focus as seen from there
 /// (throughLens of camera.glsl).
 SeenFrom cameraFrom(vec3 point, vec2 lens) {
-  if (kPanorama || kFisheye) return roundCameraFrom(point);
+  if (kRoundCamera) return roundCameraFrom(point);
   vec3 right = frame.cameraRight;
   vec3 up = frame.cameraUp;
   vec3 forward = frame.cameraForward;
@@ -74,8 +74,8 @@ SeenFrom cameraFrom(vec3 point, vec2 lens) {
   vec2 place = vec2(dot(onFilm, right) / dot(right, right), dot(onFilm, up) / dot(up, up));
   if (kLensShift) place -= frame.lensShift;
   c.place = (0.5 * place + 0.5) * vec2(frame.pictureSize);
-  bool inside = all(greaterThan(c.place, vec2(-kFilterReach))) &&
-                all(lessThan(c.place, vec2(frame.pictureSize) + kFilterReach));
+  const float reach = 2.0;  // no pixel filter reaches farther from the middle of its pixel
+  bool inside = all(greaterThan(c.place, vec2(-reach))) && all(lessThan(c.place, vec2(frame.pictureSize) + reach));
   if (!inside) c.importance = 0.0;
   return c;
 }
@@ -189,9 +189,6 @@ Path passOn(Path p, Surface s, float times) {
   return p;
 }
 
-/// A single-sided surface sends this share of the light paths that it could scatter on behind itself.
-const float kPassedOn = 0.125;
-
 /// The chain of a path once a surface has scattered it. Parts of a surface that face differently count as several: they
 /// have virtual images of their own.
 uint chainAfter(Path p, Surface s, bool transmitted) {
@@ -215,15 +212,16 @@ Path hit(Path p) {
   bool scattered = p.prefix != kPrefixNone;
   bool singleSided = isSingleSided(s.material, flags);
   if (singleSided && !s.front) return p;
+  const float passedOn = 0.125;  // share of the paths that a single-sided surface sends on behind itself
   bool mayScatter = !unlit && (caster || scattered);
   bool passes = singleSided;
   if (singleSided && mayScatter) {
-    passes = hashFloat(p.sampler, kPassedOnDimensions + uint(fromLight.singleSided)) < kPassedOn;
+    passes = hashFloat(p.sampler, kPassedOnDimensions + uint(fromLight.singleSided)) < passedOn;
     fromLight.singleSided += 1;
   }
-  if (passes) return passOn(p, s, mayScatter ? 1.0 / kPassedOn : 1.0);
+  if (passes) return passOn(p, s, mayScatter ? 1.0 / passedOn : 1.0);
   if (unlit) return p;
-  if (singleSided) p.throughput /= 1.0 - kPassedOn;
+  if (singleSided) p.throughput /= 1.0 - passedOn;
   SurfaceMaterial m = materialAt(s.material, baseColor, s.texcoords);
   if (kDispersion) {
     p = disperse(p, m, s.material);
@@ -336,6 +334,6 @@ FilmPixel record(FilmPixel film, Path p, ivec2 pixel) {
   return film;
 }
 
-void countRay(Path p) { countWork(kWorkLightRays, 1u); }
+void countRay(Path p) { countLightRays(1u); }
 
-void countShadowRay() { countWork(kWorkSplatRays, 1u); }
+void countShadowRay() { countSplatRays(1u); }

@@ -18,7 +18,7 @@ Path shadeLocal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   vec3 diffuse = (1.0 - m.metallic) * m.baseColor;
   float exponent = phongExponent(m.roughness);
   if (lightSample == 0) p.radiance += 0.03 * p.throughput * m.baseColor;
-  if (kEnvironmentLight && lightSample == 0)
+  if (kEnvironment && lightSample == 0)
     p.radiance += p.throughput * environmentReflected(diffuse, f0, exponent, normal, wo);
   int lights = lightSampleCount();
   if (lightSample < lights) {

@@ -2,8 +2,6 @@
 // The light of the environment in the stages before global illumination: the same for each sample, and without shadows
 // (docs/design/surfaces.md). Its rows lie behind the map and its backdrop (src/pack/pack_environment.h).
 
-const bool kEnvironmentLight = kEnvironment && kPhong && !kGi;
-
 int environmentLightRow() { return kSun ? sunRow() + int(kSunRows) : sunRow(); }
 
 vec3 irradianceFactor(int index) { return vec3(uintBitsToFloat(readEnvironment(environmentLightRow() + index))); }

@@ -66,8 +66,9 @@ Path passMedium(Path p) {
   if (!kAbsorption || p.ray.medium == kPrimitiveNone) return p;
   uint solid = innermost(p.ray.medium);
   float passed = p.hit.t - passedBefore(p);
-  if (kScattering) p.throughput *= passWeight(mediumOf(solid), channelChances(p.throughput), passed);
-  if (!kScattering) p.throughput *= exp(-passed * materialFloats(solid, kMaterialVolume).rgb);
+  vec3 left = kScattering ? passWeight(mediumOf(solid), channelChances(p.throughput), passed)
+                          : exp(-passed * materialFloats(solid, kMaterialVolume).rgb);
+  p.throughput *= left;
   return p;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The phase function of participating media (Henyey and Greenstein, Diffuse radiation in the galaxy, 1941). The
-// anisotropy g is the mean cosine of a scattering: above 0 light goes on forward.
+// anisotropy g is the mean cosine of a scattering: above 0 light continues forward.
 
 /// The pdf over solid angle of the cosine between the directions of travel before and after. It is the value, too.
 float phasePdf(float g, float cosine) {

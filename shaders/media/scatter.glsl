@@ -53,8 +53,8 @@ Path scatterInMedium(Path p) {
   }
   p.throughput *= scatter.rgb;
   if (p.cameraRay) p.covered = true;
-  if (kAov == kAovEmission) return p;
-  if (kLightPart && p.bounce == 0) p.eye.aovWeight = vec3(kAov == kAovDiffuse ? 1.0 : 0.0);
+  if (kEmittedPart) return p;
+  if (kLightPart && p.bounce == 0) p.eye.aovWeight = vec3(kDiffusePart ? 1.0 : 0.0);
   vec2 uv = drawPair(p.sampler, kBounceDimensions * uint(p.bounce + 1) + kDirectionDimension);
   bool open = isOpen(p.ray.medium) || (kScattering && holdsLamps(p.ray.medium));
   if (open && lightSampleCount() > 0) p = sampleLdInMedium(p, point, scatter.w);

@@ -125,7 +125,7 @@ Walk walkVolume(Volume v, vec3 origin, vec3 direction, float from, float to, boo
       }
       walk.transmittance *= 1.0f - share;
       // Roulette, so that rays through what is all but opaque come to an end.
-      if (through && walk.transmittance < kFaintVolume) {
+      if (through && walk.transmittance < 0.05f) {
         if (u < 0.5f) walk.transmittance = 0.0f;
         if (u < 0.5f) exit = t;
         walk.transmittance *= 2.0f;
@@ -134,7 +134,7 @@ Walk walkVolume(Volume v, vec3 origin, vec3 direction, float from, float to, boo
       depth = -log(1.0f - unitFloat(mixBits(state)));
     }
   }
-  if (kCountWork) countWork(kWorkWalks, 1u);
-  if (kCountWork) countWork(kWorkWalkSteps, uint(walk.steps));
+  countVolumeWalks(1u);
+  countVolumeSteps(uint(walk.steps));
   return walk;
 }

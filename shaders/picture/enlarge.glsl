@@ -3,12 +3,6 @@
 // across it removes the stairs. Its direction is that of the luma's structure tensor (Foerstner and Guelch 1987). AMD's
 // FSR 1 (2021) enlarges by the same idea, from the same twelve pixels.
 
-const float kAlong = 0.4;    // factor of distances along the edge
-const float kAcross = 1.4;
-const float kReach = 0.5;    // 1 / square of the distance, in pixels, at which the kernel ends
-const float kFullStep = 0.25;  // step of luma over two pixels that counts in full as an edge
-const float kFlat = 0.02;      // range of a channel below which there is no edge
-
 // The twelve pixels are four by four without corners, from the row before; the middle ones are 3, 4, 7 and 8.
 const int kTaps = 12;
 const ivec2 kTapAt[kTaps] = ivec2[](ivec2(0, -1), ivec2(1, -1), ivec2(-1, 0), ivec2(0, 0), ivec2(1, 0), ivec2(2, 0),
@@ -28,7 +22,8 @@ vec3 edgeOf(vec4 colors[kTaps], vec4 weights) {
   vec2 across = tensor.x >= tensor.z ? vec2(largest - tensor.z, tensor.y) : vec2(tensor.y, largest - tensor.x);
   float size = length(across);
   if (!(size > 0.0)) return vec3(1.0, 0.0, 0.0);
-  return vec3(across / size, apart / trace * min(2.0 * sqrt(largest) / kFullStep, 1.0));
+  const float fullStep = 0.25;  // step of luma over two pixels that counts in full as an edge
+  return vec3(across / size, apart / trace * min(2.0 * sqrt(largest) / fullStep, 1.0));
 }
 
 vec4 enlarged(sampler2D picture, vec2 uv) {
@@ -43,19 +38,21 @@ vec4 enlarged(sampler2D picture, vec2 uv) {
   vec4 least = min(min(a, b), min(c, d));
   vec4 most = max(max(a, b), max(c, d));
   vec4 range = most - least;
-  if (max(max(range.r, range.g), max(range.b, range.a)) < kFlat) return mix(mix(a, b, f.x), mix(c, d, f.x), f.y);
+  const float even = 0.02;  // range of a channel below which there is no edge
+  if (max(max(range.r, range.g), max(range.b, range.a)) < even) return mix(mix(a, b, f.x), mix(c, d, f.x), f.y);
   vec4 colors[kTaps];
   for (int i = 0; i < kTaps; ++i) colors[i] = texelFetch(picture, clamp(corner + kTapAt[i], ivec2(0), last), 0);
   vec3 edge = edgeOf(colors, vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y));
-  vec2 across = mix(1.0, kAcross, edge.z) * edge.xy;
-  vec2 along = mix(1.0, kAlong, edge.z) * vec2(-edge.y, edge.x);
+  // Distances across the edge count more than those along it.
+  vec2 across = mix(1.0, 1.4, edge.z) * edge.xy;
+  vec2 along = mix(1.0, 0.4, edge.z) * vec2(-edge.y, edge.x);
   vec4 sum = vec4(0.0);
   float weights = 0.0;
   for (int i = 0; i < kTaps; ++i) {
     vec2 away = vec2(kTapAt[i]) - f;
     float x = dot(across, away);
     float y = dot(along, away);
-    float near = max(1.0 - kReach * (x * x + y * y), 0.0);
+    float near = max(1.0 - 0.5 * (x * x + y * y), 0.0);  // the kernel ends at the root of 2 pixels
     float weight = near * near * near;
     sum += weight * colors[i];
     weights += weight;

@@ -11,17 +11,16 @@ layout(location = 1) uniform float most;          // samples that the past count
 layout(location = 0) out vec4 radiance;
 layout(location = 1) out vec2 count;
 
-const int kReach = 2;  // pixels each way that tell whether the past still holds
-
 /// x: the square of the past's error around the pixel, which is the larger of the squared mean difference and
 /// the mean squared difference, each less its noise. y: the variance of one pixel's difference.
 vec2 wrongness(ivec2 pixel) {
+  const int reach = 2;  // pixels each way that tell whether the past still holds
   vec2 sums = vec2(0.0);
   float pixels = 0.0;
   float beyond = 0.0;
   float known = 0.0;
-  for (int y = -kReach; y <= kReach; ++y) {
-    for (int x = -kReach; x <= kReach; ++x) {
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
       if (((x ^ y) & 1) != 0) continue;
       ivec2 other = pixel + ivec2(x, y);
       if (!inside(other)) continue;

@@ -24,11 +24,7 @@ layout(location = 0) out vec4 past;   // light at the present albedo, and the va
 // known; samples of the past, 0 if it has no value here; 1 if such a pixel is compared, else 0.
 layout(location = 1) out vec4 apart;
 
-const float kDepthApart = 0.02;    // relative difference of depths on the same surface
-const float kNormalAlike = 0.9;    // cosine
-const float kAlbedoApart = 0.15;   // a channel
-const float kCovered = 0.5;        // share of a pixel's samples that makes it show a surface
-const float kEnoughOfFour = 0.25;  // weight of the taps that fit, for the past to count
+const float kCovered = 0.5;  // share of a pixel's samples that makes it show a surface
 
 const float kPerspectiveType = 0.0;
 const float kPanoramaType = 2.0;  // and above: a fisheye
@@ -64,10 +60,13 @@ vec3 pointAt(vec2 pixel, float depth) {
 }
 
 bool showsTheSame(Surface now, float depth, Surface before) {
+  const float depthApart = 0.02;   // relative difference
+  const float normalAlike = 0.9;   // cosine
+  const float albedoApart = 0.15;  // a channel
   vec3 apart = abs(now.albedo - before.albedo);
-  return before.coverage >= kCovered && abs(before.depth - depth) <= kDepthApart * abs(depth) &&
-         dot(now.normal, before.normal) >= kNormalAlike * length(now.normal) * length(before.normal) &&
-         max(max(apart.r, apart.g), apart.b) <= kAlbedoApart;
+  return before.coverage >= kCovered && abs(before.depth - depth) <= depthApart * abs(depth) &&
+         dot(now.normal, before.normal) >= normalAlike * length(now.normal) * length(before.normal) &&
+         max(max(apart.r, apart.g), apart.b) <= albedoApart;
 }
 
 /// The history (`past`), interpolated at a point.
@@ -126,7 +125,7 @@ void main() {
   Surface now = surfaceOf(texelFetch(albedos, pixel, 0), texelFetch(normals, pixel, 0));
   if (now.coverage < kCovered || !(samples > 0.0)) return;
   Known known = knownOf(now, pointAt(gl_FragCoord.xy, now.depth));
-  if (known.weight < kEnoughOfFour) return;
+  if (known.weight < 0.25) return;  // of the four taps
   vec3 divisor = divisorOf(now);
   float part = luminance(divisor);
   past = vec4(known.light * divisor, known.variance * part * part);

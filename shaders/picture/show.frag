@@ -11,12 +11,10 @@ layout(location = 3) uniform bool overWhite;     // the filtered picture is over
 
 layout(location = 0) out vec4 shown;
 
-const float kRounding = 1e-6;  // rounding of alpha: it counts as 0
-
-/// The same as liftedFromWhite() of src/image/image.h.
+/// The same as liftedFromWhite() of src/image/image.h. Rounding of alpha counts as 0.
 vec4 liftedFromWhite(vec4 own, vec3 seen) {
   float alpha = 1.0 - luminance(seen);
-  if (own.rgb == vec3(0.0)) return vec4(own.rgb, alpha > kRounding ? alpha : 0.0);
+  if (own.rgb == vec3(0.0)) return vec4(own.rgb, alpha > 1e-6 ? alpha : 0.0);
   return vec4(max(seen - (1.0 - own.a), vec3(0.0)), own.a);
 }
 

@@ -2,11 +2,10 @@
 // Takes one of several candidates as the light sample: resampled importance sampling (Talbot, Cline and Egbert,
 // Importance Resampling for Global Illumination, 2005).
 
-/// The largest number of additional loop iterations of a scattering, and the same in steps of the megakernel's budget,
-/// which are three iterations each. Neighbours add the way from a leaf of the light tree to its root.
+/// The largest number of additional loop iterations of a scattering. Neighbours add the way from a leaf of the light
+/// tree to its root.
 const int kCandidateIterations = (kCandidates ? int(kLightCandidates) * (kLightTree ? 16 : 8) : 0) +
                                  (kNeighbours ? int(kReuseNeighbours) + (kLightTree ? 24 : 0) : 0);
-const int kCandidateSteps = kCandidateIterations / 3;
 
 /// The random numbers of candidate `index`: those of the first one, shifted. Each dimension has its own shift, so that
 /// all candidates of a point form one lattice (the plastic number's, Roberts 2018). Each alone is as random as the
@@ -52,7 +51,7 @@ Candidate chooseCandidate(vec3 point, vec3 normal, bool through, uint packedNorm
   c.sum = 0.0f;
   for (int i = 0; i < int(kLightCandidates); ++i) {
     LightChoice light = chooseLight(shifted(first, i), point, packedNormal);
-    if (kStoresReservoirs) light.bits &= uvec2(kReservoirBits);
+    if (kStoresReservoirs) light.bits &= uvec2(~(kReservoirUnit - 1u));
     LightSample s = lightOfChoice(light, point);
     float weight = candidateWeight(s, normal, through);
     if (!(weight > 0.0f)) continue;

@@ -9,10 +9,11 @@ Reservoir reservoirAt(ivec2 pixel) {
   return reservoirOf(texelFetch(reservoirSurfaces, pixel, 0), texelFetch(reservoirLights, pixel, 0));
 }
 
-/// The pixel of neighbour `index`: one in each of as many sectors of a disc that is turned by chance.
+/// The pixel of neighbour `index`: one in each of as many sectors of a disc that is turned by chance, 16 pixels away at
+/// most.
 ivec2 neighbourOf(ivec2 pixel, int index, vec2 uv) {
   float angle = 2.0 * kPi * (float(index) + uv.x) / float(kReuseNeighbours);
-  float radius = kReuseRadius * sqrt(fract(uv.y + float(index) * 0.61803399));
+  float radius = 16.0 * sqrt(fract(uv.y + float(index) * 0.61803399));
   return pixel + ivec2(floor(radius * vec2(cos(angle), sin(angle)) + 0.5));
 }
 

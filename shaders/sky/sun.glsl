@@ -34,19 +34,22 @@ Sun sunOfSky() {
   return sun;
 }
 
+/// The powers of the cosine at its surface by which the sun gets darker to the limb (kLimbPowers, src/scene/sky/sky.h).
+const vec3 kLimb = vec3(0.456f, 0.508f, 0.605f);
+
 /// The radiance of a place of the disc as a part of that of its middle (docs/design/sky.md). squared: the square of the
 /// cosine at the sun's surface.
 float limbOf(float squared, float power) { return pow(squared, 0.5f * power); }
 
 /// The radiance of the disc along a direction, and the pdf with which sampleSun() draws it as a part of that of its
-/// middle. Zeros beside the disc; the ground hides what is below the horizon.
+/// middle. Zeros outside the disc; the ground hides what is below the horizon.
 vec4 discAlong(Sun sun, vec3 direction) {
   float radius = kSunRadius;
   vec3 off = (direction - sun.direction) / radius;
   float squared = 1.0f - dot(off, off);
   if (squared <= 0.0f) return vec4(0.0f);
-  float green = limbOf(squared, kLimbGreen);
-  vec3 limb = vec3(limbOf(squared, kLimbRed), green, limbOf(squared, kLimbBlue));
+  float green = limbOf(squared, kLimb.y);
+  vec3 limb = vec3(limbOf(squared, kLimb.x), green, limbOf(squared, kLimb.z));
   float intensity = direction.y > 0.0f ? frame.environmentScale : 0.0f;
   return vec4(sun.radiance * limb * intensity, green);
 }
@@ -62,7 +65,7 @@ vec4 withSun(vec4 there, vec3 direction) {
 
 /// A direction to the disc by the radiance of its green light.
 vec3 sampleSun(Sun sun, float u, float v) {
-  float power = kLimbGreen;
+  float power = kLimb.y;
   float squared = pow(1.0f - u, 2.0f / (2.0f + power));
   float radius = kSunRadius;
   vec2 around = unitCircle(v) * (radius * sqrt(max(0.0f, 1.0f - squared)));

@@ -20,42 +20,45 @@ struct PrimitiveHit {
 /// The distance of a hit, less what puts it before surfaces that coincide with it: lamps before all others, and fronts
 /// before backs. The reach covers rounding of the triangles, and 2^-19 of the distance that of the ray.
 float beforeCoincident(float t, bool front, uint word) {
-  float reach = uintBitsToFloat((word & kPrimitiveReachMask) << 23);
+  float reach = uintBitsToFloat((word & 0xffu) << 23);
   float rank = ((word & kPrimitiveEmits) != 0u ? 2.0f : 0.0f) + (front ? 1.0f : 0.0f);
   return reach > 0.0f ? max(t - rank * (reach + 1.9073486328125e-6f * t), 0.5f * t) : t;
 }
 
+/// The plane of a triangle that does not move: unit normal, distance from the origin.
+vec4 planeOf(int slot) {
+  int row = slot * int(kFaceRows);
+  return vec4(vec3(uintBitsToFloat(readFaces(row))), uintBitsToFloat(readFaces(row + 1).x));
+}
+
+/// Returns true if rays meet the back of the primitive.
+bool hasBack(Traversal s, uint word) {
+  return !kCulling || (kLightPaths && s.both) || (word & kPrimitiveCull) == 0u;
+}
+
 PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear shear, vec3 v0, vec3 v1, vec3 v2,
                            uint word, int slot) {
-  if (kCountWork) countWork(kWorkPrimitives, uint(word != kPrimitiveNone));
+  countPrimitivesTested(uint(word != kPrimitiveNone));
   PrimitiveHit r;
   r.t = -1.0f;
   r.weights = vec2(0.0f);
   if (kTriangles) {
-    TriangleHit h;
-    if (kWatertight) h = intersectTriangle(origin, shear, v0, v1, v2);
-    if (!kWatertight) h = intersectTriangleFast(origin, direction, v0, v1, v2);
-    if (kSlivers && !kMoving && h.hit && (word & kPrimitiveSliver) != 0u) {
-      int row = slot * int(kFaceRows);
-      h.t = distanceToPlane(origin, direction, shear, v0, v1, v2, vec3(uintBitsToFloat(readFaces(row))),
-                            uintBitsToFloat(readFaces(row + 1).x), h.t);
-    }
-    if (kSlivers && kMoving && h.hit && (word & kPrimitiveSliver) != 0u) {
-      vec4 plane = planeThrough(v0, v1, v2);
+    TriangleHit h = kWatertight ? intersectTriangle(origin, shear, v0, v1, v2)
+                                : intersectTriangleFast(origin, direction, v0, v1, v2);
+    if (kSlivers && h.hit && (word & kPrimitiveSliver) != 0u) {
+      vec4 plane = kMoving ? planeThrough(v0, v1, v2) : planeOf(slot);
       h.t = distanceToPlane(origin, direction, shear, v0, v1, v2, vec3(plane), plane.w, h.t);
     }
-    bool there = !kCulling || h.front || (kLightPaths && s.both) || (word & kPrimitiveCull) == 0u;
-    r.t = h.hit && there ? h.t : -1.0f;
+    r.t = h.hit && (h.front || hasBack(s, word)) ? h.t : -1.0f;
     if (kCoincident && s.extends && r.t > 0.0f) r.t = beforeCoincident(r.t, h.front, word);
     if (kCreases) r.t -= r.t * (h.front ? s.tie : -s.tie);
     if (kWeights) r.weights = vec2(h.weight1, h.weight2);
   }
   if (kSpheres) {
-    bool inside = !kCulling || (kLightPaths && s.both) || (word & kPrimitiveCull) == 0u;
     float tMin = isOrdered() ? s.tMin : 0.0f;
-    float t = intersectSphere(origin, direction, v0, v1.x, inside, tMin, isOrdered() && slot > s.tMinSlot);
+    float t = intersectSphere(origin, direction, v0, v1.x, hasBack(s, word), tMin, isOrdered() && slot > s.tMinSlot);
     bool isSphere = (word & kPrimitiveSphere) != 0u && word != kPrimitiveNone;
-    r.t = isSphere ? t : (kTriangles ? r.t : -1.0f);
+    r.t = isSphere ? t : r.t;
   }
   return r;
 }
@@ -63,9 +66,7 @@ PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear sh
 /// The nearest of what the traversal has and the two primitives of a leaf. The origin lies at distance `start` along
 /// the ray (kInstances). anyHit, for shadow rays: what lets no light pass comes before all else, as kOpaqueSlot.
 Traversal intersectLeaf(Traversal s, int leaf, vec3 origin, vec3 direction, RayShear shear, float start, bool anyHit) {
-  LeafPair l;
-  if (kMoving) l = loadMovingLeaf(leaf, s.part);
-  if (!kMoving) l = loadLeaf(leaf);
+  LeafPair l = kMoving ? loadMovingLeaf(leaf, s.part) : loadLeaf(leaf);
   PrimitiveHit a = intersectWord(s, origin, direction, shear, l.v0a, l.v1a, l.v2a, l.worda, 2 * leaf);
   PrimitiveHit b = intersectWord(s, origin, direction, shear, l.v0b, l.v1b, l.v2b, l.wordb, 2 * leaf + 1);
   if (kInstances) {

@@ -16,7 +16,7 @@ Traversal meetPrimitives(Traversal s, int leaf, TreeRay ray, vec3 origin, vec3 d
     if (kTestsAlpha) {
       bool tested = kLiterals ? found.slot >= 0 : found.tested && found.slot != kOpaqueSlot;
       bool passes = tested && letsPass(found, origin, direction);
-      if (kCountWork) countWork(kWorkPassed, uint(passes));
+      countSurfacesPassed(uint(passes));
       again = passes && (kLiterals || found.more);
       behind.tMin = found.t;
       behind.tMinSlot = found.slot;

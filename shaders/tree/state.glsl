@@ -60,7 +60,7 @@ Traversal startTraversal(float limit, int leafCount) {
   s.tMinSlot = 0x7fffffff;
   s.tested = false;
   s.more = false;
-  s.chances = Sampler(0u, 0u);
+  s.chances = makeSampler(0u, 0u);
   s.time = 0.0f;
   s.stack = emptyStack();
   return s;

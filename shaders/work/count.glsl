@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Counts the work of samples (--count-work); other programs are without this text. A lane counts into variables of its
-// own. The counts of a sample reach the sums when it is complete, so that one that begins again counts once. Where it
-// waits, they are kept by its pixel in the tile.
+// Counts the work of samples (--count-work); other programs have the empty functions of work/none.glsl. A lane counts
+// into variables of its own. The counts of a sample reach the sums when it is complete, so that one that begins again
+// counts once. Where it waits, they are kept by its pixel in the tile.
+// work/kinds.glsl is written by src/shader/assemble.cpp: kWorkCount, the lane's variables work[], and a function for
+// each kind, such as countSurfaces(number).
 #include "work/kinds.glsl"
 
 layout(std430, binding = kWorkBinding) restrict buffer WorkBlock {
   uint workSums[2 * kWorkCount];  // 64 bits each, the lower half first
   uint workKept[];                // kWorkCount for each pixel of the tile
 };
-
-uint work[kWorkCount];  // indexed by constants alone, so that compilers keep it in registers
-
-void countWork(int kind, uint number) { work[kind] += number; }
 
 void forgetWork() {
   for (int i = 0; i < kWorkCount; ++i) work[i] = 0u;

@@ -7,9 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <new>
-#include <stdexcept>
 
 #include "base/errors.h"
 

@@ -13,6 +13,8 @@ namespace fragtrace {
 
 /// The descriptor of the worker's end of the socket.
 inline constexpr int kWorkerSocket = 3;
+/// The second argument of a worker that is confined after its first request, not before.
+inline constexpr const char* kOpensFiles = "opens-files";
 /// The exit status of a worker whose libraries are missing, as that of the loader.
 inline constexpr int kNotLoaded = 127;
 

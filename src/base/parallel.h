@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <future>
-#include <thread>
 #include <vector>
 
 namespace fragtrace {

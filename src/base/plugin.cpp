@@ -6,9 +6,14 @@
 #include <cstdlib>
 #include <stdexcept>
 #include <system_error>
+#include <vector>
 
 namespace fragtrace {
 
+namespace {
+
+/// The folders of our own libraries and programs: FRAGTRACE_LIBRARY_PATH, then that of the executable or
+/// shared object that this code is part of.
 std::vector<std::filesystem::path> ownFolders() {
   std::vector<std::filesystem::path> folders;
   if (const char* folder = std::getenv("FRAGTRACE_LIBRARY_PATH")) folders.emplace_back(folder);
@@ -21,6 +26,8 @@ std::vector<std::filesystem::path> ownFolders() {
   if (!object.empty()) folders.push_back(object.parent_path());
   return folders;
 }
+
+}  // namespace
 
 std::filesystem::path ownFile(const std::string& name) {
   std::string places;

@@ -5,13 +5,8 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 namespace fragtrace {
-
-/// The folders of our own libraries and programs: FRAGTRACE_LIBRARY_PATH, then that of the executable or
-/// shared object that this code is part of.
-std::vector<std::filesystem::path> ownFolders();
 
 /// Searches these folders in order for the file. Throws std::runtime_error that names them.
 std::filesystem::path ownFile(const std::string& name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Messages on stderr beside the results: lines of text, or JSON for other programs, one object per line
+// Messages on stderr next to the results: lines of text, or JSON for other programs, one object per line
 // (docs/recipes.md, "Use fragtrace in a program").
 #pragma once
 

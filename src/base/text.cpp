@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "base/text.h"
 
-#include <algorithm>
 #include <numeric>
-#include <utility>
 
 namespace fragtrace {
 

@@ -17,11 +17,8 @@
 #include <ctime>
 #include <filesystem>
 #include <stdexcept>
-#include <string>
-#include <utility>
 
 #include "base/errors.h"
-#include "base/message.h"
 #include "base/plugin.h"
 #include "base/timeline.h"
 
@@ -79,21 +76,17 @@ bool addressesAreLimited() {
 }
 
 /// Returns true if a process may have ended for lack of memory: the loader gives up, and libraries abort or
-/// go on with nothing.
+/// continue with nothing.
 bool isWantOfMemory(int status) {
   if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGABRT || WTERMSIG(status) == SIGSEGV;
   return WEXITSTATUS(status) == kNotLoaded;
 }
 
-}  // namespace
-
-Child::~Child() {
-  if (process <= 0) return;
-  ::kill(process, SIGKILL);
-  endChild(*this);
-}
-
-std::unique_ptr<Child> startChild(const std::string& name, const std::string& argument) {
+/// Starts an executable with the path of another file as its argument, and with a sequential-packet socket as
+/// its descriptor kWorkerSocket; `mode` is its second argument. Both are looked for in the folder
+/// FRAGTRACE_LIBRARY_PATH, then next to our own. Throws std::runtime_error naming what is missing.
+std::unique_ptr<Child> startChild(const std::string& name, const std::string& argument,
+                                  const std::string& mode) {
   const std::filesystem::path path = ownFile(name);
   const std::filesystem::path argumentPath = ownFile(argument);
   int sockets[2] = {-1, -1};
@@ -107,8 +100,9 @@ std::unique_ptr<Child> startChild(const std::string& name, const std::string& ar
     ::close(sockets[1]);
     sockets[1] = moved;
   }
-  const int error =
-      spawnProcess(path, {path.string(), argumentPath.string()}, filesOf(sockets[1]), child->process);
+  std::vector<std::string> words = {path.string(), argumentPath.string()};
+  if (!mode.empty()) words.push_back(mode);
+  const int error = spawnProcess(path, words, filesOf(sockets[1]), child->process);
   ::close(sockets[1]);
   if (error != 0) {
     child->process = -1;
@@ -118,6 +112,7 @@ std::unique_ptr<Child> startChild(const std::string& name, const std::string& ar
   return child;
 }
 
+/// Sets how much data it may have, and how many more seconds of processor time it may take (0: any number).
 void limitChild(const Child& child, [[maybe_unused]] uint64_t dataBytes, unsigned cpuSeconds) {
   const auto limit = [&](auto resource, rlim_t value) {
     rlimit both{};
@@ -131,6 +126,7 @@ void limitChild(const Child& child, [[maybe_unused]] uint64_t dataBytes, unsigne
   limit(RLIMIT_CPU, cpuSeconds == 0 ? RLIM_INFINITY : secondsTaken(child.process) + cpuSeconds);
 }
 
+/// Waits for a message of exactly that size; false if none comes in that time, or if the process has ended.
 bool awaitReply(const Child& child, std::span<uint8_t> reply, int patienceMs) {
   pollfd waiting{child.socket, POLLIN, 0};
   int ready = -1;
@@ -140,6 +136,8 @@ bool awaitReply(const Child& child, std::span<uint8_t> reply, int patienceMs) {
   return ready > 0 && ::recv(child.socket, reply.data(), reply.size(), 0) == ssize_t(reply.size());
 }
 
+/// Ends the process if it is still running, and says how it ended: kOutOfTime, kLibraryMissing, "signal 11
+/// (Segmentation fault)", "status 1", or that memory ran out, where the system gives processes little of it.
 std::string endChild(Child& child) {
   ::close(child.socket);
   // A child that has ended by itself keeps its own status.
@@ -163,8 +161,6 @@ std::string endChild(Child& child) {
   if (signal == SIGXCPU || (signal == SIGKILL && waited > kPatienceMs)) return kOutOfTime;
   return "signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")";
 }
-
-namespace {
 
 struct Unconfined {
   std::mutex mutex;
@@ -194,6 +190,12 @@ std::string reasonOf(const WorkReply& reply) {
 }
 
 }  // namespace
+
+Child::~Child() {
+  if (process <= 0) return;
+  ::kill(process, SIGKILL);
+  endChild(*this);
+}
 
 std::string whyUnconfined() {
   const std::lock_guard lock(unconfined().mutex);
@@ -249,7 +251,7 @@ WorkResult Worker::perform(std::initializer_list<std::span<const uint8_t>> parts
 
 std::unique_ptr<Child> Worker::startOne() const {
   try {
-    return startChild("fragtrace_worker", kind_.module);
+    return startChild("fragtrace_worker", kind_.module, kind_.opensFiles ? kOpensFiles : "");
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(std::string(error.what()) + " (" + kind_.advice + ")" + kind_.instead);
   }

@@ -45,31 +45,17 @@ inline constexpr const char* kOutOfTime = "out of time";
 /// endChild says this of a process that lacks a shared library.
 inline constexpr const char* kLibraryMissing = "a library that it needs is not installed";
 
-/// Starts an executable with the path of another file as its argument, and with a sequential-packet socket as
-/// its descriptor kWorkerSocket. Both are looked for in the folder FRAGTRACE_LIBRARY_PATH, then beside our
-/// own. Throws std::runtime_error naming what is missing.
-std::unique_ptr<Child> startChild(const std::string& name, const std::string& argument);
-
-/// Sets how much data it may have, and how many more seconds of processor time it may take (0: any number).
-void limitChild(const Child& child, uint64_t dataBytes, unsigned cpuSeconds);
-
-/// Waits for a message of exactly that size; false if none comes in that time, or if the process has ended.
-bool awaitReply(const Child& child, std::span<uint8_t> reply, int patienceMs);
-
-/// Ends the process if it is still running, and says how it ended: kOutOfTime, kLibraryMissing, "signal 11
-/// (Segmentation fault)", "status 1", or that memory ran out, where the system gives processes little of it.
-std::string endChild(Child& child);
-
 // Other people's libraries in a process of their own, fragtrace_worker: the distribution's decoders carry
 // known faults, so the work that they do on files from anywhere is limited in time and memory and cannot harm
 // us. A run that needs no such library does not load it.
 
 /// Each kind of work has a process of its own, so that a missing library stops no other kind.
 struct WorkerKind {
-  const char* module;   ///< the file that the worker opens, which links the libraries
-  const char* library;  ///< the libraries' name in messages
-  const char* advice;   ///< a command that installs them
-  const char* instead;  ///< ends messages: what works without them
+  const char* module;       ///< the file that the worker opens, which links the libraries
+  const char* library;      ///< the libraries' name in messages
+  const char* advice;       ///< a command that installs them
+  const char* instead;      ///< ends messages: what works without them
+  bool opensFiles = false;  ///< files that the user names, for its first request; it is confined after that
 };
 
 struct WorkLimits {

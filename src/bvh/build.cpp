@@ -2,13 +2,11 @@
 #include "bvh/build.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <limits>
 #include <memory>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "base/parallel.h"
 
@@ -197,8 +195,9 @@ uint32_t splitBySweep(std::span<BuildItem> items, const SplitRules& rules, uint6
   return best.position;
 }
 
-}  // namespace
-
+/// Reorders at least two items so that the first `result` of them are one child and the rest the other; each
+/// child has at least one and at most childCapacity items. Works on up to threadCount threads; the result
+/// does not depend on their number.
 uint32_t splitItems(std::span<BuildItem> items, const SplitRules& rules, uint64_t childCapacity,
                     uint32_t threadCount) {
   assert(items.size() >= 2 && items.size() <= 2 * childCapacity);
@@ -206,6 +205,8 @@ uint32_t splitItems(std::span<BuildItem> items, const SplitRules& rules, uint64_
   const uint32_t useful = items.size() < kParallelSize ? 1 : std::max(threadCount, 1u);
   return splitByBins(items, rules, childCapacity, useful);
 }
+
+}  // namespace
 
 // Builds the tree on several threads: splits the top of the tree, builds what is below in parts, and joins
 // them in order.
@@ -417,29 +418,6 @@ Bvh buildOver(std::vector<BuildItem> items, uint32_t firstSingle, const BvhBuild
   return bvh;
 }
 
-}  // namespace
-
-Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle, const BvhBuildSettings& settings) {
-  std::vector<BuildItem> items(primitiveBounds.size());
-  for (size_t i = 0; i < items.size(); ++i) items[i] = {primitiveBounds[i], uint32_t(i)};
-  primitiveBounds = std::vector<Bounds>();
-  return buildOver(std::move(items), firstSingle, settings);
-}
-
-Bvh buildFromItems(std::vector<BuildItem> items, uint32_t firstSingle) {
-  Bvh bvh = buildOver(std::move(items), firstSingle, {});
-  collapse(bvh);
-  return bvh;
-}
-
-Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle) {
-  Bvh bvh = buildBvh(std::move(primitiveBounds), firstSingle, {});
-  collapse(bvh);
-  return bvh;
-}
-
-namespace {
-
 constexpr uint32_t kMost = WideNode::kMost;
 
 /// How the subtree of a binary node becomes at most `kMost` children of a wide node.
@@ -543,6 +521,25 @@ struct Collapse {
 };
 
 }  // namespace
+
+Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle, const BvhBuildSettings& settings) {
+  std::vector<BuildItem> items(primitiveBounds.size());
+  for (size_t i = 0; i < items.size(); ++i) items[i] = {primitiveBounds[i], uint32_t(i)};
+  primitiveBounds = std::vector<Bounds>();
+  return buildOver(std::move(items), firstSingle, settings);
+}
+
+Bvh buildFromItems(std::vector<BuildItem> items, uint32_t firstSingle) {
+  Bvh bvh = buildOver(std::move(items), firstSingle, {});
+  collapse(bvh);
+  return bvh;
+}
+
+Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle) {
+  Bvh bvh = buildBvh(std::move(primitiveBounds), firstSingle, {});
+  collapse(bvh);
+  return bvh;
+}
 
 void collapse(Bvh& bvh) {
   if (bvh.nodes.empty()) return;

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "base/vectors.h"
@@ -40,12 +39,6 @@ inline double areaOf(const Bounds& box) {
   const double z = double(box.maximum.z) - box.minimum.z;
   return box.empty() ? 0.0 : 2.0 * (x * y + y * z + z * x);
 }
-
-/// Reorders at least two items so that the first `result` of them are one child and the rest the other; each
-/// child has at least one and at most childCapacity items. Works on up to threadCount threads; the result
-/// does not depend on their number.
-uint32_t splitItems(std::span<BuildItem> items, const SplitRules& rules, uint64_t childCapacity,
-                    uint32_t threadCount);
 
 // The settings behind buildBvh(), for tests and measurements.
 

@@ -17,7 +17,7 @@ namespace fragtrace {
 /// Set in BvhNode::child when the child is a leaf (the rest is the index into Bvh::leaves).
 inline constexpr uint32_t kBvhLeafBit = 0x80000000u;
 
-/// Set beside kBvhLeafBit when the child is an instance (the rest is the index into Scene::instances).
+/// Set next to kBvhLeafBit when the child is an instance (the rest is the index into Scene::instances).
 inline constexpr uint32_t kBvhInstanceBit = 0x40000000u;
 
 /// No path from the root passes more inner nodes of the binary tree than this, so a traversal stack of this
@@ -93,7 +93,7 @@ inline uint32_t primitiveInSlot(const Bvh& bvh, int32_t slot) {
 
 /// Builds the tree by binned SAH over the primitives' boxes, on all cores. Primitives from firstSingle on
 /// (spheres) always get a leaf of their own. Deterministic: the same boxes give the same tree. Boxes that are
-/// moved in are freed before the nodes are made. The build takes another 40 bytes a primitive beside the
+/// moved in are freed before the nodes are made. The build takes another 40 bytes a primitive besides the
 /// tree.
 Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle);
 

@@ -5,14 +5,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
-#include <vector>
 
-#include "bvh/bvh.h"
 #include "scene/coincidence.h"
 #include "scene/hit_error.h"
-#include "scene/solids.h"
 
 namespace fragtrace {
 

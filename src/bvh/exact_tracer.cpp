@@ -113,7 +113,7 @@ void ExactTracer::meet(const ExactRay& ray, uint32_t primitive, uint32_t instanc
 void ExactTracer::descend(const ExactRay& ray, uint32_t root, uint32_t instance, ExactHit& hit) const {
   glm::dvec3 inverse;
   for (int axis = 0; axis < 3; ++axis) {
-    // This is far below what a direction of 24 bits can hold beside a larger component.
+    // This is far below what a direction of 24 bits can hold next to a larger component.
     const double d = ray.direction[axis];
     inverse[axis] = 1.0 / (std::abs(d) < 1e-30 ? std::copysign(1e-30, d) : d);
   }

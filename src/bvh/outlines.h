@@ -12,7 +12,7 @@ namespace fragtrace {
 // The boxes of a level of the tree, and their edges as lines in a picture.
 
 /// Returns the boxes of all nodes and leaves `level` steps below the root, in local space. The root is level
-/// 0; it does not hold the triangles beside the tree. Instances are leaves.
+/// 0; it does not hold the triangles next to the tree. Instances are leaves.
 std::vector<Bounds> boxesAtLevel(const Bvh& bvh, uint32_t level);
 
 /// A line between two places of the picture (scene/camera.h); it may reach beyond.

@@ -9,8 +9,6 @@
 #include <utility>
 
 #include "base/vectors.h"
-#include "bvh/build.h"
-#include "bvh/bvh.h"
 #include "scene/motion/moving_scene.h"
 
 namespace fragtrace {
@@ -216,47 +214,6 @@ uint32_t primitiveIn(const Scene& scene, uint32_t segment, uint32_t primitive) {
   return uint32_t(scene.triangles.size()) + segment * motion.spheres + primitive - motion.triangles;
 }
 
-}  // namespace
-
-Bvh buildMovingBvh(const Scene& scene) {
-  const ShutterMotion& motion = scene.motion;
-  const uint32_t middle = motion.segments / 2;
-  std::vector<Bounds> whole = boundsInPose(scene, middle);
-  const std::vector<Bounds> next = boundsInPose(scene, middle + 1);
-  for (size_t i = 0; i < whole.size(); ++i) whole[i].include(next[i]);
-  Bvh begins = buildBvh(std::move(whole), motion.triangles);
-  Bvh ends = begins;
-  const auto nodes = uint32_t(begins.nodes.size());
-  const auto leaves = uint32_t(begins.leaves.size());
-  Bvh all;
-  all.depth = begins.depth;
-  all.stackNeed = begins.stackNeed;
-  const auto wide = uint32_t(begins.wide.size());
-  for (uint32_t segment = 0; segment < motion.segments; ++segment) {
-    refitTo(begins, boundsInPose(scene, segment));
-    refitTo(ends, boundsInPose(scene, segment + 1));
-    all.bounds.include(begins.bounds);
-    all.bounds.include(ends.bounds);
-    for (BvhNode node : begins.nodes) {
-      for (uint32_t& child : node.child) child += segment * ((child & kBvhLeafBit) != 0 ? leaves : nodes);
-      all.nodes.push_back(node);
-    }
-    for (WideNode node : begins.wide) {
-      for (uint32_t& place : node.place) place += segment * 2 * nodes;
-      node.firstInner += segment * wide;
-      all.wide.push_back(node);
-    }
-    for (const BvhNode& node : ends.nodes) all.endBounds.push_back(node.bounds);
-    for (BvhLeaf leaf : begins.leaves) {
-      for (uint32_t& primitive : leaf.primitive) primitive = primitiveIn(scene, segment, primitive);
-      all.leaves.push_back(leaf);
-    }
-  }
-  return all;
-}
-
-namespace {
-
 constexpr uint32_t kRoom = 3;  // levels more than a tree of halves has, for the heuristic
 
 uint32_t levelsOf(uint64_t leaves) { return uint32_t(std::bit_width(std::max<uint64_t>(leaves, 1) - 1)); }
@@ -395,7 +352,71 @@ void appendMesh(const Bvh& tree, const SharedMesh& mesh, Bvh& bvh) {
   }
 }
 
+Bounds boundsOfLeaf(const BvhLeaf& leaf, std::span<const Bounds> primitives) {
+  Bounds bounds;
+  for (const uint32_t primitive : leaf.primitive) {
+    if (primitive != kMissIndex) bounds.include(primitives[primitive]);
+  }
+  return bounds;
+}
+
+/// Gives a tree of one level the boxes that its primitives have now.
+void refitTo(Bvh& bvh, std::span<const Bounds> primitives) {
+  // Children come after their parent.
+  for (size_t i = bvh.nodes.size(); i-- > 0;) {
+    BvhNode& node = bvh.nodes[i];
+    for (size_t side : {0, 1}) {
+      const uint32_t child = node.child[side];
+      if ((child & kBvhLeafBit) != 0) {
+        node.bounds[side] = boundsOfLeaf(bvh.leaves[child & ~kBvhLeafBit], primitives);
+      } else {
+        node.bounds[side] = bvh.nodes[child].bounds[0];
+        node.bounds[side].include(bvh.nodes[child].bounds[1]);
+      }
+    }
+  }
+  bvh.bounds = Bounds();
+  for (const BvhLeaf& leaf : bvh.leaves) bvh.bounds.include(boundsOfLeaf(leaf, primitives));
+}
+
 }  // namespace
+
+Bvh buildMovingBvh(const Scene& scene) {
+  const ShutterMotion& motion = scene.motion;
+  const uint32_t middle = motion.segments / 2;
+  std::vector<Bounds> whole = boundsInPose(scene, middle);
+  const std::vector<Bounds> next = boundsInPose(scene, middle + 1);
+  for (size_t i = 0; i < whole.size(); ++i) whole[i].include(next[i]);
+  Bvh begins = buildBvh(std::move(whole), motion.triangles);
+  Bvh ends = begins;
+  const auto nodes = uint32_t(begins.nodes.size());
+  const auto leaves = uint32_t(begins.leaves.size());
+  Bvh all;
+  all.depth = begins.depth;
+  all.stackNeed = begins.stackNeed;
+  const auto wide = uint32_t(begins.wide.size());
+  for (uint32_t segment = 0; segment < motion.segments; ++segment) {
+    refitTo(begins, boundsInPose(scene, segment));
+    refitTo(ends, boundsInPose(scene, segment + 1));
+    all.bounds.include(begins.bounds);
+    all.bounds.include(ends.bounds);
+    for (BvhNode node : begins.nodes) {
+      for (uint32_t& child : node.child) child += segment * ((child & kBvhLeafBit) != 0 ? leaves : nodes);
+      all.nodes.push_back(node);
+    }
+    for (WideNode node : begins.wide) {
+      for (uint32_t& place : node.place) place += segment * 2 * nodes;
+      node.firstInner += segment * wide;
+      all.wide.push_back(node);
+    }
+    for (const BvhNode& node : ends.nodes) all.endBounds.push_back(node.bounds);
+    for (BvhLeaf leaf : begins.leaves) {
+      for (uint32_t& primitive : leaf.primitive) primitive = primitiveIn(scene, segment, primitive);
+      all.leaves.push_back(leaf);
+    }
+  }
+  return all;
+}
 
 bool fitsTwoLevels(uint64_t topPrimitives, uint64_t meshTriangles) {
   const uint32_t top = levelsOf(topPrimitives) + kRoom;
@@ -426,39 +447,9 @@ Bvh buildSceneBvh(const Scene& scene) {
   return bvh;
 }
 
-namespace {
-
-Bounds boundsOfLeaf(const BvhLeaf& leaf, std::span<const Bounds> primitives) {
-  Bounds bounds;
-  for (const uint32_t primitive : leaf.primitive) {
-    if (primitive != kMissIndex) bounds.include(primitives[primitive]);
-  }
-  return bounds;
-}
-
-}  // namespace
-
 RefittableTree refittable(Bvh bvh, const Scene& scene) {
   const double cost = bvhQuality(bvh).sahCost;
   return {std::move(bvh), cost, scene.triangles.size(), scene.spheres.size()};
-}
-
-void refitTo(Bvh& bvh, std::span<const Bounds> primitives) {
-  // Children come after their parent.
-  for (size_t i = bvh.nodes.size(); i-- > 0;) {
-    BvhNode& node = bvh.nodes[i];
-    for (size_t side : {0, 1}) {
-      const uint32_t child = node.child[side];
-      if ((child & kBvhLeafBit) != 0) {
-        node.bounds[side] = boundsOfLeaf(bvh.leaves[child & ~kBvhLeafBit], primitives);
-      } else {
-        node.bounds[side] = bvh.nodes[child].bounds[0];
-        node.bounds[side].include(bvh.nodes[child].bounds[1]);
-      }
-    }
-  }
-  bvh.bounds = Bounds();
-  for (const BvhLeaf& leaf : bvh.leaves) bvh.bounds.include(boundsOfLeaf(leaf, primitives));
 }
 
 std::optional<Bvh> refitted(const RefittableTree& tree, const Scene& scene) {

@@ -61,9 +61,6 @@ struct RefittableTree {
 /// The cost may rise by this factor before a new tree is built.
 inline constexpr double kMostRefitCost = 1.2;
 
-/// Gives a tree of one level the boxes that its primitives have now.
-void refitTo(Bvh& bvh, std::span<const Bounds> primitives);
-
 RefittableTree refittable(Bvh bvh, const Scene& scene);
 
 /// The tree with the boxes that the scene's primitives have now. The primitives keep their indices. Nothing

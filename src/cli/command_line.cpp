@@ -15,11 +15,9 @@
 #include <memory>
 #include <optional>
 #include <sstream>
-#include <string>
 #include <string_view>
 #include <utility>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "base/errors.h"
@@ -100,12 +98,12 @@ void appendPositionals(std::string& text, const CLI::App& app, size_t width) {
   }
 }
 
-}  // namespace
-
+/// "fragtrace bench frame"
 std::string fullName(const CLI::App& app) {
   return (app.get_parent() == nullptr ? "" : fullName(*app.get_parent()) + " ") + app.get_name();
 }
 
+/// The forms of an option, short ones first: "-o", "--output".
 std::vector<std::string> formsOf(const CLI::Option& option) {
   std::vector<std::string> forms;
   for (const std::string& name : option.get_snames()) forms.push_back("-" + name);
@@ -113,13 +111,7 @@ std::vector<std::string> formsOf(const CLI::Option& option) {
   return forms;
 }
 
-std::string rangeText(const CLI::Option& option) {
-  const OptionFacts facts = factsOf(option);
-  if (kindOf(option) != ValueKind::Number || !facts.least) return "";
-  return facts.most ? shortText(*facts.least) + " to " + shortText(*facts.most)
-                    : "from " + shortText(*facts.least) + " on";
-}
-
+/// "fragtrace diff [options] picture reference"
 std::string usageOf(const CLI::App& app) {
   std::string text = fullName(app);
   if (!app.get_subcommands([](const CLI::App*) { return true; }).empty()) return text + " COMMAND";
@@ -134,39 +126,6 @@ std::string usageOf(const CLI::App& app) {
   }
   return text;
 }
-
-std::string HelpText::make_help(const CLI::App* app, std::string /*name*/,
-                                CLI::AppFormatMode /*mode*/) const {
-  const size_t width = terminalWidth();
-  std::string text = app->get_description() + "\n\nUsage: ";
-  appendWrapped(text, usageOf(*app), 2, width);
-  appendPositionals(text, *app, width);
-  size_t hidden = 0;
-  std::vector<std::string> topics{kOwn};
-  topics.insert(topics.end(), kHelpTopics.begin(), kHelpTopics.end());
-  for (const std::string& topic : topics) {
-    std::string entries;
-    for (const CLI::Option* option : optionsOf(*app, topic)) {
-      if (!all && !factsOf(*option).everyday) {
-        ++hidden;
-        continue;
-      }
-      const std::string value = metavariableOf(*option);
-      appendEntry(entries, joined(formsOf(*option)) + (value.empty() ? "" : " " + value), describe(*option),
-                  width);
-    }
-    if (!entries.empty()) text.append("\n").append(topic).append(":\n").append(entries);
-  }
-  const auto commands = app->get_subcommands([](const CLI::App*) { return true; });
-  if (!commands.empty()) text += "\nCommands:\n";
-  for (const CLI::App* command : commands)
-    appendEntry(text, command->get_name(), command->get_description(), width);
-  if (hidden > 0)
-    text += "\n`" + fullName(*app) + " --help all` shows " + countText(hidden, "more option") + ".\n";
-  return text;
-}
-
-namespace {
 
 using Json = nlohmann::ordered_json;
 
@@ -246,15 +205,12 @@ void addCommand(const CLI::App& app, Json& commands, Json& options) {
   for (const CLI::App* command : own) addCommand(*command, commands, options);
 }
 
-}  // namespace
-
+/// The commands of this app, with those that they group, and all options of them.
 std::string helpJson(const CLI::App& app, const char* version) {
   Json json = {{"schema", 1}, {"version", version}, {"commands", Json::array()}, {"options", Json::array()}};
   addCommand(app, json["commands"], json["options"]);
   return jsonText(json);
 }
-
-namespace {
 
 std::vector<std::string> commandNames(const CLI::App& app) {
   std::vector<std::string> names;
@@ -311,16 +267,54 @@ const CLI::App& commandIn(const CLI::App& app, const std::vector<const char*>& w
 
 }  // namespace
 
+std::string rangeText(const CLI::Option& option) {
+  const OptionFacts facts = factsOf(option);
+  if (kindOf(option) != ValueKind::Number || !facts.least) return "";
+  return facts.most ? shortText(*facts.least) + " to " + shortText(*facts.most)
+                    : "from " + shortText(*facts.least) + " on";
+}
+
+std::string HelpText::make_help(const CLI::App* app, std::string /*name*/,
+                                CLI::AppFormatMode /*mode*/) const {
+  const size_t width = terminalWidth();
+  std::string text = app->get_description() + "\n\nUsage: ";
+  appendWrapped(text, usageOf(*app), 2, width);
+  appendPositionals(text, *app, width);
+  size_t hidden = 0;
+  std::vector<std::string> topics{kOwn};
+  topics.insert(topics.end(), kHelpTopics.begin(), kHelpTopics.end());
+  for (const std::string& topic : topics) {
+    std::string entries;
+    for (const CLI::Option* option : optionsOf(*app, topic)) {
+      if (!all && !factsOf(*option).everyday) {
+        ++hidden;
+        continue;
+      }
+      const std::string value = metavariableOf(*option);
+      appendEntry(entries, joined(formsOf(*option)) + (value.empty() ? "" : " " + value), describe(*option),
+                  width);
+    }
+    if (!entries.empty()) text.append("\n").append(topic).append(":\n").append(entries);
+  }
+  const auto commands = app->get_subcommands([](const CLI::App*) { return true; });
+  if (!commands.empty()) text += "\nCommands:\n";
+  for (const CLI::App* command : commands)
+    appendEntry(text, command->get_name(), command->get_description(), width);
+  if (hidden > 0)
+    text += "\n`" + fullName(*app) + " --help all` shows " + countText(hidden, "more option") + ".\n";
+  return text;
+}
+
 void addVersion(CLI::App& app) {
   app.set_version_flag("--version", std::string("fragtrace ") + kVersionText);
 }
 
-RunCommand addCommands(CLI::App& app, std::span<const CommandRow> rows) {
+RunCommand addCommands(CLI::App& app, std::span<const CommandRow> rows, std::string_view only) {
   app.require_subcommand(1);
   std::vector<std::pair<const CLI::App*, RunCommand>> commands;
   for (const CommandRow& row : rows) {
     CLI::App& command = *app.add_subcommand(row.name, row.sentence);
-    commands.emplace_back(&command, row.add(command));
+    if (only.empty() || only == row.name) commands.emplace_back(&command, row.add(command));
   }
   return [commands] {
     return std::ranges::find_if(commands, [](const auto& c) { return c.first->parsed(); })->second();
@@ -352,26 +346,27 @@ bool asksForJson(std::span<const char* const> words) {
   return false;
 }
 
-int runCommandLine(std::span<const CommandRow> rows, std::span<const char* const> given) {
-  CLI::App app(
-      "A path tracer for glTF whose tracing runs in an OpenGL shader.\n`fragtrace FILE` is short for "
-      "`fragtrace view FILE`.",
-      "fragtrace");
+namespace {
+
+/// Parses the words, the program's name first, into `app`. Returns what then runs; after help or version were
+/// printed, that returns 0. With `own`, the app has the options of the named command alone. Throws
+/// UsageError.
+RunCommand parseCommand(CLI::App& app, std::span<const CommandRow> rows, std::vector<const char*> words,
+                        bool own) {
   addVersion(app);
   const auto help = std::make_shared<HelpText>();
   app.formatter(help);
   app.set_help_flag("-h,--help", "print the options of every day and exit; --help all prints all");
-  const RunCommand run = addCommands(app, rows);
-  std::vector<const char*> words(given.begin(), given.end());
   const HelpForm form = takeHelpForm(words);
-  help->all = form == HelpForm::All;
-  if (form == HelpForm::Json) {
-    std::cout << helpJson(commandIn(app, words), kVersionText);
-    return 0;
-  }
   const auto word = [&](size_t i) {
     return i < words.size() ? std::optional<std::string>(words[i]) : std::nullopt;
   };
+  RunCommand run = addCommands(app, rows, own && form != HelpForm::Json ? word(1).value_or("") : "");
+  help->all = form == HelpForm::All;
+  if (form == HelpForm::Json) {
+    std::cout << helpJson(commandIn(app, words), kVersionText);
+    return [] { return 0; };
+  }
   checkCommand(app, word(1));
   const CLI::App* command = word(1)->starts_with('-') ? nullptr : app.get_subcommand(*word(1));
   if (command != nullptr && !commandNames(*command).empty()) checkCommand(*command, word(2));
@@ -379,7 +374,26 @@ int runCommandLine(std::span<const CommandRow> rows, std::span<const char* const
     const auto first = words.begin() + std::ptrdiff_t(std::min(words.size(), size_t(1)));
     parseWords(app, {first, words.end()}, "; --help says more");
   } catch (const CLI::Success& success) {
-    return app.exit(success, std::cout, std::cerr);
+    const int status = app.exit(success, std::cout, std::cerr);
+    return [status] { return status; };
+  }
+  return run;
+}
+
+}  // namespace
+
+int runCommandLine(std::span<const CommandRow> rows, std::span<const char* const> given) {
+  constexpr const char* kSentence =
+      "A path tracer for glTF whose tracing runs in an OpenGL shader.\n`fragtrace FILE` is short for "
+      "`fragtrace view FILE`.";
+  const std::vector<const char*> words(given.begin(), given.end());
+  auto app = std::make_unique<CLI::App>(kSentence, "fragtrace");
+  RunCommand run;
+  try {
+    run = parseCommand(*app, rows, words, true);
+  } catch (const UsageError&) {  // whose message names what other commands have
+    app = std::make_unique<CLI::App>(kSentence, "fragtrace");
+    run = parseCommand(*app, rows, words, false);
   }
   return run();
 }

@@ -4,16 +4,10 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
-
-namespace CLI {
-class App;
-}
-namespace CLI {
-class App;
-}
 
 namespace fragtrace {
 
@@ -31,15 +25,6 @@ struct CommandRow {
 
 // The text of --help.
 
-/// "fragtrace bench frame"
-std::string fullName(const CLI::App& app);
-
-/// "fragtrace diff [options] picture reference"
-std::string usageOf(const CLI::App& app);
-
-/// The forms of an option, short ones first: "-o", "--output".
-std::vector<std::string> formsOf(const CLI::Option& option);
-
 /// "0.01 to 1e+07", of a number that has a range; else empty.
 std::string rangeText(const CLI::Option& option);
 
@@ -53,9 +38,6 @@ class HelpText : public CLI::FormatterBase {
 };
 
 // `help --json`: the table of options for programs (docs/options-json.md).
-
-/// The commands of this app, with those that they group, and all options of them.
-std::string helpJson(const CLI::App& app, const char* version);
 
 /// Returns true if the words, not parsed yet, ask for JSON on stderr. Errors in them are then JSON, too.
 bool asksForJson(std::span<const char* const> words);
@@ -71,7 +53,8 @@ int runCommandLine(std::span<const CommandRow> rows, std::span<const char* const
 /// Declares --version, which prints the program's version.
 void addVersion(CLI::App& app);
 
-/// Adds the commands to an app that has nothing but commands; the result runs the one that was parsed.
-RunCommand addCommands(CLI::App& app, std::span<const CommandRow> rows);
+/// Adds the commands to an app that has nothing but commands; the result runs the one that was parsed. With
+/// the name of one, only that one's options are declared.
+RunCommand addCommands(CLI::App& app, std::span<const CommandRow> rows, std::string_view only = {});
 
 }  // namespace fragtrace

@@ -13,10 +13,12 @@
 #include "image/compare/bias.h"
 #include "image/compare/difference.h"
 #include "image/compare/flip.h"
+#include "image/display/tone_map.h"
 #include "image/image.h"
 #include "options/library/option_facts.h"
 #include "options/numbers.h"
 #include "options/option_text.h"
+#include "options/parse_render.h"
 #include "session/outputs.h"
 
 namespace fragtrace {
@@ -29,6 +31,7 @@ struct DiffOptions {
   std::optional<double> threshold;
   std::filesystem::path outfile;
   int tile = kBiasTile;
+  OcioView view;
 };
 
 /// The number, the lines that explain it, and the picture for --outfile.
@@ -56,19 +59,20 @@ std::string describe(const BiasTest& test, int side) {
 }
 
 /// Reads a picture, and says how its values were changed.
-Image readSaid(const std::filesystem::path& path) {
-  Image image = readImage(path);
+Image readSaid(const DiffOptions& options, const std::filesystem::path& path) {
+  Image image = options.view.view.empty() ? readImage(path) : readDisplayImage(path, options.view);
   for (const std::string& note : image.notes) reportMessage(path.string() + ": " + note);
   return image;
 }
 
 Comparison compareFiles(const DiffOptions& options) {
   if (options.metric == Metric::Flip) {
-    FlipError error = flipError(readDisplayImage(options.picture), readDisplayImage(options.reference));
+    FlipError error = flipError(readDisplayImage(options.picture, options.view),
+                                readDisplayImage(options.reference, options.view));
     return {error.mean, {}, std::move(error.map)};
   }
-  const Image picture = readSaid(options.picture);
-  const Image reference = readSaid(options.reference);
+  const Image picture = readSaid(options, options.picture);
+  const Image reference = readSaid(options, options.reference);
   if (options.metric == Metric::Bias) {
     BiasTest test = testBias(picture, reference, options.tile);
     return {test.chance, describe(test, options.tile), std::move(test.map)};
@@ -80,7 +84,9 @@ Comparison compareFiles(const DiffOptions& options) {
 /// Warns of stored values that mean different things.
 void warnOfKinds(const DiffOptions& options) {
   const bool ofDisplay = isDisplayFormat(options.picture);
-  if (options.metric == Metric::Flip || ofDisplay == isDisplayFormat(options.reference)) return;
+  if (options.metric == Metric::Flip || !options.view.view.empty() ||
+      ofDisplay == isDisplayFormat(options.reference))
+    return;
   const auto kind = [](const std::filesystem::path& path) {
     return path.string() + (isDisplayFormat(path) ? " holds sRGB values" : " holds linear radiance");
   };
@@ -92,7 +98,8 @@ void warnOfKinds(const DiffOptions& options) {
 std::string explanation(const DiffOptions& options) {
   const std::string name(metricNames()[size_t(options.metric)]);
   const bool comparesValues = options.metric != Metric::Flip && options.metric != Metric::Bias;
-  const char* values = !comparesValues ? ""
+  const char* values = !comparesValues              ? ""
+                       : !options.view.view.empty() ? "\nvalues: what the view shows, from 0 to 1"
                        : isDisplayFormat(options.picture)
                            ? "\nvalues: sRGB from 0 to 1; a step of 8 bits is 0.004"
                            : "\nvalues: linear radiance";
@@ -117,6 +124,7 @@ RunCommand addDiff(CLI::App& app) {
   struct Raw {
     DiffOptions options;
     std::string metric = "rmse";
+    RawRender render;
   };
   const auto raw = std::make_shared<Raw>();
   app.add_option("picture", raw->options.picture, "picture to compare")->type_name("FILE")->required();
@@ -138,11 +146,19 @@ RunCommand addDiff(CLI::App& app) {
       app.add_option("--tile", raw->options.tile, "pixels of a side of the tiles that --metric bias compares")
           ->capture_default_str()
           ->check(wholeNumber(1, 65536));
+  addOption(app, "--ocio-view", raw->render,
+            "compare linear pictures as this view of an OpenColorIO configuration shows them");
+  for (const char* name : {"--ocio-config", "--ocio-display", "--ocio-look", "--ocio-input"})
+    addOption(app, name, raw->render);
   return [raw, tile] {
     DiffOptions options = raw->options;
+    checkView(raw->render.options.output);
+    options.view = raw->render.options.output.ocio;
     options.metric = choose<Metric>("--metric", raw->metric, metricNames());
     if (tile->count() > 0 && options.metric != Metric::Bias)
       throw UsageError("--tile: only --metric bias compares tiles");
+    if (!options.view.view.empty() && options.metric == Metric::Bias)
+      throw UsageError("--ocio-view: --metric bias compares linear radiance");
     if (!options.outfile.empty() && !isWritableImageName(options.outfile)) {
       throw UsageError("--outfile: '" + options.outfile.string() +
                        "' ends in none of .png, .jpg, .exr, .hdr, .pfm");

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "cli/info_command.h"
-
+// Holds what `info` tells of a scene to somebody who has not made it.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <set>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -27,16 +30,52 @@
 #include "pack/gpu_scene.h"
 #include "scene/describe.h"
 #include "scene/parts.h"
+#include "scene/scene.h"
 #include "scene/volume/read_grid.h"
 #include "session/environment.h"
 #include "session/setup.h"
+#include "session/shutter.h"
 #include "session/statistics.h"
 #include "shader/render_options.h"
+#include "shader/traits.h"
 #include "shader/variant.h"
 
 namespace fragtrace {
 
 namespace {
+
+struct TextureContents {
+  const char* slot;  ///< "base colour"
+  std::string name;  ///< the file's, or the place in the scene's file
+  int width;
+  int height;
+};
+
+struct LampContents {
+  std::string name;  ///< that of the node
+  const char* type;
+  double intensity;
+  const char* unit;
+};
+
+struct FileContents {
+  std::string name;
+  uint64_t bytes;
+};
+
+/// Returns what would light the scene with these options: its own light, or a word of kDefaultLightNames.
+struct WhoLights {
+  std::string by;    ///< "own", or that word
+  std::string text;  ///< a clause
+};
+
+/// What drawing the scene takes.
+struct SceneCosts {
+  BvhQuality tree;
+  double bytesPerTriangle = 0.0;
+  size_t volumeBytes = 0;
+  TraitSet traits;
+};
 
 constexpr std::array kLampTypes{"point", "spot", "directional"};
 
@@ -48,8 +87,7 @@ std::string counted(size_t count, const char* one, const char* more) {
 /// Returns true if the picture is a file of its own.
 bool isFile(const EncodedImage& image) { return image.name != image.place && !image.place.empty(); }
 
-}  // namespace
-
+/// The materials, each once: some stand several times in a scene, for lines, points or open panes.
 std::vector<const Material*> materialsOf(const Scene& scene) {
   std::vector<const Material*> once;
   std::set<decltype(Material::number)> numbers;
@@ -58,6 +96,7 @@ std::vector<const Material*> materialsOf(const Scene& scene) {
   return once;
 }
 
+/// The textures of a material, in the order of kTextureRefs.
 std::vector<TextureContents> texturesOf(const Scene& scene, const Material& material) {
   std::vector<TextureContents> found;
   for (const TextureRefRow& row : kTextureRefs) {
@@ -72,6 +111,7 @@ std::vector<TextureContents> texturesOf(const Scene& scene, const Material& mate
   return found;
 }
 
+/// The punctual lights that nodes of the scene place.
 std::vector<LampContents> lampsOf(const Scene& scene) {
   std::vector<LampContents> lamps;
   for (const Light& light : scene.lights) {
@@ -82,6 +122,7 @@ std::vector<LampContents> lampsOf(const Scene& scene) {
   return lamps;
 }
 
+/// The scene's file and those that it refers to; one that is missing is left out.
 std::vector<FileContents> filesOf(const std::filesystem::path& path, const Scene& scene) {
   std::vector<std::filesystem::path> paths{path};
   paths.insert(paths.end(), scene.made.buffers.begin(), scene.made.buffers.end());
@@ -120,13 +161,12 @@ WhoLights whoLights(const RenderOptions& options, const Scene& scene) {
               (studio ? "the studio" : "a white environment") + " (--default-light)"};
 }
 
+/// "3.1 MB", "450 kB", "12 bytes"
 std::string bytesText(uint64_t bytes) {
   if (bytes < 1000) return countText(size_t(bytes), "byte");
   return bytes < 1'000'000 ? formatted("%.0f kB", double(bytes) / 1e3)
                            : formatted("%.1f MB", double(bytes) / 1e6);
 }
-
-namespace {
 
 constexpr size_t kMostListed = 40;  // materials; --verbose lists all
 
@@ -193,11 +233,12 @@ void printLight(const RenderOptions& options, const Scene& scene) {
 
 /// A duration, and the pictures of a film that shows all of it once, so that it plays without a seam.
 std::string durationText(double seconds) {
-  constexpr double kRounding = 1e-4;  // key times are floats
-  const double pictures = std::ceil(seconds * SequenceOptions{}.fps - kRounding);
+  const double pictures = std::ceil(seconds * SequenceOptions{}.fps - kKeyTimeRounding);
   return formatted("%.4g s", seconds) +
          (pictures > 1.0 ? formatted(": --frames 0:%.0f", pictures - 1.0) : "");
 }
+
+const char* kindOf(const Camera& camera) { return kCameraTypeNames[size_t(camera.type)].data(); }
 
 void printSelectable(const Scene& scene) {
   std::vector<std::string> cameras;
@@ -228,10 +269,7 @@ void printFiles(const std::vector<FileContents>& files) {
   printLine("refers to", joined(others));
 }
 
-}  // namespace
-
-const char* kindOf(const Camera& camera) { return kCameraTypeNames[size_t(camera.type)].data(); }
-
+/// The contents of a node, in words.
 std::vector<std::string> contentsOf(const SceneNode& node) {
   std::vector<std::string> words;
   if (node.mesh) words.emplace_back("mesh");
@@ -240,6 +278,7 @@ std::vector<std::string> contentsOf(const SceneNode& node) {
   return words;
 }
 
+/// A line for each node, indented below its parent.
 void printNodes(const std::vector<SceneNode>& nodes) {
   std::printf("  nodes       %zu\n", nodes.size());
   for (const SceneNode& node : nodes) {
@@ -250,6 +289,7 @@ void printNodes(const std::vector<SceneNode>& nodes) {
   }
 }
 
+/// The scene as somebody sees it who has not made it.
 void printContents(const RenderOptions& options, const Scene& scene, const SceneDescription& s) {
   const std::vector<FileContents> files = filesOf(options.scene, scene);
   std::printf("%s%s\n", options.scene.string().c_str(),
@@ -293,10 +333,8 @@ void printCosts(const SceneDescription& s, const SceneCosts& costs) {
   }
 }
 
-namespace {
-
 struct InfoOptions {
-  RenderOptions render;  ///< read are the file, and the options of reading it
+  RawRender raw;  ///< read are the file, and the options of reading it
   bool json = false;
   bool nodes = false;
   bool decode = false;
@@ -380,11 +418,11 @@ void addContents(nlohmann::ordered_json& json, const RenderOptions& options, con
 
 /// The grids of a volume's file.
 int informOfVolume(const InfoOptions& options) {
-  const std::filesystem::path& path = options.render.scene;
+  const std::filesystem::path& path = options.raw.options.scene;
   nlohmann::ordered_json json = {
       {"schema", 1}, {"file", path.string()}, {"grids", nlohmann::ordered_json::array()}};
   if (!options.json) std::printf("%s\n", path.string().c_str());
-  for (const GridDescription& grid : listGrids(path, options.render.limits.memoryBytes)) {
+  for (const GridDescription& grid : listGrids(path, options.raw.options.limits.memoryBytes)) {
     const glm::ivec3& v = grid.voxels;
     if (!options.json)
       std::printf("  grid        %s (%s%s), %d x %d x %d voxels, %s active\n", inQuotes(grid.name).c_str(),
@@ -410,15 +448,16 @@ int informOfVolume(const InfoOptions& options) {
 }
 
 int inform(const InfoOptions& options) {
-  if (options.render.scene.extension() == ".nvdb") return informOfVolume(options);
+  const RenderOptions& render = options.raw.options;
+  if (render.scene.extension() == ".nvdb") return informOfVolume(options);
   GltfOptions loading;
-  loading.selection = options.render.selection;
-  loading.instancing = options.render.device.instancing;
-  loading.limits = options.render.limits;
-  Scene scene = loadGltf(options.render.scene, loading);
-  placeVolume(scene, options.render, nullptr);
+  loading.selection = render.selection;
+  loading.instancing = render.device.instancing;
+  loading.limits = render.limits;
+  Scene scene = loadGltf(render.scene, loading);
+  placeVolume(scene, render, nullptr);
   for (const std::string& odd : {whyEmpty(scene, loading.selection), strayNode(scene)}) {
-    if (!odd.empty()) scene.warnings.push_back(options.render.scene.string() + ": " + odd);
+    if (!odd.empty()) scene.warnings.push_back(render.scene.string() + ": " + odd);
   }
   if (options.decode) {
     std::vector<EncodedPicture> pictures;
@@ -432,15 +471,15 @@ int inform(const InfoOptions& options) {
   const SceneDescription description = describe(scene);
   for (const std::string& warning : scene.warnings) std::cerr << "fragtrace: warning: " << warning << '\n';
   if (!options.json) {
-    printContents(options.render, scene, description);
-    if (options.render.output.verbose) printCosts(description, costsOf(scene));
+    printContents(render, scene, description);
+    if (render.output.verbose) printCosts(description, costsOf(scene));
     if (options.nodes) printNodes(scene.nodes);
     return 0;
   }
   const SceneCosts costs = costsOf(scene);
   nlohmann::ordered_json json;
   json["schema"] = 1;
-  json["file"] = options.render.scene.string();
+  json["file"] = render.scene.string();
   json["scene"] = sceneJson(description);
   json["bvh"] = bvhJson(costs.tree);
   if (costs.bytesPerTriangle > 0.0) json["gpu_bytes_per_triangle"] = costs.bytesPerTriangle;
@@ -456,7 +495,7 @@ int inform(const InfoOptions& options) {
   for (const Material* m : materialsOf(scene)) materials.push_back(m->name);
   json["material_names"] = materials;
   addParts(json, scene);
-  addContents(json, options.render, scene, description.bounds);
+  addContents(json, render, scene, description.bounds);
   if (options.nodes) json["nodes"] = nodesJson(scene.nodes);
   json["warnings"] = scene.warnings;
   std::cout << jsonText(json);
@@ -483,13 +522,13 @@ int tellDevices(bool asJson) {
 
 int runInfo(const InfoOptions& options) {
   if (options.devices) return tellDevices(options.json);
-  if (options.render.scene.empty()) throw UsageError("file is required");
+  if (options.raw.options.scene.empty()) throw UsageError("file is required");
   try {
     return inform(options);
   } catch (const std::exception& error) {
     if (options.json) {
       const nlohmann::ordered_json json = {
-          {"schema", 1}, {"file", options.render.scene.string()}, {"error", error.what()}};
+          {"schema", 1}, {"file", options.raw.options.scene.string()}, {"error", error.what()}};
       std::cout << jsonText(json);
     }
     throw;
@@ -499,24 +538,17 @@ int runInfo(const InfoOptions& options) {
 }  // namespace
 
 RunCommand addInfo(CLI::App& app) {
-  struct Raw {
-    RawRender render;
-    bool json = false;
-    bool nodes = false;
-    bool decode = false;
-    bool devices = false;
-  };
-  const auto raw = std::make_shared<Raw>();
-  addOption(app, "file", raw->render);
-  app.add_flag("--json", raw->json, "print one JSON object");
-  app.add_flag("--nodes", raw->nodes, "also list the nodes of the scene");
-  app.add_flag("--devices", raw->devices, "list the devices that --device chooses from, and no scene");
-  app.add_flag("--decode", raw->decode, "also decode the textures, so that a broken one is an error");
-  for (const OptionRow& row : inputRows()) addOption(app, row.name, raw->render);
-  addOption(app, "--instancing", raw->render);
-  addOption(app, "--verbose", raw->render,
+  const auto options = std::make_shared<InfoOptions>();
+  addOption(app, "file", options->raw);
+  app.add_flag("--json", options->json, "print one JSON object");
+  app.add_flag("--nodes", options->nodes, "also list the nodes of the scene");
+  app.add_flag("--devices", options->devices, "list the devices that --device chooses from, and no scene");
+  app.add_flag("--decode", options->decode, "also decode the textures, so that a broken one is an error");
+  for (const OptionRow& row : inputRows()) addOption(app, row.name, options->raw);
+  addOption(app, "--instancing", options->raw);
+  addOption(app, "--verbose", options->raw,
             "also print the tree and what it costs, and all materials of a file with many");
-  return [raw] { return runInfo({raw->render.options, raw->json, raw->nodes, raw->decode, raw->devices}); };
+  return [options] { return runInfo(*options); };
 }
 
 }  // namespace fragtrace

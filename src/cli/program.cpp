@@ -56,6 +56,21 @@ int prepareAndRun(const MainFunction& run, int argc, char** argv) {
   return run(argc, argv);
 }
 
+/// Returns true if standard output is a pipe that nobody reads any more.
+bool readerHasLeft() {
+  pollfd stream{STDOUT_FILENO, 0, 0};
+  return ::poll(&stream, 1, 0) == 1 && (stream.revents & POLLERR) != 0;
+}
+
+/// Throws RenderError where standard output could not take all that was printed; ends the process with
+/// status 1, without a word, where that is a pipe whose reader has left.
+void checkPrinted() {
+  std::cout.flush();
+  if (std::cout && std::fflush(stdout) == 0 && !std::ferror(stdout)) return;
+  if (readerHasLeft()) std::_Exit(1);  // a reader that leaves early, such as `| head`, needs no error message
+  throw RenderError("cannot write to standard output");
+}
+
 int statusOf(const MainFunction& run, int argc, char** argv) {
   try {
     const int status = prepareAndRun(run, argc, argv);
@@ -104,24 +119,7 @@ std::filesystem::path ownProgram(const std::string& name, const std::string& use
   }
 }
 
-namespace {
-
-/// Returns true if standard output is a pipe that nobody reads any more.
-bool readerHasLeft() {
-  pollfd stream{STDOUT_FILENO, 0, 0};
-  return ::poll(&stream, 1, 0) == 1 && (stream.revents & POLLERR) != 0;
-}
-
-}  // namespace
-
 bool standardOutputIsClosed() { return (::fcntl(STDOUT_FILENO, F_GETFL) & O_ACCMODE) == O_RDONLY; }
-
-void checkPrinted() {
-  std::cout.flush();
-  if (std::cout && std::fflush(stdout) == 0 && !std::ferror(stdout)) return;
-  if (readerHasLeft()) std::_Exit(1);  // a reader that leaves early, such as `| head`, needs no error message
-  throw RenderError("cannot write to standard output");
-}
 
 void writeTimeline() {
   if (const std::optional<TimelineFile> timeline = takeTimeline())

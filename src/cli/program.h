@@ -22,10 +22,6 @@ std::filesystem::path ownProgram(const std::string& name, const std::string& use
 /// left out, and a command that prints a result fails (checkPrinted).
 bool standardOutputIsClosed();
 
-/// Throws RenderError where standard output could not take all that was printed; ends the process with
-/// status 1, without a word, where that is a pipe whose reader has left.
-void checkPrinted();
-
 /// Writes the file of startTimeline(), if there is one. Throws RenderError.
 void writeTimeline();
 

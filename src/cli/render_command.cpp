@@ -4,13 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <utility>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include "base/errors.h"
 #include "base/report.h"
@@ -20,14 +18,15 @@
 #include "cli/program.h"
 #include "gl/program.h"
 #include "gltf/gltf.h"
+#include "image/files/header.h"
 #include "image/files/process.h"
+#include "image/files/whole_file.h"
 #include "options/command_text.h"
 #include "options/parse_render.h"
 #include "session/environment.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
 #include "session/picture/denoising.h"
-#include "session/picture/draw_samples.h"
 #include "session/picture/picture_file.h"
 #include "session/picture/sequence.h"
 #include "session/shutter.h"
@@ -65,8 +64,8 @@ void sayWhatWasDone(const RenderOptions& options, const std::string& name, const
                stats.times.renderMs / 1000.0, megaPathsPerSecond(stats), noise.c_str());
 }
 
-}  // namespace
-
+/// Draws, finishes and writes. `boxes` are drawn over it. Throws RenderError, UsageError, InputError (of a
+/// checkpoint).
 Outcome drawAndWrite(const PictureJob& job, const std::vector<PictureLine>& boxes,
                      const Destination& destination, Device& device, Statistics& stats) {
   const RenderOptions& options = job.options;
@@ -105,43 +104,16 @@ Outcome drawAndWrite(const PictureJob& job, const std::vector<PictureLine>& boxe
   return stats.complete ? Outcome::Complete : Outcome::Partial;
 }
 
-Outcome drawScene(const RenderOptions& asked, const Destination& destination, Device& device,
-                  Statistics& stats, bool showsProgress) {
-  // Step: load, and put what the shader variant reads on the device.
-  const RenderOptions drawn = withGuides(asked);
-  Session session;
-  session.set(drawn, device, stats);
-  LoadedScene& loaded = session.loaded();
-  const RenderOptions options = exposed(asked, loaded.light);
-  if (options.output.verbose && loaded.overrides.fit) {
-    RenderOptions placed = options;
-    placed.camera.overrides = asPlaced(loaded.camera, loaded.framed);
-    say(options, "--fit: the camera stands at " + viewText(placed));
-  }
-  const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);
-  session.releaseGeometry();
-
-  // Step: draw, and write.
-  const Outcome outcome =
-      drawAndWrite({options, loaded, session.tracer(), showsProgress}, boxes, destination, device, stats);
-  device.programs = session.tracer().renderer->takePrograms();
-  return outcome;
-}
-
-std::string nameOf(const OutputOptions& output) {
-  return output.toStandardOutput ? "standard output" : placeOf(output).string();
-}
-
+/// The context of a picture's events: its file.
 nlohmann::ordered_json eventContext(const RenderOptions& options) {
   return {{"output", options.output.toStandardOutput ? "-" : placeOf(options.output).string()}};
 }
-
-namespace {
 
 /// State that the pictures of a sequence share.
 struct SequenceRun {
   Device device;
   Session session;
+  SequenceProgress progress;
   std::unique_ptr<Video> video;  ///< the file that all pictures go to; null: there is none
 };
 
@@ -166,17 +138,38 @@ Outcome drawFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOp
       run.video = startVideo(options.output.file, loaded.region.size, picturesPerSecond(sequence));
     destination.video = run.video.get();
   }
-  const Outcome outcome =
-      drawAndWrite({options, loaded, run.session.tracer(), false}, boxes, destination, run.device, stats);
+  const PictureJob job{options, loaded, run.session.tracer(), false, {}, &run.progress};
+  const Outcome outcome = drawAndWrite(job, boxes, destination, run.device, stats);
   loaded.camera = camera;
   return outcome;
 }
 
-/// Returns true if there is a complete picture by that name. Files are replaced as a whole, so one with
-/// contents is complete.
-bool isWhole(const std::filesystem::path& path) {
-  std::error_code error;
-  return std::filesystem::is_regular_file(path, error) && std::filesystem::file_size(path, error) > 0;
+/// Says why the file of a sequence's picture is not what `options` ask for; empty: it is, as far as its size
+/// tells. A .png, .jpg or .pfm is read to its end.
+std::string whyDrawnAgain(const RenderOptions& options) {
+  const std::filesystem::path& path = options.output.file;
+  try {
+    const std::vector<uint8_t> bytes = readBytes(path, defaultMemoryLimit());
+    const ImageHeader header = readImageHeader(bytes);
+    const bool isPart = options.camera.region && header.format != ImageFormat::OpenExr;
+    const glm::ivec2 size(header.width, header.height);
+    const glm::ivec2 asked = isPart ? options.camera.region->size : options.camera.resolution.value_or(size);
+    if (size != asked) return formatted("%d x %d pixels, not %d x %d", size.x, size.y, asked.x, asked.y);
+    const bool isCut =
+        header.format == ImageFormat::Pfm && bytes.size() < decodedValues(header) * sizeof(float);
+    return isCut ? "the file is truncated" : "";
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+/// Returns true if the picture of --continue is there. A line tells of one that is not right.
+bool isKept(const RenderOptions& options) {
+  std::error_code unknown;
+  if (!std::filesystem::exists(options.output.file, unknown)) return false;
+  const std::string why = whyDrawnAgain(options);
+  if (!why.empty()) say(options, options.output.file.string() + ": " + why + "; it is drawn again");
+  return why.empty();
 }
 
 /// Numbers of a sequence's pictures.
@@ -187,17 +180,29 @@ struct SequenceCounts {
   int skipped = 0;
 };
 
-/// Draws all pictures that are wanted. If one fails, a message says so and the others are drawn. A stream
-/// ends there.
+std::string withoutName(std::string text, const std::string& name) {
+  for (size_t at = text.find(name); at != std::string::npos; at = text.find(name))
+    text.erase(at, name.size());
+  return text;
+}
+
+/// Draws all pictures that are wanted. If one fails, a message says so, unless it is that of the one before,
+/// and the others are drawn. A stream ends there.
 void drawFrames(const RenderOptions& options, SequenceRun& run, SequenceCounts& counts) {
   const SequenceOptions& sequence = options.output.sequence;
   const bool isStreamed = isStream(options.output);
+  // An estimate for the progress: pictures are not read yet, and another process may draw some of them.
+  int asked = 0;
+  for (int i = 0; i < counts.all; ++i)
+    asked += !sequence.keep || !std::filesystem::exists(frameOf(options, i).options.output.file);
+  std::string failedBefore;
   for (int i = 0; i < counts.all && interrupts() == 0 && !(isStreamed && counts.failed > 0); ++i) {
     const SequenceFrame frame = frameOf(options, i);
-    if (sequence.keep && isWhole(frame.options.output.file)) {
+    if (sequence.keep && isKept(frame.options)) {
       ++counts.skipped;
       continue;
     }
+    run.progress.begin(frame.number, i, counts.all, counts.drawn + counts.failed, asked);
     try {
       counts.drawn += drawFrame(run, frame, sequence) == Outcome::Complete;
     } catch (const UsageError&) {
@@ -208,7 +213,9 @@ void drawFrames(const RenderOptions& options, SequenceRun& run, SequenceCounts& 
       // A turntable's scene would be the same for every picture.
       const bool isInput = dynamic_cast<const InputError*>(&reason) != nullptr;
       if (isInput && sequence.turntable > 0 && !run.session.isLoaded()) throw;
-      reportError("picture " + std::to_string(frame.number) + ": " + reason.what());
+      const std::string said = withoutName(reason.what(), frame.options.output.file.string());
+      if (said != failedBefore) reportError(pictureIn(&run.progress) + reason.what());
+      failedBefore = said;
       ++counts.failed;
     }
   }
@@ -218,26 +225,28 @@ void drawFrames(const RenderOptions& options, SequenceRun& run, SequenceCounts& 
 bool endVideo(const RenderOptions& options, SequenceRun& run) {
   if (!run.video || run.video->encoder < 0 || run.video->count == 0) return false;
   try {
-    finishVideo(*run.video);
+    finishVideo(*run.video, frameCount(options.output.sequence));
   } catch (const RenderError&) {
     if (interrupts() == 0) throw;
     return false;
   }
   const glm::ivec2 size = run.video->size;
   const double perSecond = picturesPerSecond(options.output.sequence);
-  say(options, nameOf(options.output) + ": " + countText(size_t(run.video->count), "picture") +
+  say(options, run.video->kept.string() + ": " + countText(size_t(run.video->count), "picture") +
                    formatted(" of %d x %d, %.4g s at %.4g per second", size.x, size.y,
                              run.video->count / perSecond, perSecond));
   return true;
 }
 
-/// Says how far the pictures of a stream came, and returns the status.
-int sayHowStreamEnded(const RenderOptions& options, const SequenceCounts& counts, bool isKept) {
+/// Says how far the pictures of a stream came, and returns the status. `kept`: the file that holds them.
+int sayHowStreamEnded(const RenderOptions& options, const SequenceCounts& counts, bool isKept,
+                      const std::filesystem::path& kept) {
   const bool isCut = interrupts() > 0 && (counts.drawn + counts.failed < counts.all || !isKept);
-  std::string held = "nothing is written";
+  std::string held =
+      kept.empty() ? "nothing is written" : "what was encoded before that is in " + kept.string();
   if (isKept && counts.drawn > 0)
     held = std::to_string(counts.drawn) + " of " + countText(size_t(counts.all), "picture") +
-           (options.output.toStandardOutput ? " went to " : " are in ") + nameOf(options.output);
+           (options.output.toStandardOutput ? " went to standard output" : " are in " + kept.string());
   if (counts.failed > 0)
     reportError(held);
   else if (isCut)
@@ -256,8 +265,8 @@ int sayHowSequenceEnded(const RenderOptions& options, const SequenceCounts& coun
   return missing > 0 ? kInterruptedStatus : counts.failed > 0 ? 1 : 0;
 }
 
-}  // namespace
-
+/// Draws all pictures that are wanted of a sequence, to numbered files, a video or standard output, and ends
+/// as leave() does. Returns the status. Throws what all pictures have in common.
 int runSequence(const RenderOptions& options) {
   const SequenceOptions& sequence = options.output.sequence;
   SequenceRun run;
@@ -285,9 +294,39 @@ int runSequence(const RenderOptions& options) {
     throw;
   }
   const bool isKept = endVideo(options, run) || options.output.toStandardOutput;
-  run.video.reset();  // leave() destroys nothing, and the encoder would go on
-  return leave(isStream(options.output) ? sayHowStreamEnded(options, counts, isKept)
+  const std::filesystem::path kept = run.video ? run.video->kept : std::filesystem::path();
+  run.video.reset();  // leave() destroys nothing, and the encoder would continue
+  return leave(isStream(options.output) ? sayHowStreamEnded(options, counts, isKept, kept)
                                         : sayHowSequenceEnded(options, counts));
+}
+
+}  // namespace
+
+Outcome drawScene(const RenderOptions& asked, const Destination& destination, Device& device,
+                  Statistics& stats, bool showsProgress) {
+  // Step: load, and put what the shader variant reads on the device.
+  const RenderOptions drawn = withGuides(asked);
+  Session session;
+  session.set(drawn, device, stats);
+  LoadedScene& loaded = session.loaded();
+  const RenderOptions options = exposed(asked, loaded.light);
+  if (options.output.verbose && loaded.overrides.fit) {
+    RenderOptions placed = options;
+    placed.camera.overrides = asPlaced(loaded.camera, loaded.framed);
+    say(options, "--fit: the camera stands at " + viewText(placed));
+  }
+  const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);
+  session.releaseGeometry();
+
+  // Step: draw, and write.
+  const Outcome outcome =
+      drawAndWrite({options, loaded, session.tracer(), showsProgress}, boxes, destination, device, stats);
+  device.programs = session.tracer().renderer->takePrograms();
+  return outcome;
+}
+
+std::string nameOf(const OutputOptions& output) {
+  return output.toStandardOutput ? "standard output" : placeOf(output).string();
 }
 
 // `fragtrace render`: one picture by drawScene() of cli/render_command.cpp, one of each variant, or a

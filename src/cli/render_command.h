@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -26,11 +25,6 @@ struct Destination {
 /// A picture is written, written as far as it was drawn, or not written.
 enum class Outcome : uint8_t { Complete, Partial, None };
 
-/// Draws, finishes and writes. `boxes` are drawn over it. Throws RenderError, UsageError, InputError (of a
-/// checkpoint).
-Outcome drawAndWrite(const PictureJob& job, const std::vector<PictureLine>& boxes,
-                     const Destination& destination, Device& device, Statistics& stats);
-
 /// Loads the scene of the options, draws it and writes the picture. The device keeps its context, which is
 /// opened where there is none yet. Throws InputError, UsageError, RenderError, ContextError.
 Outcome drawScene(const RenderOptions& asked, const Destination& destination, Device& device,
@@ -38,12 +32,5 @@ Outcome drawScene(const RenderOptions& asked, const Destination& destination, De
 
 /// The name of the output in messages.
 std::string nameOf(const OutputOptions& output);
-
-/// The context of a picture's events: its file.
-nlohmann::ordered_json eventContext(const RenderOptions& options);
-
-/// Draws all pictures that are wanted of a sequence, to numbered files, a video or standard output, and ends
-/// as leave() does. Returns the status. Throws what all pictures have in common.
-int runSequence(const RenderOptions& options);
 
 }  // namespace fragtrace

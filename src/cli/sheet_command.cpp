@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `fragtrace sheet`: all models of a folder in one picture. Each cell is a picture of render, which stays in
-// a folder beside the sheet until the sheet is whole.
+// a folder next to the sheet until the sheet is whole.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>

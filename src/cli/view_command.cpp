@@ -21,10 +21,9 @@
 #include "session/picture/denoising.h"
 #include "session/say.h"
 #include "version_text.h"
+#include "view/exchange.h"
 #include "view/files.h"
-#include "view/live/view_loader.h"
 #include "view/live/view_tracer.h"
-#include "view/window.h"
 
 namespace fragtrace {
 
@@ -59,6 +58,7 @@ int runView(const ViewOptions& asked) {
     say(options.render,
         "warning: --vector-width 512 is left out: Mesa crashes when it draws windows with it");
   }
+  if (!options.warning.empty()) say(options.render, "warning: " + options.warning);
   for (const std::filesystem::path& other : options.others) {
     if (kindOfDropped(other) != DroppedFile::Scene)
       throw UsageError("'" + other.string() + "' is an argument too many: it is no model (.gltf, .glb)");
@@ -68,7 +68,7 @@ int runView(const ViewOptions& asked) {
   checkOutputs(files, inputsOf(options.render));
   if (!files[1].path.empty()) startTimeline(files[1].path);
   if (!options.reference.empty()) {
-    const Image reference = readReference(options.reference, options.render.limits.memoryBytes);
+    const Image reference = readReference(options.reference, options.render.limits.memoryBytes).image;
     if (!options.render.camera.resolution)
       options.render.camera.resolution = glm::ivec2(reference.width, reference.height);
   }
@@ -103,8 +103,8 @@ int runView(const ViewOptions& asked) {
   countOneInterrupt();
   std::vector<std::filesystem::path> models = options.others;
   models.insert(models.begin(), options.render.scene);
-  library.run({options.render, options.statusFile, options.reference, models, begin, end,
-               [] { return interrupts() > 0; }},
+  library.run({options.render, options.statusFile, options.reference, models, options.panel, options.warning,
+               begin, end, [] { return interrupts() > 0; }},
               exchange);
   return interrupts() > 0 ? kInterruptedStatus : 0;
 }
@@ -114,7 +114,7 @@ int runView(const ViewOptions& asked) {
 RunCommand addView(CLI::App& app) {
   const auto raw = std::make_shared<RawView>();
   addViewOptions(app, *raw);
-  return [raw, &app] { return runView(finishView(*raw, app)); };
+  return [raw, &app] { return runView(finishView(*raw, app, defaultsFile())); };
 }
 
 }  // namespace fragtrace

@@ -2,25 +2,26 @@
 #include "gl/context.h"
 
 #include <array>
-#include <cstdio>
 #include <cstring>
 #include <exception>
 #include <map>
 #include <mutex>
-#include <vector>
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
 #include "advice.h"
+#include "base/dynamic_library.h"
 #include "base/errors.h"
 #include "base/text.h"
 #include "gl/driver_choice.h"
-#include "gl/dynamic_library.h"
 #include "gl/gl.h"
 
 namespace fragtrace {
 
+namespace {
+
+/// Fills the function table and the context's facts; false with a reason when it is not OpenGL 4.5.
 bool loadFunctions(Context& context, GetProcAddress getProcAddress, std::string& reason) {
   const int version = gladLoadGL(getProcAddress);
   if (version < GLAD_MAKE_VERSION(4, 5)) {
@@ -41,8 +42,6 @@ bool loadFunctions(Context& context, GetProcAddress getProcAddress, std::string&
   if (GLAD_GL_KHR_parallel_shader_compile) glMaxShaderCompilerThreadsKHR(~0u);
   return true;
 }
-
-namespace {
 
 class Adopted : public Context {
  public:
@@ -89,35 +88,25 @@ std::unique_ptr<Context> makeContext(const DeviceOptions& options) {
 
 namespace {
 
-struct EglFunctions {
-  decltype(&eglGetProcAddress) getProcAddress = nullptr;
-  decltype(&eglInitialize) initialize = nullptr;
-  decltype(&eglTerminate) terminate = nullptr;
-  decltype(&eglBindAPI) bindApi = nullptr;
-  decltype(&eglChooseConfig) chooseConfig = nullptr;
-  decltype(&eglCreateContext) createContext = nullptr;
-  decltype(&eglDestroyContext) destroyContext = nullptr;
-  decltype(&eglMakeCurrent) makeCurrent = nullptr;
-  decltype(&eglQueryString) queryString = nullptr;
-  decltype(&eglGetError) getError = nullptr;
-  PFNEGLQUERYDEVICESEXTPROC queryDevices = nullptr;
-  PFNEGLQUERYDEVICESTRINGEXTPROC queryDeviceString = nullptr;
-  PFNEGLGETPLATFORMDISPLAYEXTPROC getPlatformDisplay = nullptr;
+struct EglFunctions : LibraryFunctions {
+  using LibraryFunctions::LibraryFunctions;
+  decltype(&eglGetProcAddress) getProcAddress = find("eglGetProcAddress");
+  decltype(&eglInitialize) initialize = find("eglInitialize");
+  decltype(&eglTerminate) terminate = find("eglTerminate");
+  decltype(&eglBindAPI) bindApi = find("eglBindAPI");
+  decltype(&eglChooseConfig) chooseConfig = find("eglChooseConfig");
+  decltype(&eglCreateContext) createContext = find("eglCreateContext");
+  decltype(&eglDestroyContext) destroyContext = find("eglDestroyContext");
+  decltype(&eglMakeCurrent) makeCurrent = find("eglMakeCurrent");
+  decltype(&eglQueryString) queryString = find("eglQueryString");
+  decltype(&eglGetError) getError = find("eglGetError");
+  PFNEGLQUERYDEVICESEXTPROC queryDevices = extension("eglQueryDevicesEXT");
+  PFNEGLQUERYDEVICESTRINGEXTPROC queryDeviceString = extension("eglQueryDeviceStringEXT");
+  PFNEGLGETPLATFORMDISPLAYEXTPROC getPlatformDisplay = extension("eglGetPlatformDisplayEXT");
 
-  bool load(const DynamicLibrary& library) {
-    const bool complete =
-        library.find("eglGetProcAddress", getProcAddress) && library.find("eglInitialize", initialize) &&
-        library.find("eglTerminate", terminate) && library.find("eglBindAPI", bindApi) &&
-        library.find("eglChooseConfig", chooseConfig) && library.find("eglCreateContext", createContext) &&
-        library.find("eglDestroyContext", destroyContext) && library.find("eglMakeCurrent", makeCurrent) &&
-        library.find("eglQueryString", queryString) && library.find("eglGetError", getError);
-    if (!complete) return false;
-    queryDevices = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(getProcAddress("eglQueryDevicesEXT"));
-    queryDeviceString =
-        reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(getProcAddress("eglQueryDeviceStringEXT"));
-    getPlatformDisplay =
-        reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(getProcAddress("eglGetPlatformDisplayEXT"));
-    return getPlatformDisplay != nullptr;
+ private:
+  Symbol extension(const char* name) const {
+    return {getProcAddress ? reinterpret_cast<void*>(getProcAddress(name)) : nullptr};
   }
 };
 
@@ -242,17 +231,13 @@ std::unique_ptr<Context> tryCandidate(const EglFunctions& egl, const Candidate& 
   return result;
 }
 
-}  // namespace
-
-namespace {
-
 /// The functions of EGL; none: `reason` says why.
 const EglFunctions* eglFunctions(std::string& reason) {
   static const DynamicLibrary library({"libEGL.so.1", "libEGL.so"});
-  static EglFunctions egl;
-  static const bool complete = library.loaded() && egl.load(library);
-  if (!complete) reason = library.loaded() ? "the library lacks functions of EGL 1.5" : library.error();
-  return complete ? &egl : nullptr;
+  static const EglFunctions egl(library);
+  if (egl.complete() && egl.getPlatformDisplay) return &egl;
+  reason = library.loaded() ? "the library lacks functions of EGL 1.5" : library.error();
+  return nullptr;
 }
 
 bool isNumber(const std::string& text) {
@@ -315,18 +300,14 @@ constexpr int kMinorVersion = 0x37;
 /// The type of a surface's components, GL_UNSIGNED_BYTE.
 constexpr unsigned kUnsignedByte = 0x1401;
 
-struct OsMesaFunctions {
-  OsMesaHandle (*createContext)(const int* attributes, OsMesaHandle shared) = nullptr;
-  void (*destroyContext)(OsMesaHandle) = nullptr;
-  unsigned char (*makeCurrent)(OsMesaHandle, void* pixels, unsigned type, int width, int height) = nullptr;
-  GetProcAddress getProcAddress = nullptr;
-
-  bool load(const DynamicLibrary& library) {
-    return library.find("OSMesaCreateContextAttribs", createContext) &&
-           library.find("OSMesaDestroyContext", destroyContext) &&
-           library.find("OSMesaMakeCurrent", makeCurrent) &&
-           library.find("OSMesaGetProcAddress", getProcAddress);
-  }
+struct OsMesaFunctions : LibraryFunctions {
+  using LibraryFunctions::LibraryFunctions;
+  OsMesaHandle (*createContext)(const int* attributes,
+                                OsMesaHandle shared) = find("OSMesaCreateContextAttribs");
+  void (*destroyContext)(OsMesaHandle) = find("OSMesaDestroyContext");
+  unsigned char (*makeCurrent)(OsMesaHandle, void* pixels, unsigned type, int width,
+                               int height) = find("OSMesaMakeCurrent");
+  GetProcAddress getProcAddress = find("OSMesaGetProcAddress");
 };
 
 constexpr int kSurfaceSize = 4;  // pixels; the tracer writes to images, never to this surface
@@ -360,8 +341,8 @@ std::unique_ptr<Context> makeOsMesaContext(std::string& tried) {
     return nullptr;
   };
   if (!library.loaded()) return fail(library.error());
-  OsMesaFunctions functions;
-  if (!functions.load(library)) return fail("the library lacks OSMesaCreateContextAttribs");
+  const OsMesaFunctions functions(library);
+  if (!functions.complete()) return fail("the library lacks OSMesaCreateContextAttribs");
   const int wish[] = {kFormat,       kRgba, kDepthBits,    0, kProfile, kCoreProfile,
                       kMajorVersion, 4,     kMinorVersion, 5, 0};
   OsMesaHandle native = functions.createContext(wish, nullptr);

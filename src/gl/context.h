@@ -64,7 +64,4 @@ struct SharedContexts {
 /// Enters that context, which is current until the result is destroyed. Throws ContextError.
 std::unique_ptr<Context> makeContext(const OutsideContext& outside);
 
-/// Fills the function table and the context's facts; false with a reason when it is not OpenGL 4.5.
-bool loadFunctions(Context& context, GetProcAddress getProcAddress, std::string& reason);
-
 }  // namespace fragtrace

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdlib>
 #include <filesystem>
-#include <string>
 #include <string_view>
 
 #include "base/parallel.h"
@@ -98,9 +97,9 @@ int freeImageUnit(const ShaderVariant& variant) {
   return -1;
 }
 
-/// On llvmpipe the wavefront takes 0.25 to 0.45 s longer to compile, and saves 0.1 to 1.4 us of processor
-/// time per path. That is even at a quarter of a million paths in the room with the ball, and at two million
-/// in Suzanne.
+/// On llvmpipe the wavefront takes 0.3 to 1.3 s longer to compile. It gains where paths are long in a large
+/// tree (docs/measurements/traversal.md), so that it is even after a quarter of a million paths in the room
+/// with the ball.
 constexpr double kFewPaths = 2e6;
 /// Rays of so few steps hardly wait for each other: many-lights, of 274 nodes, takes equally long with both.
 constexpr size_t kSmallTree = 512;
@@ -125,6 +124,8 @@ std::string whyMegakernel(const ShaderVariant& variant, const RenderOptions& opt
   if (!work.software) return "a GPU, where the megakernel is faster";
   const bool longPaths = has(variant.traits, Trait::Scattering);
   if (!longPaths && work.nodes < kSmallTree) return "a small tree";
+  if (!longPaths && has(variant.traits, Trait::LightTree)) return "lamps are chosen by a tree";
+  if (!longPaths && has(variant.traits, Trait::Environment)) return "paths end in the surroundings";
   return work.paths < (longPaths ? kFewLongPaths : kFewPaths) ? "few paths" : "";
 }
 

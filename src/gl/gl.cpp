@@ -5,7 +5,6 @@
 #include <chrono>
 #include <limits>
 #include <thread>
-#include <utility>
 
 #include "base/errors.h"
 #include "base/report.h"

@@ -37,11 +37,11 @@ struct GltfOptions {
 /// An animated file as it was read, for further poses: its bytes are not read again.
 struct KeptDocument;
 
-/// Reads a .gltf (with files beside it or data URIs) or .glb into a Scene whose geometry is recentred. Throws
-/// InputError that names the file, the JSON pointer and the reason, and UsageError for a selection that is
-/// not in the file. Scene::warnings lists what is skipped. With `kept`, an animated file is stored there, and
-/// the next call reads it from there: a call for the same file, whose options differ only in pose, camera and
-/// origin. A call that throws may leave nothing there.
+/// Reads a .gltf (with files next to it or data URIs) or .glb into a Scene whose geometry is recentred.
+/// Throws InputError that names the file, the JSON pointer and the reason, and UsageError for a selection
+/// that is not in the file. Scene::warnings lists what is skipped. With `kept`, an animated file is stored
+/// there, and the next call reads it from there: a call for the same file, whose options differ only in pose,
+/// camera and origin. A call that throws may leave nothing there.
 Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options = {},
                std::shared_ptr<KeptDocument>* kept = nullptr);
 

@@ -30,7 +30,7 @@ inline constexpr const char* kObservedChannel = "denoising.observed.Y";
 /// variances, texture coordinates, and the identifiers of Cryptomatte.
 bool isStoredAsHalf(std::string_view channel);
 
-/// The layer of a light group: "light_" and its name, with _ in place of characters that programs for
+/// The layer of a light group: "light_" and its name, with _ instead of characters that programs for
 /// compositing do not take in names.
 std::string lightLayer(std::string_view group);
 

@@ -2,7 +2,6 @@
 #include "image/format.h"
 
 #include <algorithm>
-#include <string>
 #include <string_view>
 
 #include "base/text.h"

@@ -8,8 +8,6 @@
 #include <cmath>
 #include <limits>
 
-#include <glm/glm.hpp>
-
 #include "base/errors.h"
 #include "base/vectors.h"
 #include "image/channels.h"
@@ -19,30 +17,6 @@ namespace fragtrace {
 namespace {
 
 std::string inMegabytes(uint64_t bytes) { return std::to_string((bytes + 999'999) / 1'000'000) + " MB"; }
-
-}  // namespace
-
-uint64_t defaultMemoryLimit() {
-  uint64_t limit = uint64_t(8) << 30;
-  const long pages = ::sysconf(_SC_PHYS_PAGES);
-  const long pageSize = ::sysconf(_SC_PAGESIZE);
-  if (pages > 0 && pageSize > 0) limit = std::min(limit, uint64_t(pages) * uint64_t(pageSize) / 2);
-  rlimit address{};
-  if (::getrlimit(RLIMIT_AS, &address) == 0 && address.rlim_cur != RLIM_INFINITY)
-    limit = std::min(limit, uint64_t(address.rlim_cur));
-  return limit;
-}
-
-void MemoryBudget::take(uint64_t bytes) {
-  if (bytes > limit_ - taken_) {
-    const uint64_t wanted = bytes > UINT64_MAX - taken_ ? UINT64_MAX : taken_ + bytes;
-    throw AtStake("would take " + inMegabytes(wanted) + " of memory, more than the " + inMegabytes(limit_) +
-                  " of --memory-limit");
-  }
-  taken_ += bytes;
-}
-
-namespace {
 
 constexpr float kRounding = 1e-6f;  // smaller changes of alpha are rounding
 constexpr float kNearlyFilled = 0.98f;
@@ -73,6 +47,26 @@ ColorRange colorsAround(const Image& picture, size_t index) {
 }
 
 }  // namespace
+
+uint64_t defaultMemoryLimit() {
+  uint64_t limit = uint64_t(8) << 30;
+  const long pages = ::sysconf(_SC_PHYS_PAGES);
+  const long pageSize = ::sysconf(_SC_PAGESIZE);
+  if (pages > 0 && pageSize > 0) limit = std::min(limit, uint64_t(pages) * uint64_t(pageSize) / 2);
+  rlimit address{};
+  if (::getrlimit(RLIMIT_AS, &address) == 0 && address.rlim_cur != RLIM_INFINITY)
+    limit = std::min(limit, uint64_t(address.rlim_cur));
+  return limit;
+}
+
+void MemoryBudget::take(uint64_t bytes) {
+  if (bytes > limit_ - taken_) {
+    const uint64_t wanted = bytes > UINT64_MAX - taken_ ? UINT64_MAX : taken_ + bytes;
+    throw AtStake("would take " + inMegabytes(wanted) + " of memory, more than the " + inMegabytes(limit_) +
+                  " of --memory-limit");
+  }
+  taken_ += bytes;
+}
 
 bool hasNoisyAlpha(const Image& picture) {
   return picture.attributes.contains(kNoisyAlphaAttribute) && findChannel(picture, "A");

@@ -123,8 +123,10 @@ struct TexelImage {
   std::shared_ptr<const void> memory;  ///< keeps the values alive
 };
 
+struct OcioView;  // image/display/tone_map.h
+
 /// Reads a picture file (.pfm by our own code, the rest through the image library). .exr, .hdr and .pfm give
-/// linear floats of Rec. 709 as their headers say (image/files/picture_files.h); 8 and 16 bit files are
+/// linear floats of Rec. 709 as their headers say (image/files/picture_files.cpp); 8 and 16 bit files are
 /// scaled to 0..1 and left sRGB-encoded, alpha unassociated there. Throws InputError, also when it would take
 /// more than `memoryLimit` bytes.
 Image readImage(const std::filesystem::path& path, uint64_t memoryLimit = defaultMemoryLimit());
@@ -137,8 +139,9 @@ Image wholeOf(Image part);
 Image readStoredImage(const std::filesystem::path& path, uint64_t memoryLimit = defaultMemoryLimit());
 
 /// Does the same as shown on a display: .exr, .hdr and .pfm (by their first bytes) through toDefaultDisplay,
-/// the rest as stored. Throws InputError, or RenderError where there is no colour to tone-map.
-Image readDisplayImage(const std::filesystem::path& path);
+/// the rest as stored. A `view` with a name takes the place of the curve. Throws InputError, or RenderError
+/// where there is no colour to show.
+Image readDisplayImage(const std::filesystem::path& path, const OcioView& view);
 
 /// All channels as linear values, as stored (readStoredImage); an 8 or 16 bit file's are decoded from sRGB,
 /// so they are at most 1.
@@ -159,7 +162,7 @@ bool isWritableImageName(const std::filesystem::path& path);
 /// True for .png and .jpg/.jpeg: formats that hold tone-mapped, sRGB-encoded values.
 bool isDisplayFormat(const std::filesystem::path& path);
 
-/// Writes beside the target and renames, so that the target is the old file or the new one, whole. The
+/// Writes next to the target and renames, so that the target is the old file or the new one, whole. The
 /// picture's values are written as they are (rounded to 8 bits for .png and .jpg, to 16 where asked);
 /// channels R, G, B and optionally A, and more for .exr (32-bit float, or 16-bit where asked). Colour is
 /// taken as unassociated for .png. Returns how many values were beyond the largest 16-bit float and became

@@ -81,6 +81,9 @@ constexpr VainRow kRows[] = {
      },
      "changes .png and .jpg of 8 bits only"},
     {"--exposure", isLinear, "changes .png and .jpg only; this file holds linear radiance"},
+    {"--ocio-view", isLinear, "changes .png and .jpg only; this file holds linear radiance"},
+    {"--tone-map", [](const Options& o) { return !o.output.ocio.view.empty(); },
+     "--ocio-view takes its place"},
     {"--tone-map", isLinear, "changes .png and .jpg only; this file holds linear radiance"},
     {"--output",
      [](const Options& o) {
@@ -376,7 +379,7 @@ void checkLightPaths(const RenderOptions& o) {
     throw UsageError("--caustics on: emission, diffuse and specular (--aov) would not add up to the picture");
 }
 
-/// Refuses options beside spatial reuse. Pixels take light samples of others in the same pass of the whole
+/// Refuses options next to spatial reuse. Pixels take light samples of others in the same pass of the whole
 /// picture, so their errors are alike.
 void checkReuse(const RenderOptions& o) {
   if (o.light.reuse != LightReuse::Spatial) return;
@@ -404,6 +407,16 @@ void checkVariants(const OutputOptions& o) {
 
 }  // namespace
 
+void checkView(const OutputOptions& o) {
+  for (const auto& [option, name] : {std::pair("--ocio-config", &o.ocio.config),
+                                     {"--ocio-display", &o.ocio.display},
+                                     {"--ocio-look", &o.ocio.look},
+                                     {"--ocio-input", &o.ocio.input}}) {
+    if (o.ocio.view.empty() && !name->empty())
+      throw UsageError(std::string(option) + ": goes with --ocio-view");
+  }
+}
+
 RenderOptions finishRender(const RawRender& raw) {
   RenderOptions o = raw.options;
   chooseFormat(o.output);
@@ -415,6 +428,9 @@ RenderOptions finishRender(const RawRender& raw) {
   o.sampling.spp = samplesOf(o, most);
   checkLens(o.camera.lens);
   checkCamera(o);
+  if (raw.given.contains("--focal-length") &&
+      o.camera.overrides.type.value_or(CameraType::Perspective) != CameraType::Perspective)
+    throw UsageError("--focal-length: is of perspective cameras");
   checkShutter(o);
   checkStudio(o.light);
   checkGround(o);
@@ -422,6 +438,10 @@ RenderOptions finishRender(const RawRender& raw) {
   checkFog(o);
   checkVolume(o);
   checkOutput(o, raw.anyOutput);
+  checkView(o.output);
+  if (!o.output.ocio.view.empty() && pageOf(o))
+    throw UsageError(
+        "--ocio-view: not with --background-color, whose colour no view may change (--no-background)");
   checkLightPaths(o);
   checkReuse(o);
   return o;
@@ -474,13 +494,16 @@ void checkSequence(const RenderOptions& options) {
   const auto refuse = [&](const std::string& why) {
     throw UsageError(std::string(isTurntable ? "--turntable" : "--frames") + ": " + why);
   };
+  if (isTurntable && sequence.frames && sequence.frames->last >= sequence.turntable)
+    throw UsageError("--frames: --turntable " + std::to_string(sequence.turntable) + " has pictures 0 to " +
+                     std::to_string(sequence.turntable - 1));
   if (allVariants) refuse("goes with one variant, not with --material-variant all");
   if (const std::string reason = whyNotTo(options); !reason.empty()) refuse(reason);
   if (!options.output.statsFile.empty() && !isNumbered(options.output.statsFile))
     refuse("the name of --stats needs #### where the number of the picture goes");
   if (options.selection.animationTime && !isTurntable) refuse("--animation-time is of a single picture");
   if (options.output.checkpointSeconds > 0.0 || options.output.resume)
-    refuse("--checkpoint and --resume are of a single picture; --continue goes on with numbered pictures");
+    refuse("--checkpoint and --resume are of a single picture; --continue is of numbered pictures");
   if (options.device.traversal == TraversalMethod::Literals)
     refuse("--traversal literals would compile a shader for each picture");
 }

@@ -278,7 +278,7 @@ std::vector<OptionRow> inputRows() {
       word(
           "--material-variant",
           "name or index of the material variant; `fragtrace info` lists the variants; `render` draws all of "
-          "them by 'all', each to --output with its name in place of #",
+          "them by 'all', each to --output with its name instead of #",
           FRAGTRACE_MEMBER(selection.materialVariant), kScene),
       listRow("--hide",
               "name or index of a node to hide, together with everything below it; can be given several "

@@ -98,6 +98,23 @@ CLI::Validator realNumber(double least, double most) {
   });
 }
 
+CLI::Validator frameRate(double least, double most) {
+  return withFacts({.least = least, .most = most}, [=, bounds = realNumber(least, most)](std::string& text) {
+    if (const size_t bar = text.find('/'); bar != std::string::npos) {
+      const std::optional<double> above = numberIn(text.substr(0, bar));
+      const std::optional<double> below = numberIn(text.substr(bar + 1));
+      if (!above || !below || *below == 0.0) return "'" + text + "' is no fraction such as 30000/1001";
+      text = exactText(*above / *below);
+    }
+    if (std::string wrong = bounds(text); !wrong.empty()) return wrong;
+    for (const double whole : {24.0, 30.0, 48.0, 60.0, 120.0}) {
+      const double rate = whole * 1000.0 / 1001.0;
+      if (std::abs(*numberIn(text) - rate) < 2e-6 * rate) text = exactText(rate);
+    }
+    return std::string();
+  });
+}
+
 CLI::Validator oneOf(const std::vector<std::string>& names) {
   return withFacts({.choices = names}, [names](const std::string& text) {
     return std::ranges::find(names, text) != names.end() ? std::string() : whyNoneOf(text, names);

@@ -30,6 +30,10 @@ CLI::Validator realNumberFrom(double least);
 /// Does the same within these bounds.
 CLI::Validator realNumber(double least, double most);
 
+/// Pictures per second within these bounds, as a number or a fraction; the text becomes the plain number. The
+/// rounded names of broadcast rates mean these: 23.976 is 24000/1001 (SMPTE ST 12-1).
+CLI::Validator frameRate(double least, double most);
+
 /// Accepts one of these names.
 CLI::Validator oneOf(const std::vector<std::string>& names);
 

@@ -455,14 +455,23 @@ std::string memberMeant(std::string name, const CLI::App& command) {
   return meant.empty() ? "" : "; did you mean " + meant.substr(2) + "?";
 }
 
+/// Each says who lights the scene.
+constexpr std::initializer_list<const char*> kLighting = {
+    "hdri-file", "studio", "studio-look", "sky", "default-light", "no-default-light", "shop"};
+
 /// Gives the command all options of the file that its command line has not given, nor one that excludes them.
-/// Returns their names.
-std::set<std::string> applyFile(const std::filesystem::path& path, CLI::App& command) {
+/// Those of a file of defaults do not meet others, switches included. Returns their names.
+std::set<std::string> applyFile(const std::filesystem::path& path, CLI::App& command,
+                                bool isDefaults = false) {
   const Json json = parseFile(path);
   std::set<const CLI::Option*> given;
   for (const CLI::Option* option : command.get_options()) {
     if (option->count() > 0) given.insert(option);
   }
+  const auto isGiven = [&](const char* name) {
+    return given.contains(command.get_option_no_throw(std::string("--") + name));
+  };
+  const bool isLit = isDefaults && std::ranges::any_of(kLighting, isGiven);
   std::set<std::string> taken;
   for (const auto& [name, value] : json.items()) {
     if (name == "$schema") continue;  // where editors find what the file may hold
@@ -471,8 +480,9 @@ std::set<std::string> applyFile(const std::filesystem::path& path, CLI::App& com
     if (option == nullptr || name == "config" || name == "help" || name == "version")
       throw InputError(place + ": is no option of " + command.get_name() + memberMeant(name, command));
     // Switches of the command line count more one by one, not as a list.
-    const bool isSwitch = name == "enable" || name == "disable";
-    bool overruled = given.contains(option) && !isSwitch;
+    const bool isSwitch = !isDefaults && (name == "enable" || name == "disable");
+    bool overruled = (given.contains(option) && !isSwitch) ||
+                     (isLit && std::ranges::find(kLighting, name) != kLighting.end());
     for (const CLI::Option* excluded : option->get_excludes()) {
       overruled = overruled || given.contains(excluded);
       if (!overruled && excluded->count() > 0)
@@ -512,20 +522,28 @@ void addConfigOption(CLI::App& app, std::string& file) {
       ->type_name("FILE");
 }
 
-int runConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App& command,
-                  const std::function<int(const RenderOptions&)>& run) {
+namespace {
+
+int runFiles(RawRender& raw, const std::filesystem::path& config, const std::filesystem::path& defaults,
+             CLI::App& command, const std::function<int(const RenderOptions&)>& run) {
   const auto noteGiven = [&] {
     for (const CLI::Option* option : command.get_options()) {
       if (option->count() > 0) raw.given.insert(option->get_name());
     }
   };
-  if (config.empty()) {
+  if (config.empty() && defaults.empty()) {
     noteGiven();
     return run(finishRender(raw));
   }
   std::vector<std::string> enable = std::exchange(raw.enable, {});
   std::vector<std::string> disable = std::exchange(raw.disable, {});
-  const std::set<std::string> taken = applyFile(config, command);
+  std::map<std::string, std::filesystem::path> taken;
+  if (!config.empty()) {
+    for (const std::string& name : applyFile(config, command)) taken[name] = config;
+  }
+  if (!defaults.empty()) {
+    for (const std::string& name : applyFile(defaults, command, true)) taken.emplace(name, defaults);
+  }
   raw.fileEnable = std::exchange(raw.enable, std::move(enable));
   raw.fileDisable = std::exchange(raw.disable, std::move(disable));
   noteGiven();
@@ -534,18 +552,26 @@ int runConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App&
   } catch (const UsageError& error) {
     // Messages about options begin with the option's name: "--region: ..." or "--output -: ...".
     const std::string text = error.what();
-    for (const std::string& name : taken) {
+    for (const auto& [name, file] : taken) {
       const std::string option = "--" + name;
       if (text.starts_with(option + ": ") || text.starts_with(option + " "))
-        throw InputError(placeOf(config, name) + afterName(text, name));
+        throw InputError(placeOf(file, name) + afterName(text, name));
     }
     throw;
   }
 }
 
-RenderOptions finishConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App& command) {
+}  // namespace
+
+int runConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App& command,
+                  const std::function<int(const RenderOptions&)>& run) {
+  return runFiles(raw, config, {}, command, run);
+}
+
+RenderOptions finishConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App& command,
+                               const std::filesystem::path& defaults) {
   RenderOptions finished;
-  runConfigured(raw, config, command, [&](const RenderOptions& options) {
+  runFiles(raw, config, defaults, command, [&](const RenderOptions& options) {
     finished = options;
     return 0;
   });

@@ -94,6 +94,9 @@ void addDeviceOptions(CLI::App& app, RawRender& raw);
 /// Settles the options that depend on others, and checks that they go together. Throws UsageError.
 RenderOptions finishRender(const RawRender& raw);
 
+/// Throws UsageError where --ocio-display or another option of a view stands without --ocio-view.
+void checkView(const OutputOptions& output);
+
 /// Throws UsageError where the file's format has no such choice.
 void checkEncoding(const Encoding& encoding, const std::filesystem::path& output);
 
@@ -112,7 +115,10 @@ void addConfigOption(CLI::App& app, std::string& file);
 int runConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App& command,
                   const std::function<int(const RenderOptions&)>& run);
 
-/// Does the same for a caller that runs nothing yet: the options.
-RenderOptions finishConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App& command);
+/// Does the same for a caller that runs nothing yet: the options. `defaults` is another such file (none: an
+/// empty path), whose options count where neither command line nor `config` has them; what they say of who
+/// lights the scene ends where those do.
+RenderOptions finishConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App& command,
+                               const std::filesystem::path& defaults = {});
 
 }  // namespace fragtrace

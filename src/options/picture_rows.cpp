@@ -151,10 +151,11 @@ FrameRange framesOf(const std::string& text) {
 }
 
 OptionRow framesRow(const OptionTraits& traits) {
-  OptionRow row = memberRow("--frames",
-                            "A:B or A:B:STEP: render pictures A to B of the animation (B included), each to "
-                            "--output with its number in place of ####, or all to a video",
-                            FRAGTRACE_MEMBER(output.sequence.frames), traits);
+  OptionRow row = memberRow(
+      "--frames",
+      "A:B or A:B:STEP: render pictures A to B of the animation, or of --turntable (B included), each to "
+      "--output with its number instead of ####, or all to a video",
+      FRAGTRACE_MEMBER(output.sequence.frames), traits);
   row.examples = {"0:59", "10:9999999:3"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
     addWord(app, r, raw,
@@ -164,6 +165,23 @@ OptionRow framesRow(const OptionTraits& traits) {
     const FrameRange& range = *o.output.sequence.frames;
     return std::vector{std::to_string(range.first) + ":" + std::to_string(range.last) + ":" +
                        std::to_string(range.step)};
+  };
+  return row;
+}
+
+OptionRow rateRow(const OptionTraits& traits) {
+  constexpr NumberRange<double> kRates{0.001, 1e6};
+  OptionRow row = number<double>(
+      "--fps",
+      "frames per second: picture k of --frames shows the animation at k / FPS seconds; a video shows so "
+      "many, or, with a STEP, FPS / STEP; a number, or a fraction such as 30000/1001; 23.976, 29.97, 47.952, "
+      "59.94 and 119.88 mean the exact rates of broadcast, such as 24000/1001",
+      FRAGTRACE_MEMBER(output.sequence.fps), kRates, traits);
+  row.examples.push_back("30000/1001");
+  row.add = [=](CLI::App& app, const OptionRow& r, RawRender& raw) {
+    app.add_option(r.name, raw.options.output.sequence.fps, r.help)
+        ->transform(frameRate(kRates.least, kRates.most))
+        ->capture_default_str();
   };
   return row;
 }
@@ -197,13 +215,12 @@ std::vector<OptionRow> outputRows() {  // NOLINT(readability-function-size): a t
   constexpr OptionTraits kSaid{.effect = Effect::Report, .copied = false, .kept = true};
   constexpr OptionTraits kOne{.effect = Effect::Report, .copied = false, .group = OptionGroup::Output};
   constexpr OptionTraits kNumbered{.effect = Effect::View, .copied = false, .group = OptionGroup::Sequence};
-  OptionTraits turntable = kNumbered;
-  turntable.excludes = "--frames";
   const OptionTraits shutter{.effect = Effect::Picture,
                              .renewal = Renewal::Scene,
                              .attribute = "shutter",
                              .copied = false,
                              .group = OptionGroup::Sequence};
+  constexpr OptionTraits kEncoded{.effect = Effect::Display, .group = OptionGroup::Encoding};
   OptionTraits progress = kSaid;
   progress.group = OptionGroup::Output;
   OptionTraits quiet = kSaid;
@@ -251,20 +268,31 @@ std::vector<OptionRow> outputRows() {  // NOLINT(readability-function-size): a t
       flag("--half",
            "store the colours, normals and roughness of an .exr as 16-bit floats, for about half the file "
            "size; all other layers keep 32 bits; values beyond 65504 are clamped",
-           FRAGTRACE_MEMBER(output.encoding.half),
-           {.effect = Effect::Display, .group = OptionGroup::Encoding}),
+           FRAGTRACE_MEMBER(output.encoding.half), kEncoded),
+      word("--ocio-view",
+           "show a .png or .jpg by this view of an OpenColorIO configuration, instead of --tone-map",
+           FRAGTRACE_MEMBER(output.ocio.view), kEncoded),
+      word("--ocio-config", "the configuration; by default the one that $OCIO names",
+           FRAGTRACE_MEMBER(output.ocio.config), kEncoded, "FILE"),
+      word("--ocio-display", "the configuration's display that has the view; by default its first",
+           FRAGTRACE_MEMBER(output.ocio.display), kEncoded),
+      word("--ocio-look", "a look of the configuration to apply before the view, such as \"AgX - Punchy\"",
+           FRAGTRACE_MEMBER(output.ocio.look), kEncoded),
+      word("--ocio-input",
+           "the configuration's name of linear Rec. 709, the colours of a picture; by default one of the "
+           "usual names",
+           FRAGTRACE_MEMBER(output.ocio.input), kEncoded),
       pngDepthRow(),
       offFlag(
           "--no-dither",
           "round the values of a .png or .jpg of 8 bits without the noise of one step that keeps gradients "
           "free of bands",
-          FRAGTRACE_MEMBER(output.dither), {.effect = Effect::Display, .group = OptionGroup::Encoding}),
+          FRAGTRACE_MEMBER(output.dither), kEncoded),
       choice("--alpha",
              "for which programs a .png is: those that blend light (linear), or those that blend sRGB "
              "values, as browsers do (display); then shadows look right over white, and are weaker over dark "
              "pages; auto is display with --shadow-catcher or --transparent-glass, and else linear",
-             FRAGTRACE_MEMBER(output.alpha), kAlphaNames,
-             {.effect = Effect::Display, .group = OptionGroup::Encoding}),
+             FRAGTRACE_MEMBER(output.alpha), kAlphaNames, kEncoded),
       limit<double>(
           "--checkpoint",
           "write the state of the render to OUTPUT.checkpoint every this many seconds, and when the render "
@@ -280,27 +308,25 @@ std::vector<OptionRow> outputRows() {  // NOLINT(readability-function-size): a t
              "messages included (json), or not at all (none)",
              FRAGTRACE_MEMBER(output.progress), kProgressNames, progress),
       framesRow(kNumbered),
-      number<double>(
-          "--fps",
-          "frames per second: picture k of --frames shows the animation at k / FPS seconds; a video "
-          "shows so many, or, with a STEP, FPS / STEP",
-          FRAGTRACE_MEMBER(output.sequence.fps), {0.001, 1e6}, kNumbered),
+      rateRow(kNumbered),
       limit<int>(
           "--turntable",
           "render N pictures, numbers 0 to N - 1, from evenly spaced directions around the focal point, each "
-          "to --output with its number in place of ####, or all to a video",
-          FRAGTRACE_MEMBER(output.sequence.turntable), {1, kMostFrame}, turntable),
+          "to --output with its number instead of ####, or all to a video; --frames A:B chooses some",
+          FRAGTRACE_MEMBER(output.sequence.turntable), {1, kMostFrame}, kNumbered),
       choice(
           "--turn",
           "what turns in a --turntable: the camera about the scene, or the scene before camera, environment "
           "and lamps, which stay",
-          FRAGTRACE_MEMBER(output.sequence.turn), kTurnNames, turntable),
+          FRAGTRACE_MEMBER(output.sequence.turn), kTurnNames, kNumbered),
       limit<double>("--shutter",
                     "blur what moves while the shutter is open, DEGREES of 360 of the time from frame to "
                     "frame, around the moment of each: of an animation (--frames; --animation-time with "
                     "--fps), whatever its STEP, or a turn (--turntable); films often have 180",
                     FRAGTRACE_MEMBER(camera.shutter), {0.0, 360.0}, shutter),
-      flag("--continue", "with --frames or --turntable: skip pictures that are there already",
+      flag("--continue",
+           "with --frames or --turntable: skip pictures that are there already, in the size of --resolution "
+           "or --region; other settings are not compared",
            FRAGTRACE_MEMBER(output.sequence.keep), kNumbered),
       choice("--denoise",
              "filter that removes noise from the finished picture: {}; auto uses oidn if it is installed, "
@@ -451,7 +477,7 @@ std::vector<OptionRow> samplingRows() {
       number<int>(
           "--camera-rays",
           "camera rays of each sample, which all bring the light that they see and one light sample; the "
-          "last alone goes on: 1 to 8, or 0: 4 where it pays to choose among many lamps by place, else 1",
+          "last alone continues: 1 to 8, or 0: 4 where it pays to choose among many lamps by place, else 1",
           FRAGTRACE_MEMBER(sampling.cameraRays), {0, kMostCameraRays},
           {.effect = Effect::Noise, .renewal = Renewal::Program, .attribute = "camera_rays"}),
       number<int>("--rr-depth", "Russian roulette may end a path from this scattering event on",

@@ -38,6 +38,35 @@ Orbit orbitOf(const std::vector<double>& values) {
   return orbit;
 }
 
+/// The view angle as photographers say it.
+OptionRow focalLengthRow() {
+  OptionRow row{
+      .name = "--focal-length",
+      .help =
+          "MM or MM,SENSOR: focal length of a perspective camera in millimetres, and the height of its "
+          "sensor (24): another way to say --camera-view-angle",
+      .traits = {.effect = Effect::View},
+      .examples = {"50", "35,15.6"}};
+  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
+    app.add_option_function<std::vector<double>>(
+           r.name,
+           [&raw](const std::vector<double>& mm) {
+             const double sensor = mm.size() > 1 ? mm[1] : 24.0;
+             raw.options.camera.overrides.viewAngleDegrees =
+                 glm::degrees(2.0 * std::atan(0.5 * sensor / mm[0]));
+           },
+           r.help)
+        ->delimiter(',')
+        ->expected(1, 2)
+        ->check(realNumber(1e-3, 1e6))
+        ->excludes("--camera-view-angle");
+  };
+  row.isDefault = [](const RenderOptions&) { return true; };
+  row.words = [](const RenderOptions&) { return std::vector<std::string>(); };
+  row.copy = [](RenderOptions&, const RenderOptions&) {};
+  return row;
+}
+
 OptionRow orbitRow() {
   OptionRow row = memberRow(
       "--camera-orbit",
@@ -143,6 +172,7 @@ std::vector<OptionRow> cameraRows() {  // NOLINT(readability-function-size): a t
                         "vertical field of view in degrees, of a perspective camera; of a fisheye, the angle "
                         "of the whole circle",
                         FRAGTRACE_MEMBER(camera.overrides.viewAngleDegrees), std::nullopt, false, kView),
+      focalLengthRow(),
       numberRow<double>("--camera-parallel-scale",
                         "half of the picture's height in metres, of an orthographic camera",
                         FRAGTRACE_MEMBER(camera.overrides.parallelScale), std::nullopt, false,
@@ -532,7 +562,7 @@ std::vector<OptionRow> fogRows() {
       color("--fog-color", "the part of the light that the fog scatters (albedo)",
             FRAGTRACE_MEMBER(fog.color), 1.0, kDrawn),
       number<double>("--fog-anisotropy",
-                     "mean cosine of the angle by which the fog scatters light: above 0 it goes on forward",
+                     "mean cosine of the angle by which the fog scatters light: above 0 it continues forward",
                      FRAGTRACE_MEMBER(fog.anisotropy), {-kMostAnisotropy, kMostAnisotropy}, kDrawn),
       heightRow(),
       limit<double>(
@@ -594,10 +624,11 @@ std::vector<OptionRow> volumeRows() {
       color("--volume-color",
             "the part of the light that the grid scatters (albedo), and does not absorb; by default 1,1,1",
             FRAGTRACE_MEMBER(volume.color), 1.0, kPlaced),
-      limit<double>("--volume-anisotropy",
-                    "mean cosine of the angle by which the grid scatters light: above 0 it goes on forward; "
-                    "by default 0",
-                    FRAGTRACE_MEMBER(volume.anisotropy), {-kMostAnisotropy, kMostAnisotropy}, kPlaced),
+      limit<double>(
+          "--volume-anisotropy",
+          "mean cosine of the angle by which the grid scatters light: above 0 it continues forward; "
+          "by default 0",
+          FRAGTRACE_MEMBER(volume.anisotropy), {-kMostAnisotropy, kMostAnisotropy}, kPlaced),
       limit<double>(
           "--volume-emission",
           "let the part of the grid that absorbs light (--volume-color) glow as a black body at the "

@@ -2,8 +2,15 @@
 #include "options/view_options.h"
 
 #include <CLI/CLI.hpp>
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
 
 #include "base/errors.h"
+#include "image/files/whole_file.h"
+#include "options/option_row.h"
 #include "options/parse_render.h"
 
 namespace fragtrace {
@@ -42,9 +49,12 @@ void addViewOptions(CLI::App& app, RawView& raw) {
   addOption(app, "--trace-file", raw.render);
   addConfigOption(app, raw.config);
   app.add_option("--reference", raw.reference,
-                 "picture to compare with: a linear .exr, .hdr or .pfm that is shown as side B of the split "
-                 "view; without --resolution, the picture of the scene has the size of this one")
+                 "picture to compare with, shown as side B of the split view; a .png or .jpg is compared in "
+                 "the colours of a display, others in linear ones; without --resolution, the picture of the "
+                 "scene has the size of this one")
       ->type_name("FILE");
+  app.add_flag("--no-config", raw.noConfig, "leave out your defaults (fragtrace/view.json)");
+  app.add_flag("--no-panel", raw.noPanel, "begin with the panel closed");
   app.add_flag("--watch", raw.watch,
                "reload the scene or the shaders of --shader-folder when a file changes");
   app.add_option("--status-file", raw.statusFile,
@@ -52,10 +62,31 @@ void addViewOptions(CLI::App& app, RawView& raw) {
       ->type_name("FILE");
 }
 
-ViewOptions finishView(RawView& raw, CLI::App& command) {
+ViewOptions finishView(RawView& raw, CLI::App& command, const std::filesystem::path& defaults) {
   ViewOptions options;
   raw.render.anyOutput = true;
-  options.render = finishConfigured(raw.render, raw.config, command);
+  const RawView before = raw;
+  std::set<const CLI::Option*> given;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() > 0) given.insert(option);
+  }
+  const bool hasDefaults = !raw.noConfig && std::filesystem::exists(defaults);
+  try {
+    options.render =
+        finishConfigured(raw.render, raw.config, command, hasDefaults ? defaults : std::filesystem::path());
+  } catch (const std::exception& error) {
+    if (!hasDefaults) throw;
+    raw = before;
+    for (CLI::Option* option : command.get_options()) {
+      if (!given.contains(option)) option->clear();
+    }
+    options.render =
+        finishConfigured(raw.render, raw.config, command);  // throws where the defaults are right
+    const std::string reason = error.what();
+    const bool isNamed = reason.find(defaults.string()) != std::string::npos;
+    options.warning =
+        "the viewer's defaults are left out: " + (isNamed ? "" : defaults.string() + ": ") + reason;
+  }
   const glm::ivec2 size = options.render.camera.resolution.value_or(glm::ivec2(1));
   if (size.x > kMostWindowPixels || size.y > kMostWindowPixels)
     throw UsageError("--resolution: the viewer's picture has at most " + std::to_string(kMostWindowPixels) +
@@ -65,8 +96,53 @@ ViewOptions finishView(RawView& raw, CLI::App& command) {
   options.watch = raw.watch;
   options.statusFile = raw.statusFile;
   options.reference = raw.reference;
+  options.panel = !raw.noPanel;
   options.others.assign(raw.others.begin(), raw.others.end());
   return options;
+}
+
+std::filesystem::path userFile(const char* variable, const char* usual, const char* name) {
+  const auto folder = [](const char* of) {
+    const char* value = std::getenv(of);
+    return std::filesystem::path(value ? value : "");
+  };
+  if (const std::filesystem::path own = folder(variable); own.is_absolute()) return own / "fragtrace" / name;
+  const std::filesystem::path home = folder("HOME");
+  return home.is_absolute() ? home / usual / "fragtrace" / name : std::filesystem::path();
+}
+
+void writeJson(const std::filesystem::path& file, const std::string& json) {
+  std::error_code error;
+  std::filesystem::create_directories(file.parent_path(), error);
+  if (error) throw RenderError(file.parent_path().string() + ": " + error.message());
+  replaceFile(file, {reinterpret_cast<const uint8_t*>(json.data()), json.size()});
+}
+
+std::filesystem::path defaultsFile() { return userFile("XDG_CONFIG_HOME", ".config", "view.json"); }
+
+void keepDefaults(const std::filesystem::path& file, RenderOptions options) {
+  constexpr std::array kKept{"denoise",        "tone-map",         "hdri-file",    "hdri-rotation",
+                             "hdri-intensity", "studio",           "sky",          "sun-elevation",
+                             "sun-azimuth",    "background-color", "no-background"};
+  if (file.empty()) throw RenderError("there is no home folder");
+  using Json = nlohmann::ordered_json;
+  Json json = Json::object();
+  try {
+    if (std::ifstream stream(file); stream) json = Json::parse(stream);
+  } catch (const Json::exception& error) {
+    throw InputError(file.string() + ": " + error.what());
+  }
+  if (!json.is_object()) throw InputError(file.string() + ": is no JSON object");
+  if (!options.light.hdriFile.empty())
+    options.light.hdriFile = std::filesystem::absolute(options.light.hdriFile);
+  for (const std::string name : kKept) {
+    const OptionRow& row = rowOf("--" + name);
+    json.erase(name);
+    if (row.isDefault(options) && name != "denoise") continue;  // whose default is another one in the viewer
+    const std::vector<std::string> words = row.words(options);
+    json[name] = words.empty() ? Json(true) : Json(words.front());
+  }
+  writeJson(file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace fragtrace

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "pack/energy_tables.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <mutex>
 #include <utility>
-
-#include <glm/glm.hpp>
-#include <glm/gtc/constants.hpp>
 
 namespace fragtrace {
 

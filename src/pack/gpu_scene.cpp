@@ -2,7 +2,6 @@
 #include "pack/gpu_scene.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -11,7 +10,6 @@
 
 #include "base/vectors.h"
 #include "base/words.h"
-#include "bvh/bvh.h"
 #include "pack/energy_tables.h"
 #include "pack/guiding.h"
 #include "pack/pack_environment.h"
@@ -19,7 +17,6 @@
 #include "pack/pack_tree.h"
 #include "pack/textures/pack_textures.h"
 #include "scene/casters.h"
-#include "shader/variant.h"
 
 namespace fragtrace {
 
@@ -56,57 +53,6 @@ size_t tableTexelsOf(const VolumeGrid& grid) {
 size_t texelsPerBrick(const VolumeGrid& grid) {
   return size_t(layout::kBrickTexels) + (grid.radiance.empty() ? 0 : kBrickVoxels);
 }
-
-}  // namespace
-
-size_t texelsOf(const VolumeGrid& grid) {
-  return tableTexelsOf(grid) + grid.values.size() / kBrickVoxels * texelsPerBrick(grid);
-}
-
-PackedGrid packGrid(const VolumeGrid& grid, Words& texels) {
-  PackedGrid packed;
-  packed.bricks = grid.bricks + 1;
-  packed.largest = grid.largest;
-  packed.brightest = grid.brightest;
-  const glm::dmat4 toBricks = glm::scale(glm::dmat4(1.0), glm::dvec3(1.0 / kBrickSide));
-  packed.fromFile = toBricks * glm::translate(glm::dmat4(1.0), glm::dvec3(kBrickSide - grid.minimum)) *
-                    glm::inverse(grid.toWorld);
-
-  const size_t stored = grid.values.size() / kBrickVoxels;
-  std::vector<Largest> largest(stored);
-  for (size_t i = 0; i < stored; ++i) largest[i] = largestOf(&grid.values[i * kBrickVoxels]);
-  const auto tableTexels = uint32_t(tableTexelsOf(grid));
-  const auto perBrick = uint32_t(texelsPerBrick(grid));
-  texels.reserve(2 * texelsOf(grid));
-
-  for (int z = -1; z < grid.bricks.z; ++z) {
-    for (int y = -1; y < grid.bricks.y; ++y) {
-      for (int x = -1; x < grid.bricks.x; ++x) {
-        // Interpolation at a brick's upper sides also reads the lower sides of the next bricks.
-        uint16_t most = 0;
-        for (uint32_t s = 0; s < 8; ++s) {
-          const uint32_t number = grid.entryOf(glm::ivec3(x, y, z) + glm::ivec3(s & 1, (s >> 1) & 1, s >> 2));
-          if (number > 0) most = std::max(most, largest[number - 1][s]);
-        }
-        const uint32_t number = grid.entryOf({x, y, z});
-        texels.push_back(number == 0 ? 0 : tableTexels + (number - 1) * perBrick);
-        texels.push_back(floatWord(glm::unpackHalf1x16(most)));
-      }
-    }
-  }
-  for (size_t i = 0; i < stored; ++i) {
-    appendHalves(texels, &grid.values[i * kBrickVoxels], kBrickVoxels);
-    if (grid.radiance.empty()) continue;
-    for (size_t v = i * kBrickVoxels; v < (i + 1) * kBrickVoxels; ++v) {
-      const std::array<uint16_t, 4> rgb{grid.radiance[3 * v], grid.radiance[3 * v + 1],
-                                        grid.radiance[3 * v + 2], 0};
-      appendHalves(texels, rgb.data(), rgb.size());
-    }
-  }
-  return packed;
-}
-
-namespace {
 
 constexpr std::array kGeometryBindings{
     layout::kNodesBinding,     layout::kLeavesBinding,   layout::kFacesBinding, layout::kNormalsBinding,
@@ -289,22 +235,6 @@ std::vector<glm::vec3> meanRadiance(const Scene& scene, const TraitSet& traits, 
   return radiance;
 }
 
-}  // namespace
-
-size_t GpuScene::bytes() const {
-  size_t words = 0;
-  for (const Words& buffer : buffers) words += buffer.size();
-  return words * sizeof(uint32_t) + (pictures.empty() ? 0 : textures.bytes());
-}
-
-size_t GpuScene::geometryBytes() const {
-  size_t words = 0;
-  for (const uint32_t binding : kGeometryBindings) words += buffers[binding].size();
-  return words * sizeof(uint32_t);
-}
-
-namespace {
-
 /// The properties of the packed map that the lights need. The map may be on the device already.
 KeptArrays::KeptEnvironment packMap(const Environment& environment, const ShaderVariant& variant,
                                     KeptArrays* kept, GpuScene& packed) {
@@ -455,6 +385,65 @@ void packGeometry(const Scene& scene, const Bvh& bvh, const TraitSet& traits, bo
 }
 
 }  // namespace
+
+size_t texelsOf(const VolumeGrid& grid) {
+  return tableTexelsOf(grid) + grid.values.size() / kBrickVoxels * texelsPerBrick(grid);
+}
+
+PackedGrid packGrid(const VolumeGrid& grid, Words& texels) {
+  PackedGrid packed;
+  packed.bricks = grid.bricks + 1;
+  packed.largest = grid.largest;
+  packed.brightest = grid.brightest;
+  const glm::dmat4 toBricks = glm::scale(glm::dmat4(1.0), glm::dvec3(1.0 / kBrickSide));
+  packed.fromFile = toBricks * glm::translate(glm::dmat4(1.0), glm::dvec3(kBrickSide - grid.minimum)) *
+                    glm::inverse(grid.toWorld);
+
+  const size_t stored = grid.values.size() / kBrickVoxels;
+  std::vector<Largest> largest(stored);
+  for (size_t i = 0; i < stored; ++i) largest[i] = largestOf(&grid.values[i * kBrickVoxels]);
+  const auto tableTexels = uint32_t(tableTexelsOf(grid));
+  const auto perBrick = uint32_t(texelsPerBrick(grid));
+  texels.reserve(2 * texelsOf(grid));
+
+  for (int z = -1; z < grid.bricks.z; ++z) {
+    for (int y = -1; y < grid.bricks.y; ++y) {
+      for (int x = -1; x < grid.bricks.x; ++x) {
+        // Interpolation at a brick's upper sides also reads the lower sides of the next bricks.
+        uint16_t most = 0;
+        for (uint32_t s = 0; s < 8; ++s) {
+          const uint32_t number = grid.entryOf(glm::ivec3(x, y, z) + glm::ivec3(s & 1, (s >> 1) & 1, s >> 2));
+          if (number > 0) most = std::max(most, largest[number - 1][s]);
+        }
+        const uint32_t number = grid.entryOf({x, y, z});
+        texels.push_back(number == 0 ? 0 : tableTexels + (number - 1) * perBrick);
+        texels.push_back(floatWord(glm::unpackHalf1x16(most)));
+      }
+    }
+  }
+  for (size_t i = 0; i < stored; ++i) {
+    appendHalves(texels, &grid.values[i * kBrickVoxels], kBrickVoxels);
+    if (grid.radiance.empty()) continue;
+    for (size_t v = i * kBrickVoxels; v < (i + 1) * kBrickVoxels; ++v) {
+      const std::array<uint16_t, 4> rgb{grid.radiance[3 * v], grid.radiance[3 * v + 1],
+                                        grid.radiance[3 * v + 2], 0};
+      appendHalves(texels, rgb.data(), rgb.size());
+    }
+  }
+  return packed;
+}
+
+size_t GpuScene::bytes() const {
+  size_t words = 0;
+  for (const Words& buffer : buffers) words += buffer.size();
+  return words * sizeof(uint32_t) + (pictures.empty() ? 0 : textures.bytes());
+}
+
+size_t GpuScene::geometryBytes() const {
+  size_t words = 0;
+  for (const uint32_t binding : kGeometryBindings) words += buffers[binding].size();
+  return words * sizeof(uint32_t);
+}
 
 GpuScene packSurroundings(const Bvh& bvh, const Environment& environment, const ShaderVariant& variant,
                           KeptArrays& kept) {

@@ -31,7 +31,7 @@ using Words = std::vector<uint32_t>;
 struct Environment {
   Surroundings kind = Surroundings::None;
   Image image;
-  Image backdrop{};  ///< equirectangular, seen by camera rays in place of the image; empty: there is none
+  Image backdrop{};  ///< equirectangular, seen by camera rays instead of the image; empty: there is none
   std::optional<SunDisc> sun{};    ///< stands before the image
   std::optional<MapSun> mapSun{};  ///< is a part of the image
 };

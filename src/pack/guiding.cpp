@@ -34,14 +34,14 @@ struct Cells {
 constexpr size_t kMostFitted = 32;
 /// The spread of a lobe is this many times the mean over its photons; a uniform cone has twice the mean.
 constexpr double kSpreadOfMean = 3.0;
-/// A lobe of one photon is as wide as if a second one came from 0.1 radians beside it.
+/// A lobe of one photon is as wide as if a second one came from 0.1 radians next to it.
 constexpr double kUnknownSpread = 0.5 * 0.1 * 0.1;
 constexpr int kShares = 63;  // shares are multiples of a 63rd
 // The distances that are tried first: the power of two of the nearest, between them, and their number.
 constexpr double kNearest = -7.0;
 constexpr double kCoarse = 0.75;
 constexpr int kDistances = 23;
-constexpr int kHalvings = 5;           // of the step between distances, beside the best one
+constexpr int kHalvings = 5;           // of the step between distances, next to the best one
 constexpr double kWorthMoving = 0.99;  // else rounding errors decide between distances that are as good
 constexpr double kLeastSpread = 1e-7;  // 1 minus a cosine; the direction's rounding is about 1e-14
 
@@ -110,7 +110,7 @@ FittedLobe fitLobe(std::span<const Placed> photons, double unit) {
     best = FittedLobe{glm::vec3(focus), away, spread, 0.0};
     power = at;
   };
-  // Distances from a hundredth to a thousand radii of the nearest caster, then finer ones beside the best.
+  // Distances from a hundredth to a thousand radii of the nearest caster, then finer ones next to the best.
   for (int i = 0; i < kDistances; ++i) {
     for (const bool away : {false, true}) tryAt(kNearest + i * kCoarse, away);
   }

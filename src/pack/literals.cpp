@@ -2,7 +2,6 @@
 #include "pack/literals.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -10,7 +9,6 @@
 #include <utility>
 
 #include "base/text.h"
-#include "bvh/bvh.h"
 #include "pack/pack_tree.h"
 #include "scene/hit_error.h"
 
@@ -41,7 +39,7 @@ double largestCoordinate(const LiteralFace& f, const std::vector<glm::vec3>& poi
 /// The rounding error that corners may have, in parts of the largest coordinate.
 constexpr double kTolerance = 0x1p-22;
 /// The largest distance of the last corner from the others' plane, in parts of the least height of a corner
-/// over the diagonal beside it. From directions so nearly edge-on that a larger distance shows, the
+/// over the diagonal next to it. From directions so nearly edge-on that a larger distance shows, the
 /// quadrilateral would not be convex.
 constexpr double kBend = 0x1p-20;
 
@@ -108,41 +106,6 @@ std::vector<uint32_t> leavesFrom(const Bvh& bvh, uint32_t first) {
   for (auto leaf = first + uint32_t(leaves.size()); leaf < bvh.leaves.size(); ++leaf) leaves.push_back(leaf);
   return leaves;
 }
-
-}  // namespace
-
-LiteralMesh literalMesh(const Scene& scene, const Bvh& bvh, uint32_t firstLeaf, Joining joining,
-                        bool emissiveApart) {
-  LiteralMesh mesh;
-  std::vector<uint32_t> materials;
-  for (const uint32_t leaf : leavesFrom(bvh, firstLeaf)) {
-    for (uint32_t side = 0; side < 2; ++side) {
-      const uint32_t primitive = bvh.leaves[leaf].primitive[side];
-      if (primitive == kMissIndex) continue;
-      const Triangle& t = scene.triangles[primitive];
-      const Material& m = scene.materials[t.material];
-      LiteralFace face;
-      for (int i = 0; i < 3; ++i)
-        face.corner[size_t(i)] = pointIndex(mesh.points, scene.vertices.position[t.vertex[i]]);
-      face.culled = m.culled();
-      face.slot = leaf * 2 + side;
-      const bool alone = joining == Joining::None || (emissiveApart && m.emissive());
-      bool taken = false;
-      for (size_t i = 0; !alone && !taken && i < mesh.faces.size(); ++i) {
-        if (mesh.faces[i].quad || materials[i] != t.material) continue;
-        const std::optional<LiteralFace> quad = joined(mesh.faces[i], face, joining, mesh.points);
-        if (quad) mesh.faces[i] = *quad;
-        taken = quad.has_value();
-      }
-      if (taken) continue;
-      mesh.faces.push_back(face);
-      materials.push_back(t.material);
-    }
-  }
-  return mesh;
-}
-
-namespace {
 
 std::string number(double x) {
   std::string s = formatted("%.9g", double(float(x)));
@@ -221,7 +184,7 @@ class TraversalText {
   std::string countText() const {
     size_t triangles = 0;
     for (const LiteralFace& face : mesh_.faces) triangles += face.quad ? 2 : 1;
-    return "  if (kCountWork) countWork(kWorkPrimitives, " + std::to_string(triangles) + "u);\n";
+    return "  countPrimitivesTested(" + std::to_string(triangles) + "u);\n";
   }
 
   static constexpr const char* kAxes[3] = {".x", ".y", ".z"};
@@ -297,9 +260,9 @@ class TraversalText {
     return {variable(xi + " * " + yj + " - " + yi + " * " + xj), i > j};
   }
 
-  /// Returns true if the face is so small beside the mesh, or the sides at a corner so close together, that
-  /// the edge functions are only rounding for rays that pass far away (docs/design/numerics.md, "Zero from
-  /// far away").
+  /// Returns true if the face is so small compared with the mesh, or the sides at a corner so close together,
+  /// that the edge functions are only rounding for rays that pass far away (docs/design/numerics.md, "Zero
+  /// from far away").
   bool isTiny(const LiteralFace& f) const {
     constexpr double kShare = 0x1p-18;
     constexpr double kSmall = 0x1p-10;
@@ -482,13 +445,13 @@ class TraversalText {
   std::string body_;
 };
 
-}  // namespace
-
+/// Returns the text of traverseLiterals() of shaders/literals.glsl for this mesh: the test of Woop, Benthin
+/// and Wald (shaders/intersect.glsl) of all its faces, unrolled. Points are projected once for all faces that
+/// share them, and an edge function is computed once for both faces of its edge. So no ray passes between
+/// neighbours, even if the compiler fuses operations.
 std::string literalTraversal(const LiteralMesh& mesh, const LiteralOptions& options) {
   return TraversalText(mesh, options).text(options.whole);
 }
-
-namespace {
 
 std::string word(uint32_t x) { return formatted("0x%xu", x); }
 
@@ -565,6 +528,37 @@ LiteralOptions optionsOf(const ShaderVariant& variant, bool whole) {
 }
 
 }  // namespace
+
+LiteralMesh literalMesh(const Scene& scene, const Bvh& bvh, uint32_t firstLeaf, Joining joining,
+                        bool emissiveApart) {
+  LiteralMesh mesh;
+  std::vector<uint32_t> materials;
+  for (const uint32_t leaf : leavesFrom(bvh, firstLeaf)) {
+    for (uint32_t side = 0; side < 2; ++side) {
+      const uint32_t primitive = bvh.leaves[leaf].primitive[side];
+      if (primitive == kMissIndex) continue;
+      const Triangle& t = scene.triangles[primitive];
+      const Material& m = scene.materials[t.material];
+      LiteralFace face;
+      for (int i = 0; i < 3; ++i)
+        face.corner[size_t(i)] = pointIndex(mesh.points, scene.vertices.position[t.vertex[i]]);
+      face.culled = m.culled();
+      face.slot = leaf * 2 + side;
+      const bool alone = joining == Joining::None || (emissiveApart && m.emissive());
+      bool taken = false;
+      for (size_t i = 0; !alone && !taken && i < mesh.faces.size(); ++i) {
+        if (mesh.faces[i].quad || materials[i] != t.material) continue;
+        const std::optional<LiteralFace> quad = joined(mesh.faces[i], face, joining, mesh.points);
+        if (quad) mesh.faces[i] = *quad;
+        taken = quad.has_value();
+      }
+      if (taken) continue;
+      mesh.faces.push_back(face);
+      materials.push_back(t.material);
+    }
+  }
+  return mesh;
+}
 
 std::string whyNoLiterals(const Scene& scene, const GpuScene& packed) {
   constexpr size_t kMostTriangles = 256;

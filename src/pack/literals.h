@@ -48,12 +48,6 @@ struct LiteralOptions {
   bool backFaces = false;  ///< light paths ask for the backs of single-sided faces
 };
 
-/// Returns the text of traverseLiterals() of shaders/literals.glsl for this mesh: the test of Woop, Benthin
-/// and Wald (shaders/intersect.glsl) of all its faces, unrolled. Points are projected once for all faces that
-/// share them, and an edge function is computed once for both faces of its edge. So no ray passes between
-/// neighbours, even if the compiler fuses operations.
-std::string literalTraversal(const LiteralMesh& mesh, const LiteralOptions& options);
-
 // Scenes so small that they become part of the shader's text: no tree, no reads.
 
 /// Why a scene cannot be literals: spheres, nothing, or too many triangles, materials or emitters. Empty when
@@ -69,7 +63,7 @@ bool paysAsLiterals(const Scene& scene, const Bvh& bvh, const GpuScene& packed, 
 /// tree of all.
 bool paysBeside(const Bvh& tree, const Bvh& beside);
 
-/// The text for a tree with triangles beside it (Bvh::besideTree): only these are literals.
+/// The text for a tree with triangles next to it (Bvh::besideTree): only these are literals.
 std::string largeFirst(const Scene& scene, const Bvh& bvh, const ShaderVariant& variant);
 
 /// The text that replaces shaders/literals.glsl for this scene. Triangles that share a vertex share its

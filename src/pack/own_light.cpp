@@ -424,6 +424,24 @@ bool isClear(const SeenLight& seen) {
   return mean > kMargin * kTooDark && std::max(mean, byLamps) * kMargin < kTooBright && dark < 0.25;
 }
 
+/// Emission leaves a scene dark where more than this share of what is seen is darker than that part of middle
+/// grey.
+constexpr double kMostlyDark = 0.75;
+constexpr double kDim = 1.0 / 8.0;
+
+/// A lamp of intensity 0 is none.
+bool isOn(const Light& light) { return glm::compMax(light.intensity) > 0.0f; }
+
+/// Returns true if lamps are read as radiometric: as written, what they light is far too bright, and less so
+/// divided, or lit by the user's surroundings then, which an exposure for the lamps would hide.
+bool areRadiometric(const SeenLight& seen, const LampReading& reading) {
+  if (reading.units != LampUnits::Auto) return reading.units == LampUnits::Radiometric;
+  const double asWritten = seen.meanOfLampLit(1.0) / kMiddleGrey;
+  const double divided = seen.meanOfLampLit(1.0 / kLumensPerWatt) / kMiddleGrey;
+  const bool nearer = divided > 0.0 && std::abs(std::log(divided)) < std::log(asWritten);
+  return asWritten > kTooBright && (reading.besideSurroundings || nearer);
+}
+
 }  // namespace
 
 double SeenLight::meanLuminance(double lampScale) const {
@@ -480,28 +498,6 @@ SeenLight seenLight(const SeenScene& seen, const Camera& camera, double aspectRa
   }
   return result;
 }
-
-namespace {
-
-/// Emission leaves a scene dark where more than this share of what is seen is darker than that part of middle
-/// grey.
-constexpr double kMostlyDark = 0.75;
-constexpr double kDim = 1.0 / 8.0;
-
-/// A lamp of intensity 0 is none.
-bool isOn(const Light& light) { return glm::compMax(light.intensity) > 0.0f; }
-
-/// Returns true if lamps are read as radiometric: as written, what they light is far too bright, and less so
-/// divided, or lit by the user's surroundings then, which an exposure for the lamps would hide.
-bool areRadiometric(const SeenLight& seen, const LampReading& reading) {
-  if (reading.units != LampUnits::Auto) return reading.units == LampUnits::Radiometric;
-  const double asWritten = seen.meanOfLampLit(1.0) / kMiddleGrey;
-  const double divided = seen.meanOfLampLit(1.0 / kLumensPerWatt) / kMiddleGrey;
-  const bool nearer = divided > 0.0 && std::abs(std::log(divided)) < std::log(asWritten);
-  return asWritten > kTooBright && (reading.besideSurroundings || nearer);
-}
-
-}  // namespace
 
 bool mayShine(const Scene& scene) {
   const auto emits = [&](const auto& primitive) { return scene.materials[primitive.material].emissive(); };

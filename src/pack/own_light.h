@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "bvh/bvh.h"
@@ -38,7 +37,7 @@ struct SeenLight {
   int paths = 0;                ///< the paths that were traced
 
   /// The logarithmic mean of the luminance of the cells that are not as good as black, or, where these are
-  /// few, of all that get light; 0: none does. What is dark beside a lit place needs no exposure.
+  /// few, of all that get light; 0: none does. What is dark compared with a lit place needs no exposure.
   double meanLuminance(double lampScale) const;
   /// The logarithmic mean of the luminance of the cells that lamps, as written, light more than emission
   /// does.

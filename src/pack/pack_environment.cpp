@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "pack/pack_environment.h"
 
-#include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <numeric>
 #include <utility>
-#include <vector>
 
 #include <glm/gtc/constants.hpp>
 
 #include "base/parallel.h"
-#include "base/vectors.h"
 #include "base/words.h"
 
 namespace fragtrace {
@@ -123,51 +119,6 @@ void fillSteps(std::span<InversionStep> steps, const Runs& runs) {
   }
 }
 
-}  // namespace
-
-double makeInversionTable(std::span<float> weights, std::span<InversionStep> steps) {
-  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-  if (sum <= 0.0) std::fill(weights.begin(), weights.end(), 1.0f);
-  const uint64_t count = steps.size() * kUnits;
-  const std::vector<uint64_t> numbers = numbersOf(weights, sum > 0.0 ? sum : double(weights.size()), count);
-  const Runs runs = runsOf(weights, numbers);
-  fillSteps(steps, runs);
-  const double scale = double(weights.size()) / double(count);
-  for (size_t run = 0; run + 1 < runs.places.size(); ++run) {
-    const double share = double(runs.numbers[run + 1] - runs.numbers[run]) * scale;
-    const auto pdf = float(share / double(runs.places[run + 1] - runs.places[run]));
-    for (uint32_t i = runs.places[run]; i < runs.places[run + 1]; ++i) weights[i] = pdf;
-  }
-  return sum;
-}
-
-std::vector<InversionEntry> makeInversionEntries(std::span<const double> weights) {
-  const size_t count = weights.size();
-  std::vector<InversionEntry> entries(count);
-  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-  constexpr double kNumbers = 0x1p32;
-  double before = 0.0;
-  for (size_t i = 0; i < count; ++i) {
-    before += sum > 0.0 ? weights[i] / sum : 1.0 / double(count);
-    entries[i].end =
-        i + 1 == count ? UINT32_MAX : uint32_t(std::clamp(before * kNumbers - 1.0, 0.0, kNumbers - 1.0));
-  }
-  const auto drawnBy = [&](uint64_t number, size_t from) {
-    while (entries[from].end < number) ++from;
-    return uint32_t(from);
-  };
-  for (size_t i = 0; i < count; ++i) {
-    // The numbers whose product with the count carries i into the upper 32 bits.
-    const uint64_t first = ((uint64_t(i) << 32) + count - 1) / count;
-    const uint64_t next = ((uint64_t(i + 1) << 32) + count - 1) / count;
-    entries[i].first = drawnBy(first, i == 0 ? 0 : entries[i - 1].last);
-    entries[i].last = drawnBy(next - 1, entries[i].first);
-  }
-  return entries;
-}
-
-namespace {
-
 /// Rows of the maps from which the levels are made: at least two texels for a standard deviation of the lobe.
 constexpr std::array<int, layout::kLobeLevels> kRowsOfLevel{28, 28, 28, 36, 72, 144};
 
@@ -244,16 +195,7 @@ MapRows onlyTexel(const Image& image) {
   return map;
 }
 
-}  // namespace
-
-MapRows resized(const Image& image, int height) {
-  const auto texel = [&](size_t y, size_t x) {
-    const float* p = image.pixel(int(x), int(y));
-    return glm::dvec3(p[0], p[1], p[2]);
-  };
-  return resizedFrom({image.width, image.height}, texel, height);
-}
-
+/// Sums a map's texels over the solid angles that they have.
 Irradiance irradianceOf(const MapRows& map) {
   constexpr double kPi = glm::pi<double>();
   // Moments of the radiance: integrals of 1, x, y, z, xy, yz, zx, x^2 - z^2 and y^2 times it.
@@ -295,6 +237,57 @@ Irradiance irradianceOf(const MapRows& map) {
           15.0 / 16.0 * moments[6], 15.0 / 64.0 * moments[7], 5.0 / 64.0 * (3.0 * moments[8] - moments[0])};
 }
 
+}  // namespace
+
+double makeInversionTable(std::span<float> weights, std::span<InversionStep> steps) {
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  if (sum <= 0.0) std::fill(weights.begin(), weights.end(), 1.0f);
+  const uint64_t count = steps.size() * kUnits;
+  const std::vector<uint64_t> numbers = numbersOf(weights, sum > 0.0 ? sum : double(weights.size()), count);
+  const Runs runs = runsOf(weights, numbers);
+  fillSteps(steps, runs);
+  const double scale = double(weights.size()) / double(count);
+  for (size_t run = 0; run + 1 < runs.places.size(); ++run) {
+    const double share = double(runs.numbers[run + 1] - runs.numbers[run]) * scale;
+    const auto pdf = float(share / double(runs.places[run + 1] - runs.places[run]));
+    for (uint32_t i = runs.places[run]; i < runs.places[run + 1]; ++i) weights[i] = pdf;
+  }
+  return sum;
+}
+
+std::vector<InversionEntry> makeInversionEntries(std::span<const double> weights) {
+  const size_t count = weights.size();
+  std::vector<InversionEntry> entries(count);
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  constexpr double kNumbers = 0x1p32;
+  double before = 0.0;
+  for (size_t i = 0; i < count; ++i) {
+    before += sum > 0.0 ? weights[i] / sum : 1.0 / double(count);
+    entries[i].end =
+        i + 1 == count ? UINT32_MAX : uint32_t(std::clamp(before * kNumbers - 1.0, 0.0, kNumbers - 1.0));
+  }
+  const auto drawnBy = [&](uint64_t number, size_t from) {
+    while (entries[from].end < number) ++from;
+    return uint32_t(from);
+  };
+  for (size_t i = 0; i < count; ++i) {
+    // The numbers whose product with the count carries i into the upper 32 bits.
+    const uint64_t first = ((uint64_t(i) << 32) + count - 1) / count;
+    const uint64_t next = ((uint64_t(i + 1) << 32) + count - 1) / count;
+    entries[i].first = drawnBy(first, i == 0 ? 0 : entries[i - 1].last);
+    entries[i].last = drawnBy(next - 1, entries[i].first);
+  }
+  return entries;
+}
+
+MapRows resized(const Image& image, int height) {
+  const auto texel = [&](size_t y, size_t x) {
+    const float* p = image.pixel(int(x), int(y));
+    return glm::dvec3(p[0], p[1], p[2]);
+  };
+  return resizedFrom({image.width, image.height}, texel, height);
+}
+
 double exponentOfLevel(int level) { return 2.0 * std::pow(4.0, level) - 2.0; }
 
 MapRows lobesOf(const MapRows& map, int level) {
@@ -311,35 +304,14 @@ MapRows lobesOf(const MapRows& map, int level) {
   return averagedMap(map, polar, lobe, 0.0, reach);
 }
 
+namespace {
+
+/// The most words that appendEnvironmentLight() appends.
 size_t mostLightWords() {
   size_t rows = layout::kIrradianceRows + layout::kLobeLevels;
   for (const int height : kRowsOfLevel) rows += size_t(height) * size_t(height + 1);
   return rows * 4;
 }
-
-void appendEnvironmentLight(const Image& image, Words& texels) {
-  const bool even = image.width == 1 && image.height == 1;
-  const MapRows finest = even ? onlyTexel(image) : resized(image, kRowsOfLevel.back());
-  for (const glm::dvec3& factor : irradianceOf(finest)) appendRow(texels, glm::vec3(factor), 0.0f);
-  std::vector<MapRows> levels;
-  MapRows map = finest;
-  for (int level = int(layout::kLobeLevels) - 1; level >= 0; --level) {
-    const int height = kRowsOfLevel[size_t(level)];
-    if (!even && map.height() > height) {
-      const auto texel = [&](size_t y, size_t x) { return texelOf(map, y, x); };
-      map = resizedFrom({map.width, map.height()}, texel, height);
-    }
-    levels.insert(levels.begin(), even ? map : lobesOf(map, level));
-  }
-  auto first = uint32_t(texels.size() / 4 + levels.size());
-  for (const MapRows& level : levels) {
-    texels.insert(texels.end(), {uint32_t(level.width), uint32_t(level.height()), first, 0u});
-    first += uint32_t(level.width * level.height() + 1) / 2;
-  }
-  for (const MapRows& level : levels) appendMap(level, texels);
-}
-
-namespace {
 
 /// Calls work(y) for each row, on all processors.
 template <typename Work>
@@ -395,6 +367,28 @@ void storeDensities(std::span<const float> densities, float factor, std::span<ui
 }
 
 }  // namespace
+
+void appendEnvironmentLight(const Image& image, Words& texels) {
+  const bool even = image.width == 1 && image.height == 1;
+  const MapRows finest = even ? onlyTexel(image) : resized(image, kRowsOfLevel.back());
+  for (const glm::dvec3& factor : irradianceOf(finest)) appendRow(texels, glm::vec3(factor), 0.0f);
+  std::vector<MapRows> levels;
+  MapRows map = finest;
+  for (int level = int(layout::kLobeLevels) - 1; level >= 0; --level) {
+    const int height = kRowsOfLevel[size_t(level)];
+    if (!even && map.height() > height) {
+      const auto texel = [&](size_t y, size_t x) { return texelOf(map, y, x); };
+      map = resizedFrom({map.width, map.height()}, texel, height);
+    }
+    levels.insert(levels.begin(), even ? map : lobesOf(map, level));
+  }
+  auto first = uint32_t(texels.size() / 4 + levels.size());
+  for (const MapRows& level : levels) {
+    texels.insert(texels.end(), {uint32_t(level.width), uint32_t(level.height()), first, 0u});
+    first += uint32_t(level.width * level.height() + 1) / 2;
+  }
+  for (const MapRows& level : levels) appendMap(level, texels);
+}
 
 glm::vec3 upwardIrradiance(const Image& image) {
   // Between the middles of two rows the map is the mean of both by distance (shaders/environment.glsl).

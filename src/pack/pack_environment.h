@@ -107,17 +107,11 @@ using Irradiance = std::array<glm::dvec3, layout::kIrradianceRows>;
 /// between coarser ones as shaders/environment.glsl reads them. Uses all processors.
 MapRows resized(const Image& image, int height);
 
-/// Sums a map's texels over the solid angles that they have.
-Irradiance irradianceOf(const MapRows& map);
-
 /// Exponent of the lobe of a level: lobes are twice as narrow from one to the next.
 double exponentOfLevel(int level);
 
 /// A level of the map, its first and last row at the poles; `map` is fine enough for it.
 MapRows lobesOf(const MapRows& map, int level);
-
-/// The most words that appendEnvironmentLight() appends.
-size_t mostLightWords();
 
 /// Appends the light of a map to the rows of the environment's buffer (layout.glsl).
 void appendEnvironmentLight(const Image& image, Words& texels);
@@ -126,7 +120,7 @@ void appendEnvironmentLight(const Image& image, Words& texels);
 enum class EnvironmentDraws {
   Nothing,
   Light,          ///< light samples alone: each direction by its luminance
-  LightAndPaths,  ///< beside scattered rays, which find what is darker than the mean: by the luminance above
+  LightAndPaths,  ///< next to scattered rays, which find what is darker than the mean: by the luminance above
                   ///< that (MIS compensation: Karlik, Sik, Vivoda, Skrivan and Krivanek, 2019)
 };
 

@@ -13,8 +13,6 @@
 #include <glm/gtx/component_wise.hpp>
 
 #include "base/vectors.h"
-#include "base/words.h"
-#include "pack/gpu_scene.h"
 #include "pack/pack_environment.h"
 #include "scene/motion/moving_scene.h"
 #include "shader/layout.h"
@@ -150,19 +148,7 @@ void Builder::build(uint32_t node, uint32_t first, uint32_t end, int depth) {
   nodes[node].bounds = unite(nodes[child].bounds, nodes[child + 1].bounds);
 }
 
-}  // namespace
-
-std::vector<LightNode> buildLightTree(std::span<const LightBounds> lights) {
-  if (lights.empty()) return {};
-  Builder builder{lights, {}, {}};
-  builder.order.resize(lights.size());
-  std::iota(builder.order.begin(), builder.order.end(), 0u);
-  builder.nodes.reserve(2 * lights.size() - 1);
-  builder.nodes.resize(1);
-  builder.build(0, 0, uint32_t(lights.size()), 0);
-  return std::move(builder.nodes);
-}
-
+/// layout.glsl: light nodes. `emitters` holds a word for each light of a leaf: its emitters.
 void appendLightNodes(std::vector<uint32_t>& words, std::span<const LightNode> nodes,
                       std::span<const uint32_t> emitters) {
   for (const LightNode& node : nodes) {
@@ -185,8 +171,6 @@ void appendLightNodes(std::vector<uint32_t>& words, std::span<const LightNode> n
   words.resize(first + (nodes.size() + 3) / 4 * 4, 0u);
   for (size_t i = 1; i < nodes.size(); ++i) words[first + i] = nodes[i].parent;
 }
-
-namespace {
 
 constexpr double kPi = glm::pi<double>();
 
@@ -354,6 +338,17 @@ void appendTree(Words& words, std::span<const Emitter> emitters, std::span<const
 
 }  // namespace
 
+std::vector<LightNode> buildLightTree(std::span<const LightBounds> lights) {
+  if (lights.empty()) return {};
+  Builder builder{lights, {}, {}};
+  builder.order.resize(lights.size());
+  std::iota(builder.order.begin(), builder.order.end(), 0u);
+  builder.nodes.reserve(2 * lights.size() - 1);
+  builder.nodes.resize(1);
+  builder.build(0, 0, uint32_t(lights.size()), 0);
+  return std::move(builder.nodes);
+}
+
 PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> materialRadiance,
                             std::span<const uint32_t> slots, size_t slotCount, double radius,
                             const ShaderVariant& variant) {
@@ -412,7 +407,7 @@ Words packLights(const Scene& scene) {
   return words;
 }
 
-// The lights of a scene beside one another.
+// The lights of a scene next to one another.
 
 namespace {
 

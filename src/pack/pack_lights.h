@@ -26,10 +26,6 @@ struct LightNode {
 /// The root comes first; 2 n - 1 nodes for n lights, none for none.
 std::vector<LightNode> buildLightTree(std::span<const LightBounds> lights);
 
-/// layout.glsl: light nodes. `emitters` holds a word for each light of a leaf: its emitters.
-void appendLightNodes(std::vector<uint32_t>& words, std::span<const LightNode> nodes,
-                      std::span<const uint32_t> emitters);
-
 /// Emissive triangles and punctual lights, drawn by power or by a tree.
 struct PackedEmitters {
   Words entries;  ///< layout.glsl: emitters

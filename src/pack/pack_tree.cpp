@@ -340,51 +340,6 @@ uint32_t objectNumberOf(const Scene& scene, uint32_t primitive) {
   return std::prev(after)->nodeIndex + 1;
 }
 
-}  // namespace
-
-glm::vec4 planeOf(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2) {
-  const glm::dvec3 cross = glm::cross(glm::dvec3(v1) - glm::dvec3(v0), glm::dvec3(v2) - glm::dvec3(v0));
-  const double length = glm::length(cross);
-  if (length <= 0.0) return glm::vec4(0.0f);
-  const glm::vec3 normal(cross / length);
-  const glm::dvec3 middle = (glm::dvec3(v0) + glm::dvec3(v1) + glm::dvec3(v2)) / 3.0;
-  return {normal, float(glm::dot(glm::dvec3(normal), middle))};
-}
-
-Words packFaces(const Scene& scene, const Bvh& bvh, bool creases) {
-  if (scene.materials.size() > layout::kFaceMaterialMask)
-    throw InputError("the scene has " + std::to_string(scene.materials.size()) + " materials, at most " +
-                     std::to_string(layout::kFaceMaterialMask) + " can be drawn");
-  Words words;
-  const size_t slots = bvh.leaves.size() * 2;
-  words.reserve(slots * (layout::kFaceRows + (creases ? 1u : 0u)) * 4);
-  for (const BvhLeaf& leaf : bvh.leaves) {
-    for (const uint32_t primitive : leaf.primitive) {
-      if (primitive == kMissIndex) {
-        words.insert(words.end(), layout::kFaceRows * 4, 0u);
-      } else if (primitive < scene.triangles.size()) {
-        appendTriangle(words, scene, scene.triangles[primitive]);
-      } else {
-        appendSphere(words, scene, primitive - uint32_t(scene.triangles.size()));
-      }
-    }
-  }
-  for (size_t slot = 0; creases && slot < slots; ++slot)
-    appendInset(words, scene, bvh.leaves[slot / 2].primitive[slot % 2]);
-  return words;
-}
-
-void appendObjectNumbers(const Scene& scene, const Bvh& bvh, Words& words) {
-  for (const BvhLeaf& leaf : bvh.leaves) {
-    for (const uint32_t primitive : leaf.primitive) words.push_back(objectNumberOf(scene, primitive));
-  }
-  if (!scene.instances.empty()) words.resize(words.size() + firstInstanceBlock(bvh));
-  for (const Instance& instance : scene.instances) words.push_back(instance.nodeIndex + 1);
-  words.resize((words.size() + 3) / 4 * 4);
-}
-
-namespace {
-
 constexpr int kOne = 255;  // an alpha of 1 in AlphaPyramid
 
 /// The greatest alpha of a texel that lets all rays pass, where the factors of the material and the vertices
@@ -464,6 +419,47 @@ bool exceeds(const Scene& scene, const Triangle& t, const TextureRef& ref, const
 }
 
 }  // namespace
+
+glm::vec4 planeOf(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2) {
+  const glm::dvec3 cross = glm::cross(glm::dvec3(v1) - glm::dvec3(v0), glm::dvec3(v2) - glm::dvec3(v0));
+  const double length = glm::length(cross);
+  if (length <= 0.0) return glm::vec4(0.0f);
+  const glm::vec3 normal(cross / length);
+  const glm::dvec3 middle = (glm::dvec3(v0) + glm::dvec3(v1) + glm::dvec3(v2)) / 3.0;
+  return {normal, float(glm::dot(glm::dvec3(normal), middle))};
+}
+
+Words packFaces(const Scene& scene, const Bvh& bvh, bool creases) {
+  if (scene.materials.size() > layout::kFaceMaterialMask)
+    throw InputError("the scene has " + std::to_string(scene.materials.size()) + " materials, at most " +
+                     std::to_string(layout::kFaceMaterialMask) + " can be drawn");
+  Words words;
+  const size_t slots = bvh.leaves.size() * 2;
+  words.reserve(slots * (layout::kFaceRows + (creases ? 1u : 0u)) * 4);
+  for (const BvhLeaf& leaf : bvh.leaves) {
+    for (const uint32_t primitive : leaf.primitive) {
+      if (primitive == kMissIndex) {
+        words.insert(words.end(), layout::kFaceRows * 4, 0u);
+      } else if (primitive < scene.triangles.size()) {
+        appendTriangle(words, scene, scene.triangles[primitive]);
+      } else {
+        appendSphere(words, scene, primitive - uint32_t(scene.triangles.size()));
+      }
+    }
+  }
+  for (size_t slot = 0; creases && slot < slots; ++slot)
+    appendInset(words, scene, bvh.leaves[slot / 2].primitive[slot % 2]);
+  return words;
+}
+
+void appendObjectNumbers(const Scene& scene, const Bvh& bvh, Words& words) {
+  for (const BvhLeaf& leaf : bvh.leaves) {
+    for (const uint32_t primitive : leaf.primitive) words.push_back(objectNumberOf(scene, primitive));
+  }
+  if (!scene.instances.empty()) words.resize(words.size() + firstInstanceBlock(bvh));
+  for (const Instance& instance : scene.instances) words.push_back(instance.nodeIndex + 1);
+  words.resize((words.size() + 3) / 4 * 4);
+}
 
 std::vector<bool> cutOutTriangles(const Scene& scene, const TraitSet& traits, const TexturePacker& textures) {
   std::vector<bool> cutOut;

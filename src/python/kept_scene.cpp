@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <deque>
-#include <limits>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -68,61 +67,6 @@ void perform(DrawJob& job) {
     q.changed.notify_all();
   }
 }
-
-}  // namespace
-
-void DrawJob::end() {
-  const std::lock_guard lock(mutex_);
-  ended_ = true;
-  changed_.notify_all();
-}
-
-bool DrawJob::wait(int milliseconds) {
-  std::unique_lock lock(mutex_);
-  return changed_.wait_for(lock, std::chrono::milliseconds(milliseconds), [&] { return ended_; });
-}
-
-std::shared_ptr<DrawJob> postJob(std::function<void(DrawJob&)> work) {
-  Queue& q = queue();
-  // A fork copies no threads, but perhaps a locked mutex.
-  if (q.process != 0 && q.process != ::getpid()) {
-    throw std::runtime_error(
-        "this process was forked from one that has drawn already, and OpenGL does not survive that; start "
-        "processes with "
-        "multiprocessing.get_context('spawn')");
-  }
-  auto job = std::make_shared<DrawJob>();
-  job->work = std::move(work);
-  const std::lock_guard lock(q.mutex);
-  if (q.stopping) {
-    job->end();
-    return job;
-  }
-  if (q.process == 0) {
-    q.process = ::getpid();
-    std::thread([] {
-      nameThread("trace");
-      performAll();
-    }).detach();
-  }
-  q.jobs.push_back(job);
-  q.changed.notify_all();
-  return job;
-}
-
-void stopDrawing() {
-  Queue& q = queue();
-  if (q.process != ::getpid()) return;
-  std::unique_lock lock(q.mutex);
-  q.stopping = true;
-  for (const auto& job : q.jobs) job->interrupts = 2;
-  if (q.current) q.current->interrupts = 2;
-  q.changed.wait(lock, [&] { return q.jobs.empty() && !q.current; });
-}
-
-bool isDrawingStopped() { return queue().stopping; }
-
-namespace {
 
 /// The device, and the scenes that have data on it.
 struct DrawingState {
@@ -207,6 +151,57 @@ std::optional<DrawnPicture> draw(KeptScene& kept, const RenderOptions& asked, in
 }
 
 }  // namespace
+
+void DrawJob::end() {
+  const std::lock_guard lock(mutex_);
+  ended_ = true;
+  changed_.notify_all();
+}
+
+bool DrawJob::wait(int milliseconds) {
+  std::unique_lock lock(mutex_);
+  return changed_.wait_for(lock, std::chrono::milliseconds(milliseconds), [&] { return ended_; });
+}
+
+std::shared_ptr<DrawJob> postJob(std::function<void(DrawJob&)> work) {
+  Queue& q = queue();
+  // A fork copies no threads, but perhaps a locked mutex.
+  if (q.process != 0 && q.process != ::getpid()) {
+    throw std::runtime_error(
+        "this process was forked from one that has drawn already, and OpenGL does not survive that; start "
+        "processes with "
+        "multiprocessing.get_context('spawn')");
+  }
+  auto job = std::make_shared<DrawJob>();
+  job->work = std::move(work);
+  const std::lock_guard lock(q.mutex);
+  if (q.stopping) {
+    job->end();
+    return job;
+  }
+  if (q.process == 0) {
+    q.process = ::getpid();
+    std::thread([] {
+      nameThread("trace");
+      performAll();
+    }).detach();
+  }
+  q.jobs.push_back(job);
+  q.changed.notify_all();
+  return job;
+}
+
+void stopDrawing() {
+  Queue& q = queue();
+  if (q.process != ::getpid()) return;
+  std::unique_lock lock(q.mutex);
+  q.stopping = true;
+  for (const auto& job : q.jobs) job->interrupts = 2;
+  if (q.current) q.current->interrupts = 2;
+  q.changed.wait(lock, [&] { return q.jobs.empty() && !q.current; });
+}
+
+bool isDrawingStopped() { return queue().stopping; }
 
 std::optional<DrawnPicture> drawKept(const std::shared_ptr<KeptScene>& scene, const RenderOptions& options,
                                      int index, DrawJob& job) {

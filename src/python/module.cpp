@@ -40,7 +40,7 @@ Values arrayOf(Image& image) {
   return Values(values->data(), {size_t(image.height), size_t(image.width), image.channels.size()}, owner);
 }
 
-/// The strings and numbers of an .exr, which Python gives and gets beside the channels' names and values.
+/// The strings and numbers of an .exr, which Python gives and gets besides the channels' names and values.
 nb::tuple attributesOf(const Image& image) { return nb::make_tuple(image.attributes, image.numbers); }
 
 /// Channels' names, values and attributes.
@@ -64,7 +64,7 @@ Image imageOfArray(const GivenValues& values, std::vector<std::string> channels)
 /// done.
 void await(DrawJob& job, const nb::object& told) {
   constexpr int kLookMs = 40;
-  constexpr int kLeaveMs = 120;  // a compilation that takes longer goes on, and is not waited for
+  constexpr int kLeaveMs = 120;  // a compilation that takes longer continues, and is not waited for
   double last = -1.0;
   const auto leave = [&] {
     job.interrupts = 2;

@@ -7,7 +7,9 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace fragtrace {
 
@@ -44,12 +46,11 @@ struct Block {
     return above > kOver * noisy || litAbove > kOver * lit;
   }
 
-  /// The samples in each half that it will take, since errors fall with the root of the samples; at least
+  /// The samples in each half that it will take, if errors fall with this power of the samples; at least
   /// `from`.
-  int last(const AdaptiveGoal& goal, int from) const {
+  int last(const AdaptiveGoal& goal, double power, int from) const {
     if (!tooNoisy()) return from;
-    const double ratio = worst / goal.noise;
-    const double needed = samples * ratio * ratio;
+    const double needed = samples * std::pow(worst / goal.noise, 1.0 / power);
     Block after = *this;
     after.samples = from;
     while (after.samples < needed && after.next(goal.mostSamples) > after.samples)
@@ -111,8 +112,39 @@ struct Distance {
   double round = 0.0;  ///< of this round
   double after = 0.0;  ///< likely to be needed after it
 
-  double shareDone(double ofRound) const {
-    return (drawn + ofRound * round) / std::max(drawn + round + after, 1.0);
+  double all() const { return drawn + round + after; }
+};
+
+/// Tells from the rays so far how much of the time is over. It counts from the end of the first draw on, in
+/// which programs may be compiled.
+struct RayClock {
+  struct Mark {
+    double rays = 0.0;
+    double seconds = 0.0;
+  };
+  Mark first;
+  Mark last;  ///< when the latest draw ended
+
+  void note(double rays, double seconds) {
+    if (rays <= last.rays) return;
+    last = {rays, seconds};
+    if (first.rays == 0.0) first = last;
+  }
+
+  /// The rays so far are these: they are counted in another way from now on.
+  void recount(double rays) {
+    if (last.rays > 0.0) first.rays *= rays / last.rays;
+    last.rays = rays;
+  }
+
+  /// The share of the time after `seconds`, if there will be so many rays in all.
+  double shareDone(double all, double seconds) const {
+    if (last.rays == 0.0) return 0.0;
+    const Mark since = last.rays > first.rays ? first : Mark();
+    const double needed =
+        (all - last.rays) * (last.seconds - since.seconds) / std::max(last.rays - since.rays, 1e-9);
+    const double left = std::max(needed - (seconds - last.seconds), 0.1 * needed);
+    return seconds / std::max(seconds + left, 1e-9);
   }
 };
 
@@ -123,8 +155,8 @@ struct Errors {
 };
 
 /// What is drawn until the blocks' targets, and is likely to be left then: the picture ends after the round
-/// that brings enough of its pixels to the goal, if errors fall with the root of the samples.
-Distance distanceOf(Blocks& blocks, const AdaptiveGoal& goal, const Errors& now) {
+/// that brings enough of its pixels to the goal, if errors fall with this power of the samples.
+Distance distanceOf(Blocks& blocks, const AdaptiveGoal& goal, const Errors& now, double power) {
   std::vector<int> samples;  // of each block after the rounds so far
   for (const Block& b : blocks.blocks) samples.push_back(b.target);
   for (bool grows = goal.noise > 0.0; grows;) {
@@ -132,13 +164,13 @@ Distance distanceOf(Blocks& blocks, const AdaptiveGoal& goal, const Errors& now)
     for (size_t i = 0; i < now.relative.size(); ++i) {
       const Block& b = blocks.ofPixel(int(i) % blocks.picture.x, int(i) / blocks.picture.x);
       const int after = samples[size_t(&b - blocks.blocks.data())];
-      then.push_back(now.relative[i] * std::sqrt(double(b.samples) / std::max(after, 1)));
+      then.push_back(now.relative[i] * std::pow(double(b.samples) / std::max(after, 1), power));
     }
     if (distanceTo(goal.noise, now.pixels, then, goal.catcher).share >= kPartUnderGoal) break;
     grows = false;
     for (size_t i = 0; i < samples.size(); ++i) {
       const Block& b = blocks.blocks[i];
-      const int more = int(std::min<int64_t>(int64_t(samples[i]) * 2, b.last(goal, b.target)));
+      const int more = int(std::min<int64_t>(int64_t(samples[i]) * 2, b.last(goal, power, b.target)));
       grows = grows || more > samples[i];
       samples[i] = std::max(samples[i], more);
     }
@@ -152,6 +184,41 @@ Distance distanceOf(Blocks& blocks, const AdaptiveGoal& goal, const Errors& now)
   }
   return d;
 }
+
+/// What is known of the way to the goal.
+struct Estimate {
+  Distance distance;
+  RayClock clock;
+  double power = 0.5;    ///< of the samples, with which errors fall; it is larger where these are stratified
+  double squares = 0.0;  ///< sum of the squared errors at the latest look
+
+  /// Looks at the first samples of each half; each look at twice as many as the one before.
+  void look(const AdaptiveRun& run, const Blocks& blocks, const AdaptiveGoal& goal, int samples) {
+    const Halves halves{run.films[0].read(), run.films[1].read()};
+    const FilmPixels pixels = pooled(halves.a, halves.b);
+    Blocks few = blocks;
+    for (Block& b : few.blocks) b.samples = samples;
+    const std::vector<double> errors = relativeErrors(pixels, varianceOfMean(halves));
+    weigh(few, pixels, errors, goal.noise);
+    const double before =
+        std::exchange(squares, std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0));
+    if (before > 0.0) power = std::clamp(0.5 * std::log2(before / squares), 0.5, 1.0);
+    for (size_t i = 0; i < few.blocks.size(); ++i) few.blocks[i].target = blocks.blocks[i].target;
+    measure(few, goal, {pixels, errors});
+    distance.round += std::exchange(distance.drawn, 0.0);
+  }
+
+  void measure(Blocks& blocks, const AdaptiveGoal& goal, const Errors& now) {
+    distance = distanceOf(blocks, goal, now, power);
+    clock.recount(distance.drawn);
+  }
+
+  /// The share of the time after `seconds`, in which this part of the round was drawn.
+  double shareDone(double ofRound, double seconds) {
+    clock.note(distance.drawn + ofRound * distance.round, seconds);
+    return clock.shareDone(distance.all(), seconds);
+  }
+};
 
 /// Sets the targets of the blocks that get more samples, anywhere if `blind`. Returns the number of samples
 /// in both halves, which is at most the affordable one.
@@ -303,16 +370,16 @@ AdaptivePicture renderAdaptively(Renderer& renderer, AdaptiveRun& run, const Vie
   AdaptivePicture picture;
   // Until samples are there, as many as the limit lets, but at most three rounds more, are a guess.
   const double allowed = 0.5 * goal.mostSamples / firstOf(goal).target - 1.0;
-  Distance distance{0.0, 1.0, std::clamp(allowed, 0.0, 3.0)};
+  Estimate estimate{{0.0, 1.0, std::clamp(allowed, 0.0, 3.0)}, {}};
   const auto goOn = [&](double ofRound) {
     run.state.seconds = elapsed();
     const double timeDone = goal.seconds > 0.0 ? elapsed() / goal.seconds : 0.0;
-    const double roundsDone = goal.noise > 0.0 ? distance.shareDone(ofRound) : 0.0;
+    const double roundsDone = goal.noise > 0.0 ? estimate.shareDone(ofRound, elapsed()) : 0.0;
     picture.stopped = !progress(std::clamp(std::max(roundsDone, timeDone), 0.0, 1.0));
     return !picture.stopped && timeDone < 1.0;
   };
 
-  View views[2] = {view, view};
+  std::array<View, 2> views = {view, view};
   views[1].seed = seedOfOtherHalf(view.seed);
   Blocks blocks(run.films[0].size());
   if (run.state.targets.empty()) {
@@ -322,18 +389,7 @@ AdaptivePicture renderAdaptively(Renderer& renderer, AdaptiveRun& run, const Vie
     loadState(blocks, run.state);
   }
 
-  const auto look = [&](int samples) {
-    const Halves halves{run.films[0].read(), run.films[1].read()};
-    const FilmPixels pixels = pooled(halves.a, halves.b);
-    Blocks few = blocks;
-    for (Block& b : few.blocks) b.samples = samples;
-    const std::vector<double> errors = relativeErrors(pixels, varianceOfMean(halves));
-    weigh(few, pixels, errors, goal.noise);
-    for (size_t i = 0; i < few.blocks.size(); ++i) few.blocks[i].target = blocks.blocks[i].target;
-    distance = distanceOf(few, goal, {pixels, errors});
-    distance.round += distance.drawn;
-    distance.drawn = 0.0;
-  };
+  const auto look = [&](int samples) { estimate.look(run, blocks, goal, samples); };
 
   for (;;) {
     // Step: draw the round.
@@ -358,7 +414,7 @@ AdaptivePicture renderAdaptively(Renderer& renderer, AdaptiveRun& run, const Vie
     const double affordable = goal.seconds > 0.0 ? msLeft / std::max(renderer.msPerSample(), 1e-9)
                                                  : std::numeric_limits<double>::infinity();
     if (chooseTargets(blocks, goal, affordable, blind) <= 0.0) return picture;
-    distance = distanceOf(blocks, goal, {picture.pixels, errors});
+    estimate.measure(blocks, goal, {picture.pixels, errors});
     run.state = stateOf(blocks, run.state);
     const std::vector<uint32_t> targets = targetsOf(blocks);
     run.films[0].setTargets(halves.a, targets);

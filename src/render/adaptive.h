@@ -19,15 +19,19 @@ struct AdaptiveGoal {
   bool catcher = false;  ///< as distanceTo() takes it
 };
 
-struct AdaptivePicture {
-  FilmPixels pixels;
-  std::vector<double> variance;  ///< estimated variance of each pixel's mean
+/// How far an adaptive picture has come.
+struct AdaptiveEstimate {
   double error = 0.0;  ///< the relative error that 95 % of those that can be noisy are estimated to be below
   double share = 0.0;  ///< share of these under the noise asked for
   int rounds = 0;
-  bool known = true;     ///< there are samples enough, and light, to tell an error; else it is 1, and share 0
-  bool black = false;    ///< no sample has brought any light, so that nothing is known of the noise
-  bool stopped = false;  ///< progress() ended it
+  bool known = true;   ///< there are samples enough, and light, to tell an error; else it is 1, and share 0
+  bool black = false;  ///< no sample has brought any light, so that nothing is known of the noise
+};
+
+struct AdaptivePicture : AdaptiveEstimate {
+  FilmPixels pixels;
+  std::vector<double> variance;  ///< estimated variance of each pixel's mean
+  bool stopped = false;          ///< progress() ended it
 };
 
 /// An adaptive picture in progress. A copy of it between two draws is enough to continue from there.

@@ -2,7 +2,6 @@
 #include "render/denoise.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 
@@ -77,6 +76,23 @@ void fillHoles(std::vector<float>& texels, const Image& image) {
   }
 }
 
+/// Pixels from tap to tap.
+constexpr std::array kStrides{1, 2, 4, 8};
+/// The same for few samples, whose noise is rough. Strides that are all even would leave a woven pattern,
+/// since odd and even pixels never meet.
+constexpr std::array kStridesOfFew{1, 2, 4, 8, 1};
+constexpr glm::ivec2 kTexel{1};
+
+/// A black picture with all layers, large enough for each of the filter's programs to be drawn.
+Image blackPicture() {
+  constexpr int kSide = 20;  // more than a block of PicturePasses::sum()
+  Image picture{kSide, kSide, {"R", "G", "B", "variance.Y", "samples.Y"}, {}, {}};
+  picture.channels.insert(picture.channels.end(), kGuideChannels.begin(), kGuideChannels.end());
+  picture.channels.emplace_back(kObservedChannel);
+  picture.values.assign(size_t(kSide) * kSide * picture.channelCount(), 0.0f);
+  return picture;
+}
+
 }  // namespace
 
 NoisyTextures texturesOf(const Image& noisy, bool& observed) {
@@ -138,27 +154,6 @@ Image imageOf(const NoisyTextures& noisy, glm::ivec2 size) {
   }
   return image;
 }
-
-namespace {
-
-/// Pixels from tap to tap.
-constexpr std::array kStrides{1, 2, 4, 8};
-/// The same for few samples, whose noise is rough. Strides that are all even would leave a woven pattern,
-/// since odd and even pixels never meet.
-constexpr std::array kStridesOfFew{1, 2, 4, 8, 1};
-constexpr glm::ivec2 kTexel{1};
-
-/// A black picture with all layers, large enough for each of the filter's programs to be drawn.
-Image blackPicture() {
-  constexpr int kSide = 20;  // more than a block of PicturePasses::sum()
-  Image picture{kSide, kSide, {"R", "G", "B", "variance.Y", "samples.Y"}, {}, {}};
-  picture.channels.insert(picture.channels.end(), kGuideChannels.begin(), kGuideChannels.end());
-  picture.channels.emplace_back(kObservedChannel);
-  picture.values.assign(size_t(kSide) * kSide * picture.channelCount(), 0.0f);
-  return picture;
-}
-
-}  // namespace
 
 VarianceFilter::VarianceFilter(const ShaderSource& source) {
   makePasses(source, {{&summary_, "denoise/summary.frag"},

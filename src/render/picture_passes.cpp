@@ -3,7 +3,6 @@
 
 #include <array>
 #include <string>
-#include <vector>
 
 #include "base/timeline.h"
 #include "gl/program.h"
@@ -16,6 +15,16 @@ namespace {
 constexpr int kBlock = 16;  // the same as in shaders/picture/picture.glsl
 
 glm::ivec2 blocksOf(glm::ivec2 size) { return (size + kBlock - 1) / kBlock; }
+
+/// Writes the camera in the layout of shaders/picture/reproject.frag, relative to a point, so that floats are
+/// exact around the camera.
+void putCamera(glm::vec4* rows, const SeenPicture& picture, const glm::dvec3& origin) {
+  const Projection p = projectionOf(picture.camera, double(picture.size.x) / picture.size.y);
+  rows[0] = glm::vec4(glm::vec3(p.position - origin), 0.0f);
+  rows[1] = glm::vec4(glm::vec3(p.right), p.shift.x);
+  rows[2] = glm::vec4(glm::vec3(p.up), p.shift.y);
+  rows[3] = glm::vec4(glm::vec3(p.forward), float(p.type));
+}
 
 }  // namespace
 
@@ -78,20 +87,6 @@ void PicturePasses::sum(const GlProgram& program, glm::ivec2 size,
   }
   draw(sums_, left, left, {latest}, {&texel});
 }
-
-namespace {
-
-/// Writes the camera in the layout of shaders/picture/reproject.frag, relative to a point, so that floats are
-/// exact around the camera.
-void putCamera(glm::vec4* rows, const SeenPicture& picture, const glm::dvec3& origin) {
-  const Projection p = projectionOf(picture.camera, double(picture.size.x) / picture.size.y);
-  rows[0] = glm::vec4(glm::vec3(p.position - origin), 0.0f);
-  rows[1] = glm::vec4(glm::vec3(p.right), p.shift.x);
-  rows[2] = glm::vec4(glm::vec3(p.up), p.shift.y);
-  rows[3] = glm::vec4(glm::vec3(p.forward), float(p.type));
-}
-
-}  // namespace
 
 SeenPasses::SeenPasses(const ShaderSource& source) {
   makePasses(source, {{&film_, "picture/film.frag"},

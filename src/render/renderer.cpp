@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "render/renderer.h"
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <deque>
 
 #include "base/errors.h"
-#include "pack/guiding.h"
 #include "pack/pack_tree.h"
 #include "scene/camera.h"
 
@@ -228,7 +225,7 @@ void Renderer::bindWork(std::span<const Work> tiles) {
   if (room > workRoom_) {
     workBuffer_ = makeBuffer();
     workRoom_ = room;
-    const GLsizeiptr counts = (2 + room) * layout::kWorkCount;
+    const GLsizeiptr counts = (2 + room) * kWorkNames.size();
     glNamedBufferStorage(workBuffer_.name(), counts * GLsizeiptr(sizeof(uint32_t)), nullptr,
                          GL_DYNAMIC_STORAGE_BIT);
     checkGl("making room for counts of work");
@@ -643,7 +640,7 @@ void Renderer::splat(const RenderPass& pass, glm::ivec2 tile, float weight) {
   const DrawTarget target;
   glNamedFramebufferTexture(target.framebuffer.name(), GL_COLOR_ATTACHMENT0, film.splats().name(), 0);
   target.bind();
-  // If no viewport can be larger than the film, points beside it are lost.
+  // If no viewport can be larger than the film, points next to it are lost.
   const int margin = std::max(size.x, size.y) + 2 * kMargin <= Film::mostSide() ? kMargin : 0;
   const glm::ivec2 viewport = size + 2 * margin;
   glViewport(-margin, -margin, viewport.x, viewport.y);

@@ -2,15 +2,12 @@
 #include "scene/camera.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include <glm/glm.hpp>
 #include <glm/gtc/constants.hpp>
 
 #include "base/errors.h"
 #include "base/text.h"
-#include "base/vectors.h"
 #include "scene/parts.h"
 
 namespace fragtrace {
@@ -182,6 +179,12 @@ Camera withLens(Camera camera, const CameraOverrides& overrides, double distance
   return camera;
 }
 
+/// The unit vector from the point looked at to the camera, world space.
+glm::dvec3 outwardsOf(const Orbit& orbit) {
+  const double elevation = glm::radians(orbit.elevationDegrees);
+  return std::cos(elevation) * levelOutwards(orbit) + std::sin(elevation) * kVertical;
+}
+
 /// Puts the camera's lens on the sphere about the point at which it looks.
 Camera orbiting(const Camera& lens, const Orbit& orbit, const CameraOverrides& overrides,
                 const BoundsDouble& bounds, double aspectRatio) {
@@ -204,11 +207,6 @@ Camera orbiting(const Camera& lens, const Orbit& orbit, const CameraOverrides& o
 }
 
 }  // namespace
-
-glm::dvec3 outwardsOf(const Orbit& orbit) {
-  const double elevation = glm::radians(orbit.elevationDegrees);
-  return std::cos(elevation) * levelOutwards(orbit) + std::sin(elevation) * kVertical;
-}
 
 Camera frameScene(const BoundsDouble& bounds, double aspectRatio) {
   Camera camera;
@@ -359,8 +357,8 @@ double meanSquaredCosine(const Facing& facing, const Orbit& orbit) {
   return trace > 0.0 ? glm::dot(d, facing.sum * d) / trace : 1.0;
 }
 
-}  // namespace
-
+/// The direction from which the scene's surfaces are visible: kFirstView, or another one if most of them
+/// would be seen along their edges there.
 Orbit firstView(const Scene& scene) {
   // The limit for a view along the edge: 14 degrees or less to the surface. A level floor is seen at 20.
   constexpr double kEdge = 0.06;
@@ -373,6 +371,8 @@ Orbit firstView(const Scene& scene) {
   const auto seen = [&](const Orbit& orbit) { return meanSquaredCosine(facing, orbit); };
   return seen(kFirstView) >= kEdge ? kFirstView : *std::ranges::max_element(kOthers, {}, seen);
 }
+
+}  // namespace
 
 CameraOverrides settledOverrides(CameraOverrides asked, const Scene& scene) {
   const bool fits = asked.asksForFit();

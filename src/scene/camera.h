@@ -81,9 +81,6 @@ struct Orbit {
 /// from there.
 inline constexpr Orbit kFirstView{.azimuthDegrees = 35.0, .elevationDegrees = 20.0};
 
-/// The unit vector from the point looked at to the camera, world space.
-glm::dvec3 outwardsOf(const Orbit& orbit);
-
 /// World space, metres; the view angle is vertical, or of a fisheye's circle.
 struct CameraOverrides {
   std::optional<CameraType> type{};
@@ -157,10 +154,6 @@ std::optional<int> cameraIndexOf(std::optional<int> index, const std::string& na
 /// height, and is zoomed unless it is to be fitted. Throws UsageError if there is no camera of that index.
 Camera chooseCamera(std::span<const Camera> cameras, std::optional<int> index,
                     const CameraOverrides& overrides, const BoundsDouble& bounds, double aspectRatio = 1.0);
-
-/// The direction from which the scene's surfaces are visible: kFirstView, or another one if most of them
-/// would be seen along their edges there.
-Orbit firstView(const Scene& scene);
 
 /// The overrides that are asked for, with `fit` where any member asks for one. firstView() is added if the
 /// scene has no camera, and neither a position nor an orbit is asked for. The scene then fills the picture,

@@ -67,29 +67,6 @@ std::vector<uint32_t> spacesOf(const Scene& scene) {
   return spaces;
 }
 
-}  // namespace
-
-std::vector<uint32_t> placesOf(const Scene& scene) {
-  const std::vector<glm::vec3>& positions = scene.vertices.position;
-  const std::vector<uint32_t> spaces = spacesOf(scene);
-  const auto same = [&](uint32_t a, uint32_t b) {
-    return positions[a] == positions[b] && (spaces.empty() || spaces[a] == spaces[b]);
-  };
-  std::vector<uint32_t> places(positions.size());
-  const size_t mask = std::bit_ceil(positions.size() * 2) - 1;
-  std::vector<uint32_t> table(mask + 1, kNone);
-  for (uint32_t i = 0; i < positions.size(); ++i) {
-    size_t slot =
-        (hashOf(positions[i]) + (spaces.empty() ? 0 : spaces[i] * size_t{0x9e3779b97f4a7c15u})) & mask;
-    while (table[slot] != kNone && !same(table[slot], i)) slot = (slot + 1) & mask;
-    if (table[slot] == kNone) table[slot] = i;
-    places[i] = table[slot];
-  }
-  return places;
-}
-
-namespace {
-
 Fans fansOf(const Scene& scene) {
   Fans fans;
   const std::vector<uint32_t> places = placesOf(scene);
@@ -305,6 +282,25 @@ std::vector<glm::vec3> normalsOf(const Scene& scene) {
 }
 
 }  // namespace
+
+std::vector<uint32_t> placesOf(const Scene& scene) {
+  const std::vector<glm::vec3>& positions = scene.vertices.position;
+  const std::vector<uint32_t> spaces = spacesOf(scene);
+  const auto same = [&](uint32_t a, uint32_t b) {
+    return positions[a] == positions[b] && (spaces.empty() || spaces[a] == spaces[b]);
+  };
+  std::vector<uint32_t> places(positions.size());
+  const size_t mask = std::bit_ceil(positions.size() * 2) - 1;
+  std::vector<uint32_t> table(mask + 1, kNone);
+  for (uint32_t i = 0; i < positions.size(); ++i) {
+    size_t slot =
+        (hashOf(positions[i]) + (spaces.empty() ? 0 : spaces[i] * size_t{0x9e3779b97f4a7c15u})) & mask;
+    while (table[slot] != kNone && !same(table[slot], i)) slot = (slot + 1) & mask;
+    if (table[slot] == kNone) table[slot] = i;
+    places[i] = table[slot];
+  }
+  return places;
+}
 
 std::vector<uint32_t> creaseInsets(const Scene& scene, std::vector<uint32_t>* twins) {
   if (scene.triangles.empty()) return {};

@@ -5,10 +5,8 @@
 #include <array>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "base/text.h"
-#include "scene/parts.h"
 
 namespace fragtrace {
 

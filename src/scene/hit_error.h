@@ -19,7 +19,7 @@ double hitPointError(const std::array<glm::vec3, 3>& v);
 /// (docs/design/numerics.md, "Distance along the ray").
 double sliverLength(const std::array<glm::vec3, 3>& v);
 
-/// Returns true if the weighted depths of the vertices are too rough a distance for a ray that starts beside
+/// Returns true if the weighted depths of the vertices are too rough a distance for a ray that starts next to
 /// the triangle: half of 2^-24 sliverLength() is more than 4 units of 2^-24 of the largest coordinate.
 bool isSliver(const std::array<glm::vec3, 3>& v);
 

@@ -30,7 +30,7 @@ inline constexpr double kAreaPower = 30.0;
 /// The word that takes a texture out of a material.
 inline constexpr const char* kNoValue = "none";
 
-/// Numbers, or a word, that stand in place of the file's.
+/// Numbers, or a word, that replace the file's.
 struct SetNumber {
   /// JSON pointer, such as /materials/0/pbrMetallicRoughness/roughnessFactor, or MATERIAL:NAME
   std::string pointer;

@@ -2,7 +2,6 @@
 #include "scene/studio.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <glm/gtc/constants.hpp>

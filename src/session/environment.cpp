@@ -16,7 +16,6 @@
 #include "pack/pack_environment.h"
 #include "scene/camera.h"
 #include "scene/creases.h"
-#include "scene/fit.h"
 #include "scene/sky/map_filter.h"
 #include "scene/sky/sky.h"
 #include "scene/strokes.h"
@@ -63,6 +62,48 @@ bool isChosen(const RenderOptions& options) {
 }
 
 std::string percent(double share) { return std::to_string(std::lround(100.0 * share)) + " %"; }
+
+/// Says what the user lights the scene by, with the file's lamps.
+std::string lightOfUser(const RenderOptions& options, const FileLight& light) {
+  std::vector<std::string> lights;
+  if (options.light.studio) lights.emplace_back("the built-in studio");
+  if (options.light.sky.on) lights.emplace_back("the sky");
+  if (!options.light.hdriFile.empty()) lights.push_back("the environment " + options.light.hdriFile.string());
+  if (!options.selection.lights.empty()) lights.emplace_back("--add-light");
+  if (light.byLamps && options.selection.lights.empty()) lights.emplace_back("the file's own lamps");
+  return joined(lights, " and ") + (lights.size() > 1 ? " light it" : " lights it");
+}
+
+/// Says who lights the scene by default, or which part of it its own light leaves out; what else lights it,
+/// too, if that is asked for.
+void sayWhoLights(const RenderOptions& options, const FileLight& light, bool always) {
+  constexpr double kNoticed = 0.5;
+  constexpr double kMuchMetal = 0.1;
+  if (const std::string reason = defaultLightReason(options, light); !reason.empty()) {
+    const bool studio = options.light.defaultLight == DefaultLight::Studio;
+    say(options,
+        reason + (studio ? ": the built-in studio lights it (--default-light)"
+                         : ": a white environment that the camera does not see lights it (--default-light)"));
+    return;
+  }
+  if (isLitByUser(options)) {
+    if (always) say(options, lightOfUser(options, light));
+    return;
+  }
+  if (light.own == OwnLight::None) {
+    if (always) say(options, "nothing lights it (--default-light none)");
+    return;
+  }
+  const std::string who =
+      light.byLamps ? "the file's own lamps light it" : "the file's own emission lights it";
+  if (light.dark > kNoticed)
+    say(options, who + (light.byLamps ? ", and leave " : ", and leaves ") + percent(light.dark) +
+                     " of what is seen dark (--studio adds light)");
+  else if (light.byLamps && light.smoothMetal > kMuchMetal)
+    say(options, who + ", and its smooth metal has nothing to reflect but them (--studio adds surroundings)");
+  else if (always)
+    say(options, who);
+}
 
 }  // namespace
 
@@ -119,52 +160,6 @@ std::string defaultLightReason(const RenderOptions& options, const FileLight& li
       return "";
   }
 }
-
-namespace {
-
-/// Says what the user lights the scene by, with the file's lamps.
-std::string lightOfUser(const RenderOptions& options, const FileLight& light) {
-  std::vector<std::string> lights;
-  if (options.light.studio) lights.emplace_back("the built-in studio");
-  if (options.light.sky.on) lights.emplace_back("the sky");
-  if (!options.light.hdriFile.empty()) lights.push_back("the environment " + options.light.hdriFile.string());
-  if (!options.selection.lights.empty()) lights.emplace_back("--add-light");
-  if (light.byLamps && options.selection.lights.empty()) lights.emplace_back("the file's own lamps");
-  return joined(lights, " and ") + (lights.size() > 1 ? " light it" : " lights it");
-}
-
-/// Says who lights the scene by default, or which part of it its own light leaves out; what else lights it,
-/// too, if that is asked for.
-void sayWhoLights(const RenderOptions& options, const FileLight& light, bool always) {
-  constexpr double kNoticed = 0.5;
-  constexpr double kMuchMetal = 0.1;
-  if (const std::string reason = defaultLightReason(options, light); !reason.empty()) {
-    const bool studio = options.light.defaultLight == DefaultLight::Studio;
-    say(options,
-        reason + (studio ? ": the built-in studio lights it (--default-light)"
-                         : ": a white environment that the camera does not see lights it (--default-light)"));
-    return;
-  }
-  if (isLitByUser(options)) {
-    if (always) say(options, lightOfUser(options, light));
-    return;
-  }
-  if (light.own == OwnLight::None) {
-    if (always) say(options, "nothing lights it (--default-light none)");
-    return;
-  }
-  const std::string who =
-      light.byLamps ? "the file's own lamps light it" : "the file's own emission lights it";
-  if (light.dark > kNoticed)
-    say(options, who + (light.byLamps ? ", and leave " : ", and leaves ") + percent(light.dark) +
-                     " of what is seen dark (--studio adds light)");
-  else if (light.byLamps && light.smoothMetal > kMuchMetal)
-    say(options, who + ", and its smooth metal has nothing to reflect but them (--studio adds surroundings)");
-  else if (always)
-    say(options, who);
-}
-
-}  // namespace
 
 void sayLight(const RenderOptions& options, const FileLight& light, bool always) {
   if (has(options.stages, Stage::Phong)) sayWhoLights(options, light, always || options.output.verbose);
@@ -305,32 +300,6 @@ void appendEnvironment(const Environment& environment, const RenderOptions& opti
   }
 }
 
-}  // namespace
-
-std::vector<PlaneLight> caughtLights(const Scene& scene, const Environment& environment,
-                                     const RenderOptions& options, double height) {
-  std::vector<PlaneLight> lights;
-  appendEnvironment(environment, options, lights);
-  glm::dvec3 middle = scene.bounds.empty() ? glm::dvec3(0.0) : scene.bounds.center();
-  middle.y = height;
-  for (const Light& light : scene.lights) {
-    const double strength = luminance(glm::dvec3(light.intensity));
-    if (light.type == LightType::Directional) {
-      const glm::dvec3 from = -glm::dvec3(light.direction);
-      lights.push_back({from, false, strength * std::max(from.y, 0.0)});
-      continue;
-    }
-    const glm::dvec3 place = scene.space.worldOf(glm::dvec3(light.position));
-    const glm::dvec3 towards = (place - middle) / scene.space.unit;
-    const double distance = glm::length(towards);
-    if (distance > 0.0)
-      lights.push_back({place, true, strength * std::max(towards.y, 0.0) / (distance * distance * distance)});
-  }
-  return lights;
-}
-
-namespace {
-
 constexpr double kReach = 200.0;  ///< half of the side, in diagonals of the scene
 constexpr double kGap = 1e-4;  ///< below the scene, in diagonals: faces that lie on it have a side to light
 
@@ -359,6 +328,28 @@ uint32_t addVertex(Vertices& vertices, const glm::dvec3& place) {
 }
 
 }  // namespace
+
+std::vector<PlaneLight> caughtLights(const Scene& scene, const Environment& environment,
+                                     const RenderOptions& options, double height) {
+  std::vector<PlaneLight> lights;
+  appendEnvironment(environment, options, lights);
+  glm::dvec3 middle = scene.bounds.empty() ? glm::dvec3(0.0) : scene.bounds.center();
+  middle.y = height;
+  for (const Light& light : scene.lights) {
+    const double strength = luminance(glm::dvec3(light.intensity));
+    if (light.type == LightType::Directional) {
+      const glm::dvec3 from = -glm::dvec3(light.direction);
+      lights.push_back({from, false, strength * std::max(from.y, 0.0)});
+      continue;
+    }
+    const glm::dvec3 place = scene.space.worldOf(glm::dvec3(light.position));
+    const glm::dvec3 towards = (place - middle) / scene.space.unit;
+    const double distance = glm::length(towards);
+    if (distance > 0.0)
+      lights.push_back({place, true, strength * std::max(towards.y, 0.0) / (distance * distance * distance)});
+  }
+  return lights;
+}
 
 void addGround(Scene& scene, const RenderOptions& options, const BoundsDouble& bounds) {
   if (!options.light.ground || bounds.empty()) return;

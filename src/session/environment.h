@@ -27,7 +27,7 @@ FileLight fileLightOf(const RenderOptions& options, const Scene& scene, const Bv
 /// Gives the scene's lamps the units that were decided.
 void setLampScale(Scene& scene, double lampScale);
 
-/// The light of its own that counts beside what the options light the scene by.
+/// The light of its own that counts besides what the options light the scene by.
 OwnLight countedLight(const RenderOptions& options, const FileLight& light);
 
 /// The exposure that the file's light asks for, in stops; 0: it needs none, or other light is there.

@@ -2,7 +2,6 @@
 #include "session/session.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "gl/driver_choice.h"
 #include "session/outputs.h"
@@ -20,13 +19,7 @@ bool keepsTree(const RenderOptions& options, const Scene& scene) {
          scene.triangles.size() >= kLeastTriangles && scene.motion.segments == 0;
 }
 
-}  // namespace
-
-bool seesStrokesAlike(const RenderOptions& a, const RenderOptions& b) {
-  return a.camera.overrides == b.camera.overrides && a.camera.index == b.camera.index &&
-         a.camera.resolution == b.camera.resolution;
-}
-
+/// Opens a context for `paths` camera paths in all. Throws ContextError.
 void openContext(const RenderOptions& options, double paths, Device& device, Statistics& stats) {
   const bool quick = preferQuickCompilation(paths);
   PhaseTimer timer("context");
@@ -34,6 +27,13 @@ void openContext(const RenderOptions& options, double paths, Device& device, Sta
   device.driverLog.emplace();
   stats.phases.push_back(timer.end());
   stats.quickCompilation = quick && device.context->software;
+}
+
+}  // namespace
+
+bool seesStrokesAlike(const RenderOptions& a, const RenderOptions& b) {
+  return a.camera.overrides == b.camera.overrides && a.camera.index == b.camera.index &&
+         a.camera.resolution == b.camera.resolution;
 }
 
 Renewal Session::renewalOf(const RenderOptions& options) const {

@@ -27,9 +27,6 @@ struct Device {
   std::unique_ptr<FilterThread> filter{};  ///< the variance filter, from the first picture that it filters on
 };
 
-/// Opens a context for `paths` camera paths in all. Throws ContextError.
-void openContext(const RenderOptions& options, double paths, Device& device, Statistics& stats);
-
 /// A change of the scene that options do not say, such as a turntable's.
 struct SceneChange {
   Renewal least = Renewal::None;  ///< what is renewed at least

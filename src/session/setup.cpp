@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <future>
 #include <iterator>
 #include <limits>
@@ -19,7 +18,6 @@
 #include "base/text.h"
 #include "bvh/build.h"
 #include "bvh/bvh.h"
-#include "bvh/scene_tree.h"
 #include "image/files/process.h"
 #include "image/files/video_format.h"
 #include "image/format.h"
@@ -32,7 +30,6 @@
 #include "scene/camera.h"
 #include "scene/describe.h"
 #include "scene/fit.h"
-#include "scene/scene.h"
 #include "scene/solids.h"
 #include "scene/strokes.h"
 #include "scene/volume/read_grid.h"
@@ -45,8 +42,8 @@ namespace fragtrace {
 
 namespace {
 
-/// Refuses what would not leave shaders room to multiply lengths (src/gltf/build/gltf.cpp): in the options,
-/// if the camera's place is theirs, or in the file.
+/// Refuses what would not leave shaders room to multiply lengths (src/gltf/assemble/gltf.cpp): in the
+/// options, if the camera's place is theirs, or in the file.
 void checkDistance(const Camera& camera, const LocalSpace& space, const RenderOptions& options) {
   constexpr double kFarthest = 1e12;  // local space
   const bool parallel = camera.type == CameraType::Orthographic;
@@ -87,11 +84,12 @@ bool besideAllowed(const RenderOptions& options) {
   return options.device.traversal == TraversalMethod::Auto && options.output.debugView != DebugView::Visits;
 }
 
-}  // namespace
-
+/// The height of the shadow catcher's plane (Y, metres).
 double catcherHeightOf(const RenderOptions& options, const BoundsDouble& bounds) {
   return options.light.catcherHeight.value_or(bounds.empty() ? 0.0 : bounds.minimum.y);
 }
+
+}  // namespace
 
 Camera fitCamera(const Camera& camera, const FittedPoints& points, const CameraOverrides& overrides,
                  glm::ivec2 size) {
@@ -230,6 +228,20 @@ void checkCameraPlane(const RenderOptions& options, LoadedScene& loaded) {
       " cuts a solid that lets light in: all rays count as beginning " +
       (loaded.view.cameraSolids == layout::kPrimitiveNone ? "outside" : "inside") +
       ", as the camera's position is (--camera-position moves it)");
+}
+
+/// Makes fog from the options, around a scene with these bounds.
+Fog fogOf(const FogOptions& options, const BoundsDouble& bounds) {
+  constexpr double kReach = 1.5;  // the reach in radii of the ball round the scene's box
+  Fog fog;
+  fog.extinction = options.density;
+  fog.albedo = options.color.value_or(glm::vec3(1.0f));
+  fog.anisotropy = float(options.anisotropy);
+  fog.height = options.height.value_or(fog.height);
+  fog.base = options.base.value_or(bounds.empty() ? 0.0 : bounds.minimum.y);
+  if (!bounds.empty()) fog.center = bounds.center();
+  fog.radius = options.distance.value_or(kReach * 0.5 * glm::length(bounds.extent()));
+  return fog;
 }
 
 /// Fog so thick that paths are long, and that nearly nothing is seen through it.
@@ -544,6 +556,29 @@ void warnOfVolume(const RenderOptions& options, Scene& scene) {
                        1.0 / extinction, size));
 }
 
+/// Frame::cameraSolids of a camera at this point of local space.
+uint32_t cameraSolids(const Solids& solids, const glm::dvec3& point) {
+  const std::vector<uint32_t> around = solidsAround(solids, point);
+  if (around.empty()) return layout::kPrimitiveNone;
+  constexpr uint32_t kNoOuter = 0xffff;
+  return solids.nested ? around[0] | (around.size() > 1 ? around[1] : kNoOuter) << 16 : around[0];
+}
+
+Lens lensOf(const RenderOptions& options, const Camera& camera, const BoundsDouble& bounds,
+            const LocalSpace& space) {
+  Lens lens;
+  if (!options.camera.lens.fStop || camera.type != CameraType::Perspective) return lens;
+  lens.radius = 0.5 * focalLengthOf(camera.fovY) / *options.camera.lens.fStop;
+  const glm::dvec3 focalPoint = options.camera.overrides.focalPoint.value_or(focalPointOf(camera, bounds));
+  lens.focusDistance =
+      options.camera.lens.focusDistance.value_or(glm::dot(focalPoint - camera.position, camera.forward));
+  // Beyond, rays are parallel, and the squares of longer ones are no floats.
+  constexpr double kParallel = 0x1p50;  // local space
+  lens.focusDistance = std::min(lens.focusDistance, kParallel * space.unit);
+  lens.blades = options.camera.lens.blades;
+  return lens;
+}
+
 }  // namespace
 
 void placeVolume(Scene& scene, const RenderOptions& options, const Volume* before) {
@@ -575,46 +610,6 @@ void placeVolume(Scene& scene, const RenderOptions& options, const Volume* befor
   }
   for (const glm::dvec3& corner : volume.corners()) scene.bounds.include(corner);
   warnOfVolume(options, scene);
-}
-
-namespace {
-
-/// Frame::cameraSolids of a camera at this point of local space.
-uint32_t cameraSolids(const Solids& solids, const glm::dvec3& point) {
-  const std::vector<uint32_t> around = solidsAround(solids, point);
-  if (around.empty()) return layout::kPrimitiveNone;
-  constexpr uint32_t kNoOuter = 0xffff;
-  return solids.nested ? around[0] | (around.size() > 1 ? around[1] : kNoOuter) << 16 : around[0];
-}
-
-Lens lensOf(const RenderOptions& options, const Camera& camera, const BoundsDouble& bounds,
-            const LocalSpace& space) {
-  Lens lens;
-  if (!options.camera.lens.fStop || camera.type != CameraType::Perspective) return lens;
-  lens.radius = 0.5 * focalLengthOf(camera.fovY) / *options.camera.lens.fStop;
-  const glm::dvec3 focalPoint = options.camera.overrides.focalPoint.value_or(focalPointOf(camera, bounds));
-  lens.focusDistance =
-      options.camera.lens.focusDistance.value_or(glm::dot(focalPoint - camera.position, camera.forward));
-  // Beyond, rays are parallel, and the squares of longer ones are no floats.
-  constexpr double kParallel = 0x1p50;  // local space
-  lens.focusDistance = std::min(lens.focusDistance, kParallel * space.unit);
-  lens.blades = options.camera.lens.blades;
-  return lens;
-}
-
-}  // namespace
-
-Fog fogOf(const FogOptions& options, const BoundsDouble& bounds) {
-  constexpr double kReach = 1.5;  // the reach in radii of the ball round the scene's box
-  Fog fog;
-  fog.extinction = options.density;
-  fog.albedo = options.color.value_or(glm::vec3(1.0f));
-  fog.anisotropy = float(options.anisotropy);
-  fog.height = options.height.value_or(fog.height);
-  fog.base = options.base.value_or(bounds.empty() ? 0.0 : bounds.minimum.y);
-  if (!bounds.empty()) fog.center = bounds.center();
-  fog.radius = options.distance.value_or(kReach * 0.5 * glm::length(bounds.extent()));
-  return fog;
 }
 
 View makeView(const RenderOptions& options, const LoadedScene& loaded, const Camera& camera) {

@@ -74,9 +74,6 @@ GltfOptions gltfOptionsOf(const RenderOptions& options);
 /// The picture's size in pixels.
 glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options);
 
-/// The height of the shadow catcher's plane (Y, metres).
-double catcherHeightOf(const RenderOptions& options, const BoundsDouble& bounds);
-
 /// LightOptions::shadowFade of a picture of that size, in which the camera has framed these points: as wide
 /// as the margins around the lowest of them, from which the shadow spreads, so that no edge of it is seen; 0:
 /// nowhere.
@@ -105,14 +102,11 @@ FittedPoints pointsToFit(const Scene& scene, const Environment& environment, con
 /// Camera paths that the picture takes at the most: what the largest number of samples allows.
 double pathsOf(const RenderOptions& options, glm::ivec2 size);
 
-/// Makes fog from the options, around a scene with these bounds.
-Fog fogOf(const FogOptions& options, const BoundsDouble& bounds);
-
 /// Returns the part of the options that needs neither another program nor other buffers.
 View makeView(const RenderOptions& options, const LoadedScene& loaded, const Camera& camera);
 
 /// The tree of the options' traversal. The iterative one needs none; where it is chosen for them, the largest
-/// triangles stand beside it when that pays.
+/// triangles stand next to it when that pays.
 Bvh buildTree(const Scene& scene, const RenderOptions& options);
 
 /// Returns true if buildTree() builds the same for both.

@@ -14,7 +14,6 @@
 #include "scene/strokes.h"
 #include "session/environment.h"
 #include "session/say.h"
-#include "session/setup.h"
 #include "shader/layout.h"
 
 namespace fragtrace {
@@ -145,8 +144,9 @@ double surfacesOffAt(const Between& b, const Scene& scene, const PixelMeasure& m
   return most;
 }
 
-}  // namespace
-
+/// Pixels by which the most distant point that the camera sees is off its way at any of these moments, if
+/// surfaces move in `segments` straight segments; the moments between which they move are among them. Points
+/// of triangles that reach beyond the picture count where they are in it. `camera` is that of the picture.
 double surfacesOff(const Moments& moments, uint32_t segments, const Scene& scene, const Camera& camera,
                    glm::ivec2 size) {
   const PixelMeasure measure(camera, size);
@@ -156,6 +156,7 @@ double surfacesOff(const Moments& moments, uint32_t segments, const Scene& scene
   return most;
 }
 
+/// The largest part of its area that an emissive triangle loses, or gains, since it moves straight.
 double lampsOff(const Moments& moments, uint32_t segments, const Scene& scene) {
   double most = 0.0;
   forEachWithin(moments, segments, [&](const Between& b) {
@@ -176,6 +177,8 @@ double lampsOff(const Moments& moments, uint32_t segments, const Scene& scene) {
   return most;
 }
 
+/// Pixels by which a camera that moves in such segments shows something in another place than at any of these
+/// moments: vertices of the scene, or what is far away.
 double cameraOff(const Moments& moments, std::span<const CameraSegment> segments, const Scene& scene,
                  glm::ivec2 size) {
   constexpr size_t kMostPoints = 2000;
@@ -200,8 +203,6 @@ double cameraOff(const Moments& moments, std::span<const CameraSegment> segments
   }
   return most;
 }
-
-namespace {
 
 constexpr uint32_t kMostSegments = layout::kMostCameraSegments;
 constexpr size_t kMostTriangles = size_t(1) << 26;  ///< triangles of all segments together
@@ -327,6 +328,31 @@ uint32_t segmentsOfSurfaces(MomentReader& reader, LoadedScene& loaded, double& o
   return segments;
 }
 
+/// The space that the poses fill together, world space.
+struct Filled {
+  BoundsDouble bounds;
+  FittedPoints points;  ///< whose hull is that of all, nearly
+};
+
+void append(std::vector<glm::dvec3>& all, std::vector<glm::dvec3> points) {
+  std::ranges::copy(farthest(std::move(points)), std::back_inserter(all));
+}
+
+/// Seconds, over all of the animation; where its length is not known, those of the pictures asked for.
+std::vector<double> timesOf(const Scene& scene, const RenderOptions& options) {
+  constexpr double kPerSecond = 12.0;
+  constexpr int kFewest = 8;
+  constexpr int kMost = 48;
+  const SequenceOptions& sequence = options.output.sequence;
+  const std::optional<double> length = animationLength(scene, options.selection);
+  const double first = length ? 0.0 : sequence.frames->first / sequence.fps;
+  const double last = length.value_or(sequence.frames->last / sequence.fps);
+  const int count = int(std::clamp(std::ceil((last - first) * kPerSecond), double(kFewest), double(kMost)));
+  std::vector<double> times;
+  for (int i = 0; i <= count; ++i) times.push_back(first + (last - first) * i / count);
+  return times;
+}
+
 }  // namespace
 
 double shutterSeconds(const RenderOptions& options) {
@@ -360,35 +386,6 @@ void openShutter(LoadedScene& loaded, const RenderOptions& options, std::shared_
   scene = movingScene(std::move(scene), kept);
 }
 
-namespace {
-
-/// The space that the poses fill together, world space.
-struct Filled {
-  BoundsDouble bounds;
-  FittedPoints points;  ///< whose hull is that of all, nearly
-};
-
-void append(std::vector<glm::dvec3>& all, std::vector<glm::dvec3> points) {
-  std::ranges::copy(farthest(std::move(points)), std::back_inserter(all));
-}
-
-/// Seconds, over all of the animation; where its length is not known, those of the pictures asked for.
-std::vector<double> timesOf(const Scene& scene, const RenderOptions& options) {
-  constexpr double kPerSecond = 12.0;
-  constexpr int kFewest = 8;
-  constexpr int kMost = 48;
-  const SequenceOptions& sequence = options.output.sequence;
-  const std::optional<double> length = animationLength(scene, options.selection);
-  const double first = length ? 0.0 : sequence.frames->first / sequence.fps;
-  const double last = length.value_or(sequence.frames->last / sequence.fps);
-  const int count = int(std::clamp(std::ceil((last - first) * kPerSecond), double(kFewest), double(kMost)));
-  std::vector<double> times;
-  for (int i = 0; i <= count; ++i) times.push_back(first + (last - first) * i / count);
-  return times;
-}
-
-}  // namespace
-
 std::optional<double> animationLength(const Scene& scene, const SceneSelection& selection) {
   std::optional<double> length;
   for (const size_t index : chosenAnimations(selection.animation, scene.animationNames)) {
@@ -400,6 +397,7 @@ std::optional<double> animationLength(const Scene& scene, const SceneSelection& 
 }
 
 RenderOptions placedForAllPoses(RenderOptions options, std::shared_ptr<KeptDocument>& kept) {
+  if (options.output.sequence.turntable > 0) return options;
   const CameraOverrides asked = options.camera.overrides;
   const bool placed = asked.asksForFit() || asked.orbit;
   RenderOptions posed = options;

@@ -3,7 +3,6 @@
 
 #include <map>
 #include <memory>
-#include <vector>
 
 #include "gltf/gltf.h"
 #include "scene/motion/moving_scene.h"
@@ -23,20 +22,6 @@ struct Moment {
 /// Moments by their time, 0 where the shutter opens and 1 where it closes.
 using Moments = std::map<double, Moment>;
 
-/// Pixels by which the most distant point that the camera sees is off its way at any of these moments, if
-/// surfaces move in `segments` straight segments; the moments between which they move are among them. Points
-/// of triangles that reach beyond the picture count where they are in it. `camera` is that of the picture.
-double surfacesOff(const Moments& moments, uint32_t segments, const Scene& scene, const Camera& camera,
-                   glm::ivec2 size);
-
-/// The largest part of its area that an emissive triangle loses, or gains, since it moves straight.
-double lampsOff(const Moments& moments, uint32_t segments, const Scene& scene);
-
-/// Pixels by which a camera that moves in such segments shows something in another place than at any of these
-/// moments: vertices of the scene, or what is far away.
-double cameraOff(const Moments& moments, std::span<const CameraSegment> segments, const Scene& scene,
-                 glm::ivec2 size);
-
 // Opens the shutter: a scene that is loaded at one time of its animation gets the motion around that time.
 
 /// Seconds for which the shutter of a picture is open; 0 where it opens for none.
@@ -53,6 +38,9 @@ void openShutter(LoadedScene& loaded, const RenderOptions& options, std::shared_
 
 /// Seconds that the animation of the options takes; none where its file does not say.
 std::optional<double> animationLength(const Scene& scene, const SceneSelection& selection);
+
+/// The error of a time in pictures: those of keys are floats.
+inline constexpr double kKeyTimeRounding = 1e-4;
 
 /// A camera as options that place it so.
 CameraOverrides asPlaced(const Camera& camera, const BoundsDouble& bounds);

@@ -8,6 +8,7 @@
 
 #include "base/timeline.h"
 #include "bvh/bvh.h"
+#include "render/adaptive.h"
 #include "render/film/film_pixels.h"
 #include "render/renderer.h"
 #include "scene/describe.h"
@@ -23,14 +24,9 @@ nlohmann::ordered_json bvhJson(const BvhQuality& bvh);
 std::string jsonText(const nlohmann::ordered_json& json);
 
 /// Statistics of a render with --noise or --time.
-struct AdaptiveStatistics {
+struct AdaptiveStatistics : AdaptiveEstimate {
   double noise = 0.0;    ///< asked for; 0: none
   double seconds = 0.0;  ///< asked for; 0: none
-  double error = 0.0;    ///< the relative error that 95 % of the pixels are estimated to stay under
-  double share = 0.0;    ///< share of the pixels under the noise asked for
-  int rounds = 0;
-  bool known = true;   ///< else error and share say nothing
-  bool black = false;  ///< no light was found
 };
 
 /// Statistics of a render with --denoise.

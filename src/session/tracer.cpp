@@ -24,6 +24,11 @@
 
 namespace fragtrace {
 
+namespace {
+
+/// A scene that is small enough becomes part of the shader's text, unless another traversal was asked for, or
+/// first hits or visits are drawn.
+/// Throws UsageError.
 void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const RenderOptions& options,
                  ShaderVariant& variant) {
   if (loaded.scene.motion.segments > 0) return;
@@ -53,12 +58,11 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
   variant.literals = literalScene(loaded.scene, loaded.bvh, packed, variant);
 }
 
+/// Reads texels in a variant from where the plan places them.
 void useTextures(const TexturePlan& textures, ShaderVariant& variant) {
   variant.textureArrays = textures.reads == TexelReads::Arrays;
   variant.texelBuffers = std::max(int(textures.sizes.size()), 1);
 }
-
-namespace {
 
 /// Settles the parts of a picture's variant that the packed scene and the driver decide. Returns why the
 /// megakernel draws.

@@ -36,16 +36,7 @@ struct Tracer {
   TexturePlan textures;
 };
 
-/// A scene that is small enough becomes part of the shader's text, unless another traversal was asked for, or
-/// first hits or visits are drawn.
-/// Throws UsageError.
-void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const RenderOptions& options,
-                 ShaderVariant& variant);
-
-/// Reads texels in a variant from where the plan places them.
-void useTextures(const TexturePlan& textures, ShaderVariant& variant);
-
-/// What a tracer has beside what its pictures need.
+/// Options of makeTracer(): a tracer can have more than its pictures need.
 struct TracerExtras {
   bool hash = false;
   bool levels = false;  ///< room for mip levels, which addLevels() fills later, if texels are read as words
@@ -75,7 +66,7 @@ size_t channelsOf(const RenderOptions& options);
 /// Throws UsageError where the film of a picture of that size would take more than --memory-limit.
 void checkFilmMemory(const RenderOptions& options, glm::ivec2 size);
 
-/// The largest film beside a picture of that size within --memory-limit, in pixels, at least 1; as many as
+/// The largest film next to a picture of that size within --memory-limit, in pixels, at least 1; as many as
 /// the picture has where all of it fits. Throws UsageError where not even a small film does.
 uint64_t mostFilmPixels(const RenderOptions& options, glm::ivec2 size);
 

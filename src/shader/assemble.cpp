@@ -5,19 +5,19 @@
 #include <array>
 #include <fstream>
 #include <set>
-#include <string_view>
 
 #include "base/errors.h"
 #include "base/text.h"
 #include "image/display/tone_map.h"
 #include "shader/layout.h"
 #include "shader/stack_text.h"
+#include "shader/work.h"
 
 namespace fragtrace {
 
 namespace {
 
-/// Scene buffers by binding; layout.glsl has k...Binding of each.
+/// Scene buffers by binding (shader/layout.h).
 constexpr std::array<std::string_view, layout::kSceneBufferCount> kSceneBuffers{
     "Nodes",  "Leaves",   "Faces",  "Normals",     "Texcoords",           "Tangents", "Colors", "Materials",
     "Bricks", "Emitters", "Lights", "Environment", "EnvironmentInversion"};
@@ -32,18 +32,47 @@ std::string variableOf(std::string_view name) {
   return variable;
 }
 
+/// "count", "camera_rays": "countCameraRays"; "texel", "base colour": "texelBaseColour".
+std::string joinedName(std::string name, std::string_view words) {
+  bool begins = true;
+  for (const char c : words) {
+    const bool gap = c == '_' || c == '-' || c == ' ';
+    if (!gap) name += char(begins ? c - 'a' + 'A' : c);
+    begins = gap;
+  }
+  return name;
+}
+
+/// The function that counts work of this kind.
+std::string countOf(std::string_view kind) { return joinedName("count", kind); }
+
+/// The variables in which a lane counts work, and the functions that do; empty ones without `counts`.
+std::string workText(bool counts) {
+  std::string text = kMade;
+  // Indexed by constants alone, so that compilers keep it in registers.
+  if (counts)
+    text += formatted("const int kWorkCount = %d;\nuint work[kWorkCount];\n", int(kWorkNames.size()));
+  for (size_t i = 0; i < kWorkNames.size(); ++i) {
+    text += "void " + countOf(kWorkNames[i]) + "(uint number) {";
+    text += counts ? formatted(" work[%d] += number; }\n", int(i)) : "}\n";
+  }
+  return text;
+}
+
 /// The function that reads a buffer, readNodes() and so on, for the kind of buffer that the variant names.
-std::string readOf(std::string_view name, BufferReads reads, bool counts) {
-  const bool two = name == "Bricks";  // words
+std::string readOf(size_t buffer, BufferReads reads, bool counts) {
+  const std::string_view name = kSceneBuffers[buffer];
+  const bool two = buffer == layout::kBricksBinding;  // words
   const std::string type = two ? "uvec2" : "uvec4";
   const std::string variable = variableOf(name);
-  const std::string binding = "k" + std::string(name) + "Binding";
+  const std::string binding = std::to_string(buffer);
   std::string declared;
   std::string value;
   switch (reads) {
     case BufferReads::Image:
-      declared = "layout(" + std::string(two ? "rg32ui" : "rgba32ui") + ", binding = kSceneImageBase + " +
-                 binding + ") uniform readonly restrict uimageBuffer " + variable;
+      declared = "layout(" + std::string(two ? "rg32ui" : "rgba32ui") +
+                 ", binding = " + std::to_string(layout::kSceneImageBase + buffer) +
+                 ") uniform readonly restrict uimageBuffer " + variable;
       value = "imageLoad(" + variable + ", index)";
       break;
     case BufferReads::Texel:
@@ -56,7 +85,8 @@ std::string readOf(std::string_view name, BufferReads reads, bool counts) {
       value = variable + "[index]";
   }
   if (two && reads != BufferReads::Ssbo) value += ".xy";
-  const std::string count = counts ? "countWork(kWorkRows + int(" + binding + "), 1u); " : "";
+  const size_t kind = kWorkNames.size() - kSceneBuffers.size() + buffer;
+  const std::string count = counts ? countOf(kWorkNames[kind]) + "(1u); " : "";
   return declared + ";\n" + type + " read" + std::string(name) + "(int index) { " + count + "return " +
          value + "; }\n";
 }
@@ -66,16 +96,16 @@ std::string readOf(std::string_view name, BufferReads reads, bool counts) {
 std::string texelReadOfEnvironment(const ShaderVariant& variant) {
   const std::string begin = "uvec2 readEnvironmentTexel(int index) { ";
   if (variant.reads == BufferReads::Ssbo && !variant.countsWork)
-    return "layout(std430, binding = kEnvironmentBinding) readonly restrict buffer EnvironmentTexelBlock { "
-           "uvec2 environmentTexels[]; };\n" +
-           begin + "return environmentTexels[index]; }\n";
+    return "layout(std430, binding = " + std::to_string(layout::kEnvironmentBinding) +
+           ") readonly restrict buffer EnvironmentTexelBlock { uvec2 environmentTexels[]; };\n" + begin +
+           "return environmentTexels[index]; }\n";
   return begin + "uvec4 row = readEnvironment(index >> 1); return (index & 1) == 0 ? row.xy : row.zw; }\n";
 }
 
 /// The scene buffers and their functions.
 std::string readsText(const ShaderVariant& variant) {
   std::string text = kMade;
-  for (const std::string_view name : kSceneBuffers) text += readOf(name, variant.reads, variant.countsWork);
+  for (size_t i = 0; i < kSceneBuffers.size(); ++i) text += readOf(i, variant.reads, variant.countsWork);
   return text + texelReadOfEnvironment(variant);
 }
 
@@ -85,8 +115,8 @@ std::string texelWordsText(int buffers, bool table) {
   std::string value;
   for (int i = 0; i < buffers; ++i) {
     const std::string number = std::to_string(i);
-    text.append("layout(r32ui, binding = kTexelImageBase + ").append(number);
-    text.append("u) uniform readonly restrict uimageBuffer texels").append(number).append(";\n");
+    text.append("layout(r32ui, binding = ").append(std::to_string(layout::kTexelImageBase + i));
+    text.append(") uniform readonly restrict uimageBuffer texels").append(number).append(";\n");
     value.append(i == 0 ? "  uint" : formatted("  if (unit == %du)", i)).append(" word = imageLoad(texels");
     value.append(number).append(", index).x;\n");
   }
@@ -97,6 +127,31 @@ std::string texelWordsText(int buffers, bool table) {
   for (int i = 0; i <= 256; ++i)
     text += (i > 0 ? ", " : "") + formatted("%.9g", decodeSrgb(std::min(i, 255) / 255.0));
   return text + ");\nfloat srgbValue(uint value) { return kSrgbValues[int(value)]; }\n";
+}
+
+/// The functions that read a slot of a material: its row, and its texel (shaders/material.glsl).
+std::string slotsText(const TraitSet& traits) {
+  std::string text = kMade;
+  for (uint32_t slot = 0; slot < layout::kSlotCount; ++slot) {
+    const bool reads = has(traits, slotTrait(slot));
+    const TextureRefRow& texture = kTextureRefs[slot];
+    const std::string row = "textureSlot(material, " + std::to_string(slot) + "u)";
+    const std::string srgb = texture.curve == TransferCurve::Srgb ? "true" : "false";
+    const std::string texel = reads ? "sampleTexture(" + row + ", texcoords, " + srgb + ")" : "vec4(1.0)";
+    text.append("uvec4 ").append(joinedName("slot", texture.name)).append("(uint material) { return ");
+    text.append(reads ? row : "uvec4(0u)").append("; }\nvec4 ").append(joinedName("texel", texture.name));
+    text.append("(uint material, vec4 texcoords) { return ").append(texel).append("; }\n");
+  }
+  return text;
+}
+
+/// The layer of the first hit that the variant draws, by its name (shaders/integrators/first_hit.glsl).
+std::string layerText(Aov aov) {
+  std::string_view name = aov == Aov::None ? rowOf(Aov::Albedo).name : rowOf(aov).name;
+  constexpr std::string_view kCrypto = "crypto-";  // which show what the layers without it do
+  if (name.starts_with(kCrypto)) name.remove_prefix(kCrypto.size());
+  return std::string(kMade) + "vec3 layerAt(Path p, Surface s, vec3 baseColor) { return " +
+         joinedName("layer", name) + "(p, s, baseColor); }\n";
 }
 
 /// The buffer of path states, which the tracer writes as pathStates[], and readPathStates(). imageUnit:
@@ -160,10 +215,13 @@ struct Assembly {
       return fileText(variant.gpu ? "tune/frame_uniform.glsl" : "tune/frame_variable.glsl");
     if (name == "texels.glsl")
       return fileText(variant.textureArrays ? "tune/texels_arrays.glsl" : "tune/texels_words.glsl");
+    if (name == "slots.glsl") return slotsText(variant.traits);
+    if (name == "layer.glsl") return layerText(variant.aov);
     if (name == "texel_words.glsl")
       return texelWordsText(variant.texelBuffers, readsTextures(variant.traits));
     if (name.starts_with("cones/") && !variant.rayCones) return "";
-    if (name == "work/count.glsl" && !variant.countsWork) return "";
+    if (name == "work/count.glsl" && !variant.countsWork) return fileText("work/none.glsl");
+    if (name == "work/kinds.glsl") return workText(variant.countsWork);
     if (name == "shutter/camera.glsl" && !has(variant.traits, Trait::MovingCamera)) return "";
     if (name == "media/fog_block.glsl" && !has(variant.traits, Trait::Fog)) return "";
     if (name == "media/volume_block.glsl" && !has(variant.traits, Trait::DensityGrid)) return "";
@@ -201,16 +259,11 @@ void appendConstants(std::string& text, const ShaderVariant& variant) {
   for (const StageRow& row : stageRows()) {
     if (row.constant) constant(row.constant, has(variant.stages, row.stage));
   }
-  uint32_t slots = 0;
   for (const TraitRow& row : traitRows()) {
-    const bool on = has(variant.traits, row.trait);
-    if (row.constant)
-      constant(row.constant, on);
-    else
-      slots |= uint32_t(on) << (uint32_t(row.trait) - uint32_t(Trait::FirstTexture));
+    if (row.constant) constant(row.constant, has(variant.traits, row.trait));
   }
+  constant("kLampTextures", readsLampTextures(variant.traits));
   constant("kCountVisits", variant.countsVisits);
-  constant("kCountWork", variant.countsWork);
   constant("kWeights", keepsWeights(variant));
   constant("kGlassTables", usesGlassTables(variant));
   constant("kPassing", passesSurfaces(variant));
@@ -235,7 +288,6 @@ void appendConstants(std::string& text, const ShaderVariant& variant) {
   const auto number = [&](const char* name, int value) {
     text.append("const int ").append(name).append(" = " + std::to_string(value) + ";\n");
   };
-  number("kTextureSlots", int(slots));
   number("kPixelFilter", int(variant.pixelFilter));
   number("kAov", int(variant.aov));
   number("kStackSize", variant.stackSize);

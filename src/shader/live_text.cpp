@@ -7,10 +7,8 @@
 #include <map>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <unordered_set>
 #include <utility>
-#include <vector>
 
 #include "base/text.h"
 #include "shader/assemble.h"
@@ -75,41 +73,7 @@ bool joinBrackets(std::vector<Token>& tokens) {
   return open.empty();
 }
 
-}  // namespace
-
-bool isName(const Token& token) {
-  return std::isalpha(static_cast<unsigned char>(token.text[0])) != 0 || token.text[0] == '_';
-}
-
-std::vector<Token> tokensOf(std::string_view text) {
-  std::vector<Token> tokens;
-  tokens.reserve(text.size() / 4);
-  for (size_t at = 0; at < text.size();) {
-    const std::string_view rest = text.substr(at);
-    const size_t gap = lengthOfGap(rest);
-    const size_t length = gap > 0 ? gap : lengthOfToken(rest);
-    if (gap == 0) tokens.push_back({rest.substr(0, length)});
-    at += length;
-  }
-  if (!joinBrackets(tokens)) tokens.clear();
-  return tokens;
-}
-
-std::string textOf(std::string_view text, const std::vector<Token>& tokens) {
-  std::string left;
-  left.reserve(text.size());
-  const char* at = text.data();
-  for (const Token& token : tokens) {
-    const std::string_view gap(at, size_t(token.text.data() - at));
-    const auto lines = std::ranges::count(gap, '\n');
-    left.append(size_t(lines), '\n');
-    if (lines == 0 && !gap.empty() && !left.empty() && left.back() != '\n') left += ' ';
-    if (token.live) left += token.text;
-    at = token.text.data() + token.text.size();
-  }
-  return left + '\n';
-}
-
+/// textOf() for people: with the comments on what is left, and without the lines that are left empty.
 std::string readableTextOf(std::string_view text, const std::vector<Token>& tokens) {
   std::string left;
   const char* at = text.data();
@@ -134,8 +98,6 @@ std::string readableTextOf(std::string_view text, const std::vector<Token>& toke
   for (size_t blank = 0; (blank = left.find("\n\n\n", blank)) != left.npos;) left.erase(blank, 1);
   return left + '\n';
 }
-
-namespace {
 
 /// The values of `const bool`, `const int` and `const uint` at the top of a shader, as far as they are known.
 using ShaderConstants = std::map<std::string_view, int>;
@@ -213,11 +175,6 @@ std::optional<bool> conditionValue(Tokens condition, const ShaderConstants& cons
     const auto value = numberOf(condition[0], constants);
     return value ? std::optional(*value != 0) : std::nullopt;
   }
-  // readsSlot(slot) of shaders/material.glsl.
-  if (first == "readsSlot" && condition.size() == 4 && constants.contains("kTextureSlots")) {
-    const auto slot = numberOf(condition[2], constants);
-    return slot ? std::optional((constants.at("kTextureSlots") >> *slot & 1) != 0) : std::nullopt;
-  }
   if (condition.size() != 3) return std::nullopt;
   const auto a = numberOf(condition[0], constants);
   const auto b = numberOf(condition[2], constants);
@@ -257,8 +214,12 @@ class Settler {
       : tokens_(tokens), constants_(constants) {}
 
   void settle() {
+    std::vector<size_t> blocks;  // braces round the token at hand
     for (size_t i = 0; i < tokens_.size(); ++i) {
-      if (is(i, "if") || is(i, "while")) settleBranch(i);
+      if (is(i, "{")) blocks.push_back(i);
+      if (is(i, "}") && !blocks.empty()) blocks.pop_back();
+      if (is(i, "if") || is(i, "while"))
+        settleBranch(i, blocks.empty() ? kNowhere : tokens_[blocks.back()].partner);
       if (is(i, "?")) settleChoice(i);
     }
   }
@@ -292,20 +253,25 @@ class Settler {
     return i < tokens_.size() ? i + 1 : kNowhere;
   }
 
+  /// Returns true if no branch or loop decides about the token's statement.
+  bool beginsStatement(size_t i) const {
+    while (i > 0 && !tokens_[i - 1].live) --i;
+    return i == 0 || isOneOf(i - 1, ";{}");
+  }
+
   /// Takes out a branch whose statement never runs. An empty one is left where the language needs one.
   void dropBranch(size_t branch, TokenRange statement) {
     drop({branch, statement.first});
-    size_t before = branch;
-    while (before > 0 && !tokens_[before - 1].live) --before;
-    if (before == 0 || isOneOf(before - 1, ";{}")) return drop(statement);
+    if (beginsStatement(branch)) return drop(statement);
     const size_t last = statement.last - 1;
     const size_t first = is(last, "}") ? tokens_[last].partner : last;
     drop({statement.first, first});
     drop({first + 1, last});
   }
 
-  /// Drops what an if or a while does not need, if the constants settle its condition.
-  void settleBranch(size_t i) {
+  /// Drops what an if or a while does not need, if the constants settle its condition: also what stands
+  /// behind a return that is always taken, up to the end of the block.
+  void settleBranch(size_t i, size_t endOfBlock) {
     if (!tokens_[i].live || !is(i + 1, "(")) return;
     const size_t close = tokens_[i + 1].partner;
     const auto holds = valueOf({i + 2, close});
@@ -316,8 +282,9 @@ class Settler {
     const size_t last = otherwise ? endOfStatement(end + 1) : end;
     if (last == kNowhere) return;
     if (!*holds && !otherwise) return dropBranch(i, {close + 1, end});
+    const bool returns = *holds && is(close + 1, "return") && endOfBlock != kNowhere && beginsStatement(i);
     drop({i, close + 1});
-    drop(*holds ? TokenRange{end, last} : TokenRange{close + 1, end + 1});
+    drop(*holds ? TokenRange{end, returns ? endOfBlock : last} : TokenRange{close + 1, end + 1});
   }
 
   /// Drops what a ? b : c does not need, if the constants settle a. The choice stands alone, so the rest
@@ -441,10 +408,6 @@ void dropUnused(std::vector<Token>& tokens) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 std::string liveTextBy(std::string (*textOfTokens)(std::string_view, const std::vector<Token>&),
                        const std::string& text) {
   std::vector<Token> tokens = tokensOf(text);
@@ -455,6 +418,39 @@ std::string liveTextBy(std::string (*textOfTokens)(std::string_view, const std::
 }
 
 }  // namespace
+
+bool isName(const Token& token) {
+  return std::isalpha(static_cast<unsigned char>(token.text[0])) != 0 || token.text[0] == '_';
+}
+
+std::vector<Token> tokensOf(std::string_view text) {
+  std::vector<Token> tokens;
+  tokens.reserve(text.size() / 4);
+  for (size_t at = 0; at < text.size();) {
+    const std::string_view rest = text.substr(at);
+    const size_t gap = lengthOfGap(rest);
+    const size_t length = gap > 0 ? gap : lengthOfToken(rest);
+    if (gap == 0) tokens.push_back({rest.substr(0, length)});
+    at += length;
+  }
+  if (!joinBrackets(tokens)) tokens.clear();
+  return tokens;
+}
+
+std::string textOf(std::string_view text, const std::vector<Token>& tokens) {
+  std::string left;
+  left.reserve(text.size());
+  const char* at = text.data();
+  for (const Token& token : tokens) {
+    const std::string_view gap(at, size_t(token.text.data() - at));
+    const auto lines = std::ranges::count(gap, '\n');
+    left.append(size_t(lines), '\n');
+    if (lines == 0 && !gap.empty() && !left.empty() && left.back() != '\n') left += ' ';
+    if (token.live) left += token.text;
+    at = token.text.data() + token.text.size();
+  }
+  return left + '\n';
+}
 
 std::string liveText(const std::string& text) { return liveTextBy(textOf, text); }
 

@@ -24,7 +24,4 @@ std::vector<Token> tokensOf(std::string_view text);
 /// The text of the tokens that are left, without comments; each stays in its line.
 std::string textOf(std::string_view text, const std::vector<Token>& tokens);
 
-/// The same for people: with the comments on what is left, and without the lines that are left empty.
-std::string readableTextOf(std::string_view text, const std::vector<Token>& tokens);
-
 }  // namespace fragtrace

@@ -25,10 +25,10 @@
 
 namespace fragtrace {
 
-// Values that can be drawn in place of radiance: layers of .exr files, and debug views, which show layers or
+// Values that can be drawn instead of radiance: layers of .exr files, and debug views, which show layers or
 // counts as colours (docs/output.md).
 
-/// Properties of a first hit beside its radiance, and parts of that radiance.
+/// Properties of a first hit besides its radiance, and parts of that radiance.
 enum class Aov : uint8_t {
   None,
   Albedo,
@@ -341,6 +341,7 @@ struct OutputOptions {
   double checkpointSeconds = 0.0;  ///< between two checkpoints; 0: none is written
   std::optional<double> exposure;  ///< stops; none: 0, unless the scene's light is far too bright or too dark
   ToneMap toneMap = ToneMap::Neutral;
+  OcioView ocio;  ///< takes the curve's place
   Encoding encoding;
   std::optional<int> treeLevel;  ///< its boxes are drawn over the picture
   AlphaOf alpha = AlphaOf::Auto;
@@ -370,7 +371,7 @@ struct DeviceOptions {
   Tune tune = Tune::Auto;
   VectorWidth vectorWidth = VectorWidth::Auto;
   Schedule schedule = Schedule::Auto;
-  std::filesystem::path shaderFolder;  ///< shader text from disk in place of the embedded one
+  std::filesystem::path shaderFolder;  ///< shader text from disk instead of the embedded one
   std::string device;                  ///< its number, or a part of its name; empty: the first that works
 
   bool operator==(const DeviceOptions&) const = default;

@@ -11,7 +11,7 @@ std::span<const StageRow> stageRows() {
   static constexpr std::array<StageRow, size_t(Stage::Count)> rows = {{
       {Stage::Flat, "flat", "Flat", "unlit colour or texture where the ray hits", true, false, nullptr},
       {Stage::Phong, "phong", "Blinn-Phong", "Lambert and Blinn-Phong under every light", true, false,
-       "kPhong"},
+       nullptr},
       {Stage::Shadows, "shadows", "Shadows", "shadow rays towards each light", true, false, "kShadows"},
       {Stage::Reflections, "reflections", "Reflections", "mirror reflections, and specular lobes in gi", true,
        false, "kReflections", Trait::Specular},
@@ -21,7 +21,7 @@ std::span<const StageRow> stageRows() {
        "kNormalMaps"},
       {Stage::Gi, "gi", "Global illumination", "path tracing with the glTF material", true, false, "kGi"},
       {Stage::Schlick, "schlick", "Schlick's Fresnel",
-       "Schlick's approximation for glass, in place of the exact Fresnel", false, false, "kSchlick",
+       "Schlick's approximation for glass, instead of the exact Fresnel", false, false, "kSchlick",
        Trait::Transmission},
       {Stage::EnergyCompensation, "energy-compensation", "Energy compensation",
        "gives back what rough surfaces lose to single scattering in gi (on by default)", false, true,
@@ -29,7 +29,7 @@ std::span<const StageRow> stageRows() {
       {Stage::Sobol,
        "sobol",
        "Sobol samples",
-       "Owen-scrambled Sobol points in place of independent random numbers (on by default)",
+       "Owen-scrambled Sobol points instead of independent random numbers (on by default)",
        false,
        true,
        "kSobol",
@@ -47,7 +47,7 @@ std::span<const StageRow> stageRows() {
        Effect::Noise},
       {Stage::Watertight, "watertight", "Watertight triangles",
        "triangle test of the trees that lets no ray through between neighbours, and points moved out of "
-       "sharp creases, in place of a faster test "
+       "sharp creases, instead of a faster test "
        "(on by default)",
        false, true, "kWatertight", Trait::Triangles, Effect::Method},
   }};

@@ -29,9 +29,9 @@ struct SetOf : std::bitset<size_t(Member::Count)> {
 
 /// The kind of change that a change of an option or a stage makes.
 enum class Effect : uint8_t {
-  Report,   ///< messages, files beside the picture, or whether a picture is allowed
+  Report,   ///< messages, files next to the picture, or whether a picture is allowed
   Method,   ///< the way in which the same samples are drawn: their time and rounding
-  Layers,   ///< content of a file beside the picture
+  Layers,   ///< content of a file next to the picture
   Count,    ///< number of samples
   Display,  ///< processing of finished samples
   Noise,    ///< choice of samples; their mean stays

@@ -76,6 +76,15 @@ constexpr Trait slotTrait(uint32_t slot) { return Trait(uint32_t(Trait::FirstTex
 /// Returns true if some slot has a texture; spheres compute their coordinates, without Trait::Texcoords.
 inline bool readsTextures(const TraitSet& traits) { return (traits >> size_t(Trait::FirstTexture)).any(); }
 
+/// Returns true if the light that a lamp emits depends on a texture: of emission, alpha or the clearcoat over
+/// it.
+inline bool readsLampTextures(const TraitSet& traits) {
+  const auto has = [&](Trait trait) { return traits[size_t(trait)]; };
+  return has(Trait::Texcoords) &&
+         (has(slotTrait(layout::kSlotEmission)) || has(slotTrait(layout::kSlotClearcoat)) ||
+          (has(Trait::Alpha) && has(slotTrait(layout::kSlotBaseColor))));
+}
+
 /// The attributes that primitives bring for their materials' maps; spheres bring all of them.
 struct Coordinates {
   bool texcoord0 = true;
@@ -84,12 +93,12 @@ struct Coordinates {
 
 struct TraitRow {
   Trait trait;
-  std::string name;                ///< shown in the statistics and the variant's name
-  const char* constant = nullptr;  ///< the constant's name in the shader; slots are bits of kTextureSlots
-  const char* absence = "";        ///< why something that needs it is off
-  StageSet stages{};               ///< the trait is off if one of these stages is off
-  TraitSet needs{};                ///< the trait is off if one of these traits is off
-  bool texcoords = false;          ///< the trait reads texture coordinates
+  std::string name;                            ///< shown in the statistics and the variant's name
+  const char* constant = nullptr;              ///< the constant's name in the shader; slots have none
+  const char* absence = "";                    ///< why something that needs it is off
+  StageSet stages{};                           ///< the trait is off if one of these stages is off
+  TraitSet needs{};                            ///< the trait is off if one of these traits is off
+  bool texcoords = false;                      ///< the trait reads texture coordinates
   bool (Material::*effect)() const = nullptr;  ///< of materials that have the trait
   /// Returns true if a material has the trait. Null without an effect: the scene as a whole has it or not
   /// (traitsOf).

@@ -21,8 +21,8 @@ struct ShaderVariant {
   BufferReads reads = BufferReads::Ssbo;
   Dispatch dispatch = Dispatch::Fragment;
   PixelFilter pixelFilter = PixelFilter::Box;
-  Aov aov = Aov::None;            ///< drawn in place of radiance
-  int cameraRays = 1;             ///< per sample; the last alone goes on where it scatters (path.glsl)
+  Aov aov = Aov::None;            ///< drawn instead of radiance
+  int cameraRays = 1;             ///< per sample; the last alone continues where it scatters (path.glsl)
   bool countsVisits = false;      ///< the nodes that camera rays visit are, too
   bool countsWork = false;        ///< the work of samples is, too (shaders/work/count.glsl)
   bool uniformLights = false;     ///< the light tree chooses all lights alike
@@ -86,7 +86,7 @@ bool usesGuiding(const ShaderVariant& variant);
 /// The variant that keeps the light samples that such a picture's pixels take of others, if they do.
 std::optional<ShaderVariant> reservoirVariant(const ShaderVariant& variant);
 
-/// Returns true if the environment lights surfaces without sampling, as before gi (kEnvironmentLight).
+/// Returns true if the environment lights surfaces without sampling, as before gi (integrators/local.glsl).
 bool lightsByEnvironment(const ShaderVariant& variant);
 
 /// Returns true if hits keep their barycentric weights, which only vertex attributes need.

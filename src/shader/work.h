@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Counts of work (shaders/work/count.glsl), and their names.
+// Counts of work (shaders/work/count.glsl), and their names. What shaders count of camera_rays, they count by
+// countCameraRays(number).
 #pragma once
 
 #include <array>
@@ -11,7 +12,9 @@
 
 namespace fragtrace {
 
-/// By the kinds of shaders/work/kinds.glsl; the last ones are in the order of the bindings of scene buffers.
+/// The last ones are rows read of the scene buffers, in the order of their bindings. Surfaces passed are
+/// those behind which rays are traced once more; shadow surfaces are among the surfaces, whose attributes are
+/// computed.
 inline constexpr std::array kWorkNames =
     std::to_array<std::string_view>({"camera_rays",   "bounce_rays",      "shadow_rays",
                                      "light_rays",    "splat_rays",       "surfaces_passed",
@@ -22,7 +25,6 @@ inline constexpr std::array kWorkNames =
                                      "texcoord_rows", "tangent_rows",     "color_rows",
                                      "material_rows", "texel_reads",      "emitter_rows",
                                      "light_rows",    "environment_rows", "environment_inversion_rows"});
-static_assert(kWorkNames.size() == layout::kWorkCount);
 
 struct WorkCounts {
   uint64_t draws = 0;  ///< also of programs that count nothing else

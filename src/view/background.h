@@ -35,7 +35,7 @@ class BackgroundJob {
   mutable std::mutex mutex_;
 };
 
-/// A value that a thread computes while its owner goes on.
+/// A value that a thread computes while its owner continues.
 template <typename Value>
 class Background {
  public:

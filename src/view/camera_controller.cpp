@@ -108,15 +108,6 @@ CameraPose orbit(CameraPose pose, double azimuth, double elevation) {
   return withinReach(pose, before);
 }
 
-CameraPose look(CameraPose pose, double yaw, double pitch) {
-  const CameraPose before = pose;
-  const glm::dquat rotation = turn(pose, yaw, pitch);
-  const glm::dvec3 view = rotation * (pose.focalPoint - pose.position);
-  pose.focalPoint = pose.position + view;
-  pose.viewUp = rotation * pose.viewUp;
-  return withinReach(pose, before);
-}
-
 CameraPose roll(CameraPose pose, double angle) {
   const glm::dvec3 forward = forwardOf(pose);
   // The picture turns against the camera.
@@ -176,6 +167,13 @@ CameraPose centerOn(CameraPose pose, const glm::dvec3& point) {
   pose.focalPoint = point;
   pose.position = point - depth * forward;
   return withinReach(pose, before);
+}
+
+double firstStop(const CameraPose& pose) {
+  constexpr double kRadius = 0.02;  // the radius in parts of the distance to the focal point
+  const double focalLength = focalLengthOf(glm::radians(pose.viewAngleDegrees));
+  const double distance = glm::distance(pose.position, pose.focalPoint);
+  return std::clamp(focalLength / (2.0 * kRadius * distance), kLeastStop, kMostStop);
 }
 
 CameraPose frameAll(CameraPose pose, const BoundsDouble& bounds, double aspectRatio) {

@@ -34,10 +34,6 @@ CameraOverrides overridesOf(const CameraPose& pose);
 /// stays up.
 CameraPose orbit(CameraPose pose, double azimuth, double elevation);
 
-/// Turns about the camera's own place, as orbit() does about the focal point: positive `yaw` looks to the
-/// right, positive `pitch` up, radians.
-CameraPose look(CameraPose pose, double yaw, double pitch);
-
 /// Turns about the view's axis, radians; positive: the picture turns clockwise.
 CameraPose roll(CameraPose pose, double angle);
 
@@ -58,6 +54,11 @@ CameraPose fly(CameraPose pose, const glm::dvec3& amount);
 /// Moves the camera sideways until it looks straight at a point, which becomes the focal point. A point that
 /// is not in front of it changes nothing.
 CameraPose centerOn(CameraPose pose, const glm::dvec3& point);
+
+inline constexpr double kLeastStop = 0.001;
+inline constexpr double kMostStop = 32.0;
+/// Returns an f-number whose blur can be seen, whatever the size of the scene.
+double firstStop(const CameraPose& pose);
 
 /// Looks in the same direction at the centre of the bounds, from where their bounding sphere fits a picture
 /// of this width / height.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
-#include <utility>
 
 #include "options/option_row.h"
 
@@ -15,17 +14,6 @@ bool drawsTheSame(const RenderOptions& a, const RenderOptions& b) {
     return withoutEffects(o, {Effect::Count, Effect::Display});
   };
   return drawn(a) == drawn(b);
-}
-
-bool differInCameraAlone(const RenderOptions& a, const RenderOptions& b) {
-  const auto fixed = [](const RenderOptions& o) { return withoutEffects(o, {Effect::View}); };
-  return !drawsTheSame(a, b) && drawsTheSame(fixed(a), fixed(b));
-}
-
-void throwFailure(const Results& results) {
-  for (const Result& result : results.queue) {
-    if (const auto* failure = std::get_if<std::exception_ptr>(&result)) std::rethrow_exception(*failure);
-  }
 }
 
 void Exchange::setWake(std::function<void()> wake) {
@@ -49,6 +37,7 @@ void Exchange::wakeTracer() {
 
 Results Exchange::take() {
   const std::lock_guard lock(mutex_);
+  if (failure_) std::rethrow_exception(failure_);
   for (const TracedPicture& picture : results_.pictures) {
     if (picture.shared.slot >= 0) taken_[picture.side][size_t(picture.shared.slot)] = true;
   }
@@ -109,6 +98,12 @@ void Exchange::deliver(std::vector<TracedPicture> pictures) {
     else
       results_.pictures.push_back(std::move(picture));
   }
+  if (wake_) wake_();
+}
+
+void Exchange::fail(std::exception_ptr failure) {
+  const std::lock_guard lock(mutex_);
+  failure_ = std::move(failure);
   if (wake_) wake_();
 }
 

@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "bvh/outlines.h"
+#include "gl/context.h"
 #include "image/image.h"
 #include "pack/own_light.h"
 #include "scene/describe.h"
@@ -51,9 +53,6 @@ struct TraceRequest {
 
 /// Returns true if both draw the same samples, whatever their number and their display.
 bool drawsTheSame(const RenderOptions& a, const RenderOptions& b);
-
-/// Returns true if they draw different samples, and would draw the same with the same camera.
-bool differInCameraAlone(const RenderOptions& a, const RenderOptions& b);
 
 /// Progress and cost of one side.
 struct SideStatistics {
@@ -111,7 +110,7 @@ struct ViewedScene {
   bool defaultLight = false;                        ///< the scene has no light of its own
   FileLight light{};                                ///< what is decided about that light
   std::optional<double> exposure{};                 ///< stops that it asks for
-  Surroundings surroundings = Surroundings::None;   ///< the light beside the scene's own
+  Surroundings surroundings = Surroundings::None;   ///< the light besides the scene's own
   bool refersToFiles = false;                       ///< its file can only be written into its own folder
   std::vector<std::filesystem::path> environments;  ///< files near it that may
   std::vector<SceneNode> nodes;                     ///< nodes as they were loaded
@@ -152,6 +151,7 @@ struct SaveRequest {
 enum class PickUse : uint8_t {
   Select,
   Center,   ///< the camera is centred on it
+  Focus,    ///< the lens is focused on it
   Measure,  ///< its distance from the selected point is wanted
   Level     ///< the plane through it and the two points of the distance becomes level
 };
@@ -190,9 +190,9 @@ struct SavedModel {
 };
 
 /// A result for the window, which takes all of them in their order. A text is a message about the driver or
-/// about a file that was written; an exception ends the program.
-using Result = std::variant<ViewedScene, PosedScene, PickAnswer, EnvironmentThumbnail, SavedModel,
-                            std::string, std::exception_ptr>;
+/// about a file that was written.
+using Result =
+    std::variant<ViewedScene, PosedScene, PickAnswer, EnvironmentThumbnail, SavedModel, std::string>;
 
 /// The state of the tracing thread. Only the latest counts.
 struct TraceStatus {
@@ -201,6 +201,8 @@ struct TraceStatus {
   bool resting = false;  ///< the tracing thread has nothing to do
   std::string note;      ///< reason why the tracing thread does not draw; empty: it does
   std::string error;     ///< why the latest request could not be met; empty if it was met
+
+  bool operator==(const TraceStatus&) const = default;
 };
 
 /// Results for the window since it asked last.
@@ -210,18 +212,10 @@ struct Results {
   TraceStatus status;
 };
 
-/// Throws what the tracing thread failed with, if it did.
-void throwFailure(const Results& results);
-
-/// A scene to be loaded; none: the load is cancelled.
-struct LoadRequest {
-  std::optional<RenderOptions> options;
-};
-
 /// Requests for the tracing thread. Of each kind the latest counts, but all files are written.
 struct Requests {
   std::optional<TraceRequest> trace;
-  std::optional<LoadRequest> load;
+  std::optional<std::optional<RenderOptions>> load;  ///< a scene; none: the load is cancelled
   std::vector<SaveRequest> saves;
   std::optional<std::filesystem::path> model;      ///< file to be written with the numbers that are set
   std::optional<std::filesystem::path> reference;  ///< file to be delivered as side B; empty: side B ends
@@ -242,6 +236,7 @@ class Exchange {
     request([&](Requests& r) { r.*kind = std::move(wanted); });
   }
   void request(const std::function<void(Requests&)>& change);
+  /// Throws what the tracing thread failed with, if it did.
   Results take();
   /// The window shows a texture no longer, once the GLsync `done`, now the tracing thread's, is signalled.
   void release(size_t side, const SharedTexture& texture, void* done);
@@ -260,6 +255,8 @@ class Exchange {
   /// The window gets these at once.
   void deliver(std::vector<TracedPicture> pictures);
   void deliver(Result result);
+  /// The tracing thread has ended by an exception, which ends the program.
+  void fail(std::exception_ptr failure);
   /// Sets a member of the status, and wakes the window if that changes it. Any thread may call it.
   template <typename T>
   void set(T TraceStatus::*member, std::type_identity_t<T> value) {
@@ -279,8 +276,39 @@ class Exchange {
   bool ending_ = false;
   Requests requests_;
   Results results_;
+  std::exception_ptr failure_;
   std::array<std::array<bool, kSlots>, kMostSides> taken_{};  ///< slots that the window reads
   std::array<std::array<void*, kSlots>, kMostSides> doneAt_{};
 };
+
+// The viewer's window behind a shared object of our own, opened by `view` alone: it links GLFW and Dear
+// ImGui, and has OpenGL functions of its own, since its driver may be another than the tracing thread's.
+
+struct WindowStart {
+  RenderOptions options;
+  std::filesystem::path statusFile;           ///< see docs/viewer.md; empty: none
+  std::filesystem::path reference;            ///< a picture to compare with; empty: none
+  std::vector<std::filesystem::path> models;  ///< the scene and those that follow; one: its folder's
+  bool panel = true;                          ///< next to the first picture
+  std::string warning;                        ///< for a message; empty: none
+  /// Called once the window is there, with contexts that share its objects, as far as there can be any, and
+  /// live as long as it; and before the window ends, by when nothing may be drawn there any more.
+  std::function<void(const SharedContexts& shared)> opened;
+  std::function<void()> ending;
+  /// True from when the program is told to end.
+  std::function<bool()> interrupted;
+};
+
+/// The functions of libfragtrace_window.so. Host and library are of one build, so C++ types may cross.
+struct WindowLibrary {
+  const char* version;  ///< version of its sources; stays the first member
+  /// Shows the window until it is closed, then returns. Throws ContextError when there can be none, and what
+  /// the tracing thread failed with.
+  void (*run)(const WindowStart& start, Exchange& exchange);
+};
+
+/// The one function that libfragtrace_window.so exports, by this name.
+inline constexpr const char* kWindowLibraryEntry = "fragtraceWindowLibrary";
+using WindowLibraryEntry = const WindowLibrary* (*)();
 
 }  // namespace fragtrace

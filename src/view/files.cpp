@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <charconv>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <set>
-#include <string>
 
+#include "base/errors.h"
 #include "base/folder.h"
+#include "image/files/whole_file.h"
 #include "image/format.h"
+#include "options/view_options.h"
 
 namespace fragtrace {
 
@@ -69,7 +73,7 @@ bool passes(const FileFilter& filter, const std::filesystem::path& file) {
 
 bool mayBeReference(const std::filesystem::path& path) {
   const std::string extension = extensionOf(path);
-  return extension == ".exr" || extension == ".pfm";
+  return extension == ".exr" || extension == ".pfm" || isDisplayFormat(path);
 }
 
 DroppedFile kindOfDropped(const std::filesystem::path& path) {
@@ -256,6 +260,51 @@ std::vector<std::filesystem::path> filesUnder(const std::filesystem::path& folde
     if (entry.is_regular_file(error)) files.push_back(entry.path());
   }
   return files;
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+}  // namespace
+
+std::filesystem::path rememberedFile() { return userFile("XDG_STATE_HOME", ".local/state", "viewer.json"); }
+
+Remembered readRemembered(const std::filesystem::path& file) {
+  Remembered remembered;
+  std::ifstream stream(file);
+  if (file.empty() || !stream) return remembered;
+  try {
+    const Json json = Json::parse(stream);
+    for (const Json& path : json.at("recent")) remembered.recent.emplace_back(path.get<std::string>());
+    for (const auto& [scene, views] : json.at("bookmarks").items()) {
+      for (const Json& view : views)
+        remembered.bookmarks[scene].push_back({view.at("name"), view.at("camera")});
+    }
+  } catch (const Json::exception& error) {
+    throw InputError(file.string() + ": " + error.what());
+  }
+  return remembered;
+}
+
+void writeRemembered(const std::filesystem::path& file, const Remembered& remembered) {
+  if (file.empty()) return;
+  Json json{{"recent", Json::array()}, {"bookmarks", Json::object()}};
+  for (const auto& path : remembered.recent) json["recent"].push_back(path.string());
+  for (const auto& [scene, views] : remembered.bookmarks) {
+    for (const Bookmark& view : views)
+      json["bookmarks"][scene].push_back({{"name", view.name}, {"camera", view.camera}});
+  }
+  writeJson(file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void addRecent(Remembered& remembered, const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::path whole = std::filesystem::absolute(file, error);
+  if (error) return;
+  std::erase(remembered.recent, whole);
+  remembered.recent.insert(remembered.recent.begin(), whole);
+  if (remembered.recent.size() > kMostRecent) remembered.recent.resize(kMostRecent);
 }
 
 }  // namespace fragtrace

@@ -57,7 +57,7 @@ enum class DroppedFile : uint8_t { Scene, Environment, Unknown };
 /// and .pfm environments.
 DroppedFile kindOfDropped(const std::filesystem::path& path);
 
-/// Returns true if the file may be a picture to compare with: an .exr or .pfm.
+/// Returns true if the file may be a picture to compare with: an .exr, .pfm or one of display colours.
 bool mayBeReference(const std::filesystem::path& path);
 
 /// The requests of files that are dropped together.
@@ -83,7 +83,7 @@ std::optional<std::filesystem::path> fileOfUri(std::string_view uri);
 
 // The lights of a scene that the viewer offers.
 
-/// Returns environment maps beside the scene and beside the one that lights it now, by name, at most
+/// Returns environment maps next to the scene and next to the one that lights it now, by name, at most
 /// kMostEnvironments.
 inline constexpr size_t kMostEnvironments = 200;
 std::vector<std::filesystem::path> environmentsNear(const RenderOptions& options);
@@ -131,5 +131,37 @@ std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder, 
 
 /// All files in a folder and in those in it. Empty where there is no such folder.
 std::vector<std::filesystem::path> filesUnder(const std::filesystem::path& folder);
+
+// The memory of the viewer from one start to the next: files that were shown, and views with a name.
+
+/// A view with a name.
+struct Bookmark {
+  std::string name;
+  std::string camera;  ///< the camera as options of the command line
+
+  bool operator==(const Bookmark&) const = default;
+};
+
+struct Remembered {
+  std::vector<std::filesystem::path> recent;               ///< absolute; the latest first
+  std::map<std::string, std::vector<Bookmark>> bookmarks;  ///< bookmarks by the absolute path of their scene
+
+  bool operator==(const Remembered&) const = default;
+};
+
+inline constexpr size_t kMostRecent = 10;
+
+/// fragtrace/viewer.json under $XDG_STATE_HOME, by default ~/.local/state (XDG Base Directory Specification
+/// 0.8); empty where there is neither: nothing is remembered then.
+std::filesystem::path rememberedFile();
+
+/// The contents of the file; nothing if there is none. Throws InputError for one that is not of this kind.
+Remembered readRemembered(const std::filesystem::path& file);
+
+/// Replaces the file as a whole, and makes its folder. Throws RenderError.
+void writeRemembered(const std::filesystem::path& file, const Remembered& remembered);
+
+/// Puts a file in front of the others.
+void addRecent(Remembered& remembered, const std::filesystem::path& file);
 
 }  // namespace fragtrace

@@ -20,6 +20,7 @@ enum class Command : uint8_t {
   Zoom,
   Roll,
   CenterOn,
+  FocusOn,
   FlyRight,  ///< argument: +1 right, -1 left
   FlyUp,
   FlyForward,
@@ -79,6 +80,7 @@ enum class Command : uint8_t {
   SelectNode,  ///< argument: SceneNode::index
   Deselect,
   ResetAll,
+  KeepDefaults,
   NextModel,      ///< argument: +1 or -1
   OpenFile,       ///< Invocation::file
   DropReference,  ///< side B is traced again

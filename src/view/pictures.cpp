@@ -6,11 +6,9 @@
 #include <cmath>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-#include <optional>
 
 #include "base/errors.h"
 #include "image/channels.h"
-#include "image/display/tone_map.h"
 
 namespace fragtrace {
 
@@ -75,14 +73,20 @@ Image composite(std::span<const ComposedSide> sides, glm::ivec2 size, const Comp
   const int bar = int(std::lround(composition.bar * size.x));
   const double factor = std::exp2(composition.differenceStops);
   const bool tiles = sides.size() > 2;
+  const bool asShown = sides.size() == 2 && sides[0].asItIs != sides[1].asItIs;
   return painted(tiles ? size * kCells : size, alpha, [&](glm::ivec2 pixel) {
     const glm::ivec2 cell = pixel / size;
     const size_t side = tiles ? size_t(cell.y * kCells + cell.x) : pixel.x >= bar ? 1 : 0;
     if (side >= sides.size()) return glm::dvec4(0.0, 0.0, 0.0, 1.0);
     if (!difference)
       return displayed(texelAt(sides[side].image, pixel % size, size), sides[side], composition);
-    const glm::dvec4 apart = texelAt(sides[0].image, pixel, size) - texelAt(sides[1].image, pixel, size);
-    return glm::dvec4(applyToneMap(ToneMap::Linear, glm::abs(glm::dvec3(apart)) * factor), 1.0);
+    std::array<glm::dvec3, 2> values;
+    for (size_t i = 0; i < 2; ++i) {
+      const glm::dvec4 texel = texelAt(sides[i].image, pixel, size);
+      values[i] = glm::dvec3(asShown ? displayed(texel, sides[i], composition) : texel);
+      for (int c = 0; asShown && c < 3; ++c) values[i][c] = encodeSrgb(values[i][c]);
+    }
+    return glm::dvec4(applyToneMap(ToneMap::Linear, glm::abs(values[0] - values[1]) * factor), 1.0);
   });
 }
 

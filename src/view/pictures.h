@@ -48,7 +48,7 @@ inline std::optional<glm::dvec3> radianceAt(const PictureValues& values, const g
   return glm::dvec3(value[0], value[1], value[2]);
 }
 
-/// One side of the split view, to be put beside the other.
+/// One side of the split view, to be put next to the other.
 struct ComposedSide {
   Image image;                      ///< linear R, G, B, and A where it has that, premultiplied; of any size
   bool asItIs = false;              ///< colours of a debug view: neither exposure nor tone map

@@ -24,7 +24,7 @@ struct ResolutionController {
 /// The size of a frame at a step: rounded up, at least one pixel.
 glm::ivec2 sizeAtStep(glm::ivec2 full, size_t step);
 
-/// Something begins, or goes on, to move: the next frame is at the finest step that is expected to hold the
+/// Something begins, or continues, to move: the next frame is at the finest step that is expected to hold the
 /// target, at the coarsest as long as nothing was measured.
 void keepMoving(ResolutionController& controller, glm::ivec2 full);
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <deque>
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -74,7 +75,7 @@ struct ViewProgress {
 };
 
 /// The goals are samples, seconds and the relative error, which falls as 1 / sqrt(samples) (numbers.md);
-/// the first to be reached counts. `share`: of the time that this side gets, 1 or, beside another, 0.5.
+/// the first to be reached counts. `share`: of the time that this side gets, 1 or, next to another, 0.5.
 /// Seconds until the error's goal are told in its last ten minutes only: nobody waits for more.
 ViewProgress progressOf(const SideStatistics& side, const RenderOptions& options, double share);
 
@@ -86,5 +87,30 @@ std::string samplesText(int samples);
 
 /// "12 s", "3 min 20 s", "2 h 5 min".
 std::string durationText(double seconds);
+
+// The messages of the viewer: each text once, for some seconds.
+
+struct Message {
+  std::string text;
+  double latest = 0.0;  ///< the time of the latest repetition, seconds
+  bool closed = false;
+};
+
+/// The latest last; at most 16, older ones are forgotten.
+using MessageList = std::deque<Message>;
+
+/// A text that is there already moves to the end. "wrote FILE" takes the place of "writing FILE ...".
+void addMessage(MessageList& messages, const std::string& text, double now);
+
+void closeMessages(MessageList& messages);
+
+/// Returns true if that text is there, and still seen.
+bool isSeen(const MessageList& messages, const std::string& text, double now);
+
+/// The opacity of a message, 0..1: it fades in steps, which cost one frame each.
+double opacityOf(const Message& message, double now);
+
+/// Seconds until one of them is seen less; infinite when none is seen.
+double secondsToFade(const MessageList& messages, double now);
 
 }  // namespace fragtrace

@@ -29,6 +29,38 @@ constexpr int kDeepestLevel = 31;
 constexpr double kLowestSun = -18.0;    // degrees; it is night
 constexpr double kMostExposure = 32.0;  // either way; far beyond, pictures are not finite
 
+/// Makes the options load the same scene and light as others.
+void takeScene(RenderOptions& side, const RenderOptions& from) {
+  side.scene = from.scene;
+  side.selection = from.selection;
+  side.light.hdriFile = from.light.hdriFile;
+  side.light.studio = from.light.studio;
+  side.light.studioLook = from.light.studioLook;
+  side.light.ground = from.light.ground;
+  side.light.sky.on = from.light.sky.on;
+  side.light.backgroundBlur = from.light.backgroundBlur;
+  side.light.defaultLight = from.light.defaultLight;
+  side.light.lampUnits = from.light.lampUnits;
+  side.device.instancing = from.device.instancing;
+  side.limits = from.limits;
+}
+
+/// The scene's first camera, or that of the options that it was loaded with.
+void resetCamera(ViewState& state) {
+  if (!state.scene) return;
+  state.edit.shared.camera.index = state.scene->options.camera.index;
+  state.edit.shared.camera.overrides = state.scene->options.camera.overrides;
+  state.edit.sceneCamera = state.scene->options.camera.index.value_or(state.scene->cameras.empty() ? -1 : 0);
+  state.edit.pose = poseOf(state.scene->camera, state.scene->bounds);
+  state.edit.posed = false;
+}
+
+/// Sets the number in the list; if it is the file's, ends what was set there.
+void setNumberIn(std::vector<SetNumber>& set, SetNumber number, const SetNumber& inFile) {
+  std::erase_if(set, [&](const SetNumber& one) { return one.pointer == number.pointer; });
+  if (!isSame(number, inFile)) set.push_back(std::move(number));
+}
+
 /// Copies what the sides of the split view may differ in.
 void copySide(RenderOptions& to, const RenderOptions& from) {
   const double noise = to.sampling.noise;  // is shared
@@ -45,11 +77,6 @@ void copySide(RenderOptions& to, const RenderOptions& from) {
   to.light.transparentGlass = from.light.transparentGlass;
 }
 
-void setPose(ViewState& state, const CameraPose& pose) {
-  state.edit.posed = state.edit.posed || !(pose == state.edit.pose);
-  state.edit.pose = pose;
-}
-
 /// The place where the wheel was turned, in halves of the picture's height to the right and up; a drag zooms
 /// the picture's middle.
 glm::dvec2 fromMiddle(const ViewState& state, const Invocation& m) {
@@ -57,12 +84,6 @@ glm::dvec2 fromMiddle(const ViewState& state, const Invocation& m) {
   const double aspectRatio = double(state.size.x) / std::max(state.size.y, 1);
   const glm::dvec2 place = magnifiedPlace(state, m.place);
   return {(2.0 * place.x - 1.0) * aspectRatio, 1.0 - 2.0 * place.y};
-}
-
-/// Frames the selection, or the whole scene.
-void frame(ViewState& state, bool selection) {
-  const BoundsDouble& bounds = selection ? state.selected : state.scene->bounds;
-  setPose(state, frameAll(state.edit.pose, bounds, double(state.size.x) / state.size.y));
 }
 
 CameraPose standardView(const CameraPose& pose, StandardViewOf view) {
@@ -83,12 +104,6 @@ void chooseSceneCamera(ViewState& state, int index) {
   state.edit.shared.camera.overrides = {};
   state.edit.pose = poseOf(state.scene->cameras[size_t(index)], state.scene->bounds);
   state.edit.posed = false;
-}
-
-/// Moves on by `further` cameras in the file's order, and starts again at the end.
-void nextSceneCamera(ViewState& state, int further) {
-  const int count = state.scene ? int(state.scene->cameras.size()) : 0;
-  if (count > 0) chooseSceneCamera(state, (std::max(state.edit.sceneCamera, 0) + further + count) % count);
 }
 
 /// The filter that the viewer was started with.
@@ -164,15 +179,6 @@ std::string nameOf(const std::vector<SceneNode>& nodes, const SceneNode& node) {
 
 }  // namespace
 
-void resetCamera(ViewState& state) {
-  if (!state.scene) return;
-  state.edit.shared.camera.index = state.scene->options.camera.index;
-  state.edit.shared.camera.overrides = state.scene->options.camera.overrides;
-  state.edit.sceneCamera = state.scene->options.camera.index.value_or(state.scene->cameras.empty() ? -1 : 0);
-  state.edit.pose = poseOf(state.scene->camera, state.scene->bounds);
-  state.edit.posed = false;
-}
-
 double ViewState::shownBar() const {
   if (!compares() || comparison == CompareMode::Left || comparison == CompareMode::Difference) return 1.0;
   return comparison == CompareMode::Right ? 0.0 : bar;
@@ -207,21 +213,6 @@ size_t sideAt(const ViewState& state, const glm::dvec2& place) {
     return size_t(cell.y) * size_t(kCells) + size_t(cell.x);
   }
   return state.edit.split && place.x >= state.shownBar() ? 1 : 0;
-}
-
-void takeScene(RenderOptions& side, const RenderOptions& from) {
-  side.scene = from.scene;
-  side.selection = from.selection;
-  side.light.hdriFile = from.light.hdriFile;
-  side.light.studio = from.light.studio;
-  side.light.studioLook = from.light.studioLook;
-  side.light.ground = from.light.ground;
-  side.light.sky.on = from.light.sky.on;
-  side.light.backgroundBlur = from.light.backgroundBlur;
-  side.light.defaultLight = from.light.defaultLight;
-  side.light.lampUnits = from.light.lampUnits;
-  side.device.instancing = from.device.instancing;
-  side.limits = from.limits;
 }
 
 void showScene(ViewState& state, ViewedScene scene) {
@@ -362,167 +353,164 @@ Invocation invocationOf(const Control& control, Invocation about) {
 
 // NOLINTNEXTLINE(readability-function-size): the table of what commands do
 bool apply(ViewState& state, const Invocation& m) {
+  using enum Command;
   if (!isUsable(state, m.command)) return false;
   RenderOptions& side = state.side();
   RenderOptions& shared = state.edit.shared;
+  const CameraPose& pose = state.edit.pose;
   const double flown = state.flySpeed * m.seconds * m.argument;
+  const auto move = [&](const CameraPose& moved) {
+    state.edit.posed = state.edit.posed || !(moved == pose);
+    state.edit.pose = moved;
+    return true;
+  };
+  // Shows the selection, or the whole scene.
+  const auto frame = [&](const CameraPose& from, bool whole) {
+    if (!state.scene) return move(from);
+    const BoundsDouble& bounds = whole || state.selected.empty() ? state.scene->bounds : state.selected;
+    return move(frameAll(from, bounds, double(state.size.x) / state.size.y));
+  };
+  const auto flip = [](bool& on) {
+    on = !on;
+    return true;
+  };
   switch (m.command) {
-    case Command::Orbit:
-      setPose(state, orbit(state.edit.pose, kHalfTurn * m.drag.x, kHalfTurn * m.drag.y));
-      break;
-    case Command::Pan:
-      setPose(state, pan(state.edit.pose, {m.drag.x, -m.drag.y}));
-      break;
-    case Command::Zoom:
-      setPose(state, zoomAt(state.edit.pose, kZoomPerNotch * m.notches - kZoomPerHeight * m.drag.y,
-                            fromMiddle(state, m)));
-      break;
-    case Command::Roll:
-      setPose(state, roll(state.edit.pose, kHalfTurn * m.drag.x));
-      break;
-    case Command::FlyRight:
-      setPose(state, fly(state.edit.pose, {flown, 0, 0}));
-      break;
-    case Command::FlyUp:
-      setPose(state, fly(state.edit.pose, {0, flown, 0}));
-      break;
-    case Command::FlyForward:
-      setPose(state, fly(state.edit.pose, {0, 0, flown}));
-      break;
-    case Command::FrameAll:
-      if (state.scene) frame(state, m.argument == 0 && !state.selected.empty());
-      break;
-    case Command::ResetCamera:
+    case Orbit:
+      return move(orbit(pose, kHalfTurn * m.drag.x, kHalfTurn * m.drag.y));
+    case Pan:
+      return move(pan(pose, {m.drag.x, -m.drag.y}));
+    case Zoom:
+      return move(zoomAt(pose, kZoomPerNotch * m.notches - kZoomPerHeight * m.drag.y, fromMiddle(state, m)));
+    case Roll:
+      return move(roll(pose, kHalfTurn * m.drag.x));
+    case FlyRight:
+      return move(fly(pose, {flown, 0, 0}));
+    case FlyUp:
+      return move(fly(pose, {0, flown, 0}));
+    case FlyForward:
+      return move(fly(pose, {0, 0, flown}));
+    case FrameAll:
+      return frame(pose, m.argument != 0);
+    case ResetCamera:
       resetCamera(state);
-      break;
-    case Command::StandardView:
-      setPose(state, standardView(state.edit.pose, StandardViewOf(m.argument)));
-      if (state.scene) frame(state, !state.selected.empty());
-      break;
-    case Command::Elevate:
-      setPose(state, orbit(state.edit.pose, 0.0, 0.5 * kHalfTurn * m.argument));
-      break;
-    case Command::RollQuarter:
-      setPose(state, roll(state.edit.pose, 0.5 * kHalfTurn * m.argument));
-      break;
-    case Command::OtherProjection:
-      setPose(state, withOtherProjection(state.edit.pose));
-      break;
-    case Command::Widen:
-      setPose(state, widen(state.edit.pose, kWiden * m.argument));
-      break;
-    case Command::SceneCamera:
+      return true;
+    case StandardView:
+      return frame(standardView(pose, StandardViewOf(m.argument)), false);
+    case Elevate:
+      return move(orbit(pose, 0.0, 0.5 * kHalfTurn * m.argument));
+    case RollQuarter:
+      return move(roll(pose, 0.5 * kHalfTurn * m.argument));
+    case OtherProjection:
+      return move(withOtherProjection(pose));
+    case Widen:
+      return move(widen(pose, kWiden * m.argument));
+    case SceneCamera:
       chooseSceneCamera(state, m.argument);
-      break;
-    case Command::NextCamera:
-      nextSceneCamera(state, m.argument);
-      break;
+      return true;
+    case NextCamera: {
+      const int count = state.scene ? int(state.scene->cameras.size()) : 0;
+      const int from = std::max(state.edit.sceneCamera, 0);
+      if (count > 0) chooseSceneCamera(state, (from + m.argument + count) % count);
+      return true;
+    }
     // Picture.
-    case Command::ToggleStage:
+    case ToggleStage:
       side.stages.flip(size_t(m.argument));
       // In the overview, each picture has the stages up to its own.
       if (stageRows()[size_t(m.argument)].cumulative) state.overview = false;
-      break;
-    case Command::StagesUpTo:
+      return true;
+    case StagesUpTo:
       side.stages = withStagesUpTo(side.stages, Stage(m.argument));
       state.overview = false;
-      break;
-    case Command::ToggleDebugView:
+      return true;
+    case ToggleDebugView:
       showDebugView(state, side.output.debugView == DebugView(m.argument) ? 0 : m.argument);
-      break;
-    case Command::NextDebugView:
+      return true;
+    case NextDebugView:
       showDebugView(state, int(side.output.debugView) + m.argument);
-      break;
-    case Command::ToggleTreeBoxes:
-      state.edit.treeBoxes = !state.edit.treeBoxes;
-      break;
-    case Command::TreeLevel:
+      return true;
+    case ToggleTreeBoxes:
+      return flip(state.edit.treeBoxes);
+    case TreeLevel:
       state.edit.treeLevel = std::clamp(state.edit.treeLevel + m.argument, 0, kDeepestLevel);
-      break;
-    case Command::NextToneMap:
+      return true;
+    case NextToneMap:
       shared.output.toneMap = ToneMap((int(shared.output.toneMap) + 1) % int(toneMapNames().size()));
-      break;
-    case Command::Exposure:
+      return true;
+    case Exposure:
       shared.output.exposure = std::clamp(shared.output.exposure.value_or(0.0) + kExposureStep * m.argument,
                                           -kMostExposure, kMostExposure);
-      break;
-    case Command::RotateEnvironment:
+      return true;
+    case RotateEnvironment:
       turnEnvironment(shared.light, kDegreesPerHeight * m.drag);
-      break;
-    case Command::ToggleDenoise:
+      return true;
+    case ToggleDenoise:
       side.output.denoise = side.output.denoise == Denoise::None ? filterOf(state) : Denoise::None;
-      break;
-    case Command::PlayAnimation:
+      return true;
+    case PlayAnimation:
       playOrPause(state);
-      break;
-    case Command::NextAnimation: {
+      return true;
+    case NextAnimation: {
       const int count = animationCount(state);
       if (count > 0) showAnimation(state, (shownAnimation(state) + m.argument + count) % count, 0.0);
-      break;
+      return true;
     }
-    case Command::ToggleGround:
-      shared.light.shadowCatcher = !shared.light.shadowCatcher;
-      break;
-    case Command::ToggleBackground:
-      shared.light.background = !shared.light.background;
-      break;
+    case ToggleGround:
+      return flip(shared.light.shadowCatcher);
+    case ToggleBackground:
+      return flip(shared.light.background);
     // Window.
-    case Command::ToggleOverview:
+    case ToggleOverview:
       // A reference has the place of a side.
       state.overview = !state.overview && state.reference.empty();
       if (state.overview) state.playback.playing = false;
       state.magnifier = {};
-      break;
-    case Command::ToggleSplit:
+      return true;
+    case ToggleSplit:
       state.overview = false;
       if (!std::exchange(state.edit.split, false))
         split(state.edit);
       else
         state.edit.active = 0;
-      break;
-    case Command::FlipSides:
-      if (!state.edit.split) break;
+      return true;
+    case FlipSides:
+      if (!state.edit.split) return true;
       state.comparison = state.comparison == CompareMode::Left ? CompareMode::Right : CompareMode::Left;
       state.edit.active = state.comparison == CompareMode::Left || !state.reference.empty() ? 0 : 1;
-      break;
-    case Command::ToggleDifference:
-      if (!state.edit.split) break;
+      return true;
+    case ToggleDifference:
+      if (!state.edit.split) return true;
       state.comparison =
           state.comparison == CompareMode::Difference ? CompareMode::Bar : CompareMode::Difference;
-      break;
-    case Command::ShowBar:
+      return true;
+    case ShowBar:
       state.comparison = CompareMode::Bar;
-      break;
-    case Command::Magnify:
-      if (state.overview) break;
-      magnify(state, m.notches > 0.0 ? 1 : m.notches < 0.0 ? -1 : m.argument, m.place);
-      break;
-    case Command::MoveMagnifier: {
+      return true;
+    case Magnify:
+      if (!state.overview) magnify(state, m.notches > 0.0 ? 1 : m.notches < 0.0 ? -1 : m.argument, m.place);
+      return true;
+    case MoveMagnifier: {
       const double half = 0.5 * std::exp2(-state.magnifier.steps);
       const glm::dvec2 moved(m.drag.x * state.size.y / std::max(state.size.x, 1), m.drag.y);
       state.magnifier.center = glm::clamp(state.magnifier.center - 2.0 * half * moved, half, 1.0 - half);
-      break;
+      return true;
     }
-    case Command::FlySpeed:
+    case FlySpeed:
       state.flySpeed =
           std::clamp(state.flySpeed * std::exp(kFlySpeedPerNotch * m.notches), kSlowest, kFastest);
-      break;
-    case Command::TogglePanel:
-      state.panel = !state.panel;
+      return true;
+    case TogglePanel:
       state.panelWaits = false;
-      break;
-    case Command::ToggleHud:
-      state.figures = !state.figures;
-      break;
-    case Command::ToggleSheet:
-      state.sheet = !state.sheet;
-      break;
-    case Command::Close:
+      return flip(state.panel);
+    case ToggleHud:
+      return flip(state.figures);
+    case ToggleSheet:
+      return flip(state.sheet);
+    case Close:
       return closeOverlay(state);
     default:
       return false;
   }
-  return true;
 }
 
 // The time of the scene's animation, as the viewer's controls set it.
@@ -648,11 +636,6 @@ bool isSame(const SetNumber& a, const SetNumber& b) {
   return a.pointer == b.pointer && std::ranges::equal(a.values, b.values, sameFloat);
 }
 
-void setNumberIn(std::vector<SetNumber>& set, SetNumber number, const SetNumber& inFile) {
-  std::erase_if(set, [&](const SetNumber& one) { return one.pointer == number.pointer; });
-  if (!isSame(number, inFile)) set.push_back(std::move(number));
-}
-
 void setNumber(ViewState& state, SetNumber number, const SetNumber& inFile) {
   SceneSelection& selection = state.edit.shared.selection;
   setNumberIn(selection.set, std::move(number), inFile);
@@ -679,6 +662,128 @@ std::vector<std::string> pickLines(const ViewState& state, const PickAnswer& ans
   for (const std::string& line : materialLines(shownMaterial(state, *answer.material)))
     lines.push_back("  " + line);
   return lines;
+}
+
+namespace {
+
+/// The edit without what undo does not restore.
+Edit restorable(const ViewState& state) {
+  Edit edit = state.edit;
+  SceneSelection& selection = edit.shared.selection;
+  selection = {.materialVariant = selection.materialVariant,
+               .hiddenNodes = selection.hiddenNodes,
+               .set = selection.set,
+               .up = selection.up};
+  return edit;
+}
+
+/// Directions that are whole turns apart are the same.
+void keepTurnsWithin(LightOptions& light) {
+  for (double* degrees : {&light.sky.sun.azimuth, &light.hdriRotationDegrees})
+    *degrees -= 360.0 * std::floor(*degrees / 360.0);
+}
+
+/// Returns true if a user made the step, and sees it: an animation that is shown holds the camera where it is
+/// (showAnimation), which nobody sees.
+bool differs(Edit a, Edit b) {
+  if (a.pose == b.pose) a.posed = b.posed;
+  keepTurnsWithin(a.shared.light);
+  keepTurnsWithin(b.shared.light);
+  return a != b;
+}
+
+/// Restores all of the edit except what needs loading.
+void restore(ViewState& state, const Edit& edit) {
+  const RenderOptions before = std::exchange(state.edit, edit).shared;
+  SceneSelection& selection = state.edit.shared.selection;
+  takeScene(state.edit.shared, before);
+  selection.hiddenNodes = edit.shared.selection.hiddenNodes;
+  selection.set = edit.shared.selection.set;
+  if (!state.scene) return;
+  state.scene->options.selection = selection;
+  // This is the same as in showAnimation(): only the user moves the camera of a posed scene.
+  state.edit.posed = edit.posed || (selection.animationTime && state.scene->cameras.empty());
+}
+
+/// Goes one step back (-1) or forward (1); false: there is none.
+bool step(History& history, ViewState& state, int direction) {
+  std::deque<Edit>& from = direction < 0 ? history.past : history.future;
+  std::deque<Edit>& to = direction < 0 ? history.future : history.past;
+  if (from.empty()) return false;
+  to.push_back(std::exchange(*history.now, from.back()));
+  from.pop_back();
+  restore(state, *history.now);
+  return true;
+}
+
+/// Does so as the user asks for it.
+bool stepAsked(History& history, ViewState& state, int direction) {
+  record(history, state);
+  history.step = direction;
+  return step(history, state, direction);
+}
+
+}  // namespace
+
+void restart(History& history, const ViewState& state) { history = {{}, {}, restorable(state)}; }
+
+void record(History& history, const ViewState& state) {
+  if (history.waits) return;
+  Edit edit = restorable(state);
+  if (!history.now || !differs(edit, *history.now)) {
+    history.now = std::move(edit);
+    return;
+  }
+  history.past.push_back(std::exchange(*history.now, std::move(edit)));
+  if (history.past.size() > kMostSteps) history.past.pop_front();
+  history.future.clear();
+}
+
+bool undo(History& history, ViewState& state) { return stepAsked(history, state, -1); }
+
+bool redo(History& history, ViewState& state) { return stepAsked(history, state, 1); }
+
+void revert(History& history, ViewState& state) {
+  if (!std::exchange(history.waits, false)) return;
+  if (const int undone = std::exchange(history.step, 0)) step(history, state, -undone);
+}
+
+void ignoreChange(History& history, const ViewState& state) {
+  if (history.now) history.now = restorable(state);
+}
+
+void rebase(History& history, ViewState& state, const std::vector<ChangedNumber>& changed,
+            const LightOptions& lightBefore) {
+  if (changed.empty()) return;
+  const LightOptions lightNow = state.edit.shared.light;
+  const auto apply = [&](RenderOptions& options) {
+    std::vector<SetNumber>& set = options.selection.set;
+    if (options.light.studio == lightBefore.studio &&
+        options.light.defaultLight == lightBefore.defaultLight) {
+      options.light.studio = lightNow.studio;
+      options.light.defaultLight = lightNow.defaultLight;
+    }
+    for (const auto& [before, now] : changed) {
+      const auto found = std::ranges::find(set, now.pointer, &SetNumber::pointer);
+      const SetNumber shown = found != set.end() ? *found : before;
+      setNumberIn(set, shown, now);
+    }
+  };
+  for (Edit& edit : history.past) apply(edit.shared);
+  for (Edit& edit : history.future) apply(edit.shared);
+  if (history.now) apply(history.now->shared);
+  apply(state.edit.shared);
+  if (state.scene) apply(state.scene->options);
+}
+
+RenderOptions withLight(const History& history, RenderOptions options) {
+  const RenderOptions before = options;
+  takeScene(options, history.now->shared);
+  options.scene = before.scene;
+  options.selection = before.selection;
+  options.selection.materialVariant = history.now->shared.selection.materialVariant;
+  options.selection.up = history.now->shared.selection.up;
+  return options;
 }
 
 }  // namespace fragtrace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -77,7 +78,7 @@ struct ViewState {
   double flySpeed = 1.0;
 
   bool panel = true;
-  bool panelHasRoom = true;  ///< beside the picture
+  bool panelHasRoom = true;  ///< next to the picture
   bool panelWaits = false;   ///< the panel was open, and opens again when it has room
   bool figures = false;
   float panelWidth = 0.0f;     ///< pixels at 96 dots an inch; 0: the standard width
@@ -151,14 +152,8 @@ bool isHidden(const ViewState& state, size_t node);
 /// Hides it with all that is below it, or shows it again. Others of its name stay as they are.
 void hideNode(ViewState& state, size_t node, bool hidden);
 
-/// Closes the panel when there is no room for it beside the picture, and opens it again when there is.
+/// Closes the panel when there is no room for it next to the picture, and opens it again when there is.
 void fitPanel(ViewState& state, bool hasRoom);
-
-/// Makes the options load the same scene and light as others.
-void takeScene(RenderOptions& side, const RenderOptions& from);
-
-/// The scene's first camera, or that of the options that it was loaded with.
-void resetCamera(ViewState& state);
 
 /// A new scene: its camera, until somebody moves.
 void showScene(ViewState& state, ViewedScene scene);
@@ -201,9 +196,6 @@ std::string whyNoFog(const ViewState& state);
 /// Returns true if both set the same place to the same, as floats.
 bool isSame(const SetNumber& a, const SetNumber& b);
 
-/// Sets the number in the list; if it is the file's, ends what was set there.
-void setNumberIn(std::vector<SetNumber>& set, SetNumber number, const SetNumber& inFile);
-
 /// Sets numbers of the scene's materials or lights. `inFile` are the file's at that place: they
 /// end what was set there.
 void setNumber(ViewState& state, SetNumber number, const SetNumber& inFile);
@@ -221,5 +213,52 @@ Material shownMaterial(const ViewState& state, size_t index);
 
 /// Returns the lines that describe a picked surface. Values of its material are as they are set now.
 std::vector<std::string> pickLines(const ViewState& state, const PickAnswer& answer);
+
+// Undo and redo of what the viewer's user has set.
+
+/// The limit of steps back. Older ones are forgotten.
+inline constexpr size_t kMostSteps = 200;
+
+/// Edits, of whose selection undo restores what is hidden or set, the material variant and the up axis: the
+/// rest is the scene and its animation's time, which stay.
+struct History {
+  std::deque<Edit> past;  ///< the latest last
+  std::deque<Edit> future;
+  std::optional<Edit> now;
+  /// True for a scene that belongs to the latest step; until it is loaded, nothing is recorded.
+  bool waits = false;
+  int step = 0;  ///< the scene's step: -1 undo(), 1 redo(), 0 neither
+};
+
+/// Forgets all steps: what was set before belongs to another scene.
+void restart(History& history, const ViewState& state);
+
+/// Remembers what has changed since the last call as one step; to be called while nothing is dragged or held.
+void record(History& history, const ViewState& state);
+
+/// Goes back one step, or forward again; false: there is none.
+bool undo(History& history, ViewState& state);
+bool redo(History& history, ViewState& state);
+
+/// Takes back the latest undo() or redo(), since the scene that it needs cannot be loaded.
+void revert(History& history, ViewState& state);
+
+/// Accepts changes since the last call that the user did not make; they become no step.
+void ignoreChange(History& history, const ViewState& state);
+
+/// A number of the scene's file that is another one by now.
+struct ChangedNumber {
+  SetNumber before;
+  SetNumber now;
+};
+
+/// The file has by now what was set in it: all steps continue to show what they showed, and those of the
+/// light before have the state's light.
+void rebase(History& history, ViewState& state, const std::vector<ChangedNumber>& changed,
+            const LightOptions& lightBefore);
+
+/// The options with the light, the material variant and the up axis of the latest step, which undo and redo
+/// leave to be loaded.
+RenderOptions withLight(const History& history, RenderOptions options);
 
 }  // namespace fragtrace

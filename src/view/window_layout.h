@@ -21,7 +21,7 @@ struct LayoutWishes {
   bool split = false;       ///< both sides have figures
 };
 
-/// Lengths in pixels. The picture stands at the top left, the panel beside it at the right; below them, as
+/// Lengths in pixels. The picture stands at the top left, the panel next to it at the right; below them, as
 /// wide as the window, the bar of the stages, and below that the status bar.
 struct WindowLayout {
   float scale = 1.0f;  ///< factor for a length at 96 dots an inch
@@ -29,7 +29,7 @@ struct WindowLayout {
   glm::ivec2 picture{0};
   float stagesHeight = 0.0f;
   float statusHeight = 0.0f;
-  bool docked = false;  ///< there is a panel beside the picture; else, if any, it is over it at the top right
+  bool docked = false;    ///< the panel is next to the picture; else, if any, over it at the top right
   glm::vec2 panel{0.0f};  ///< its width, and the most of its height
   FigureDetail figures = FigureDetail::All;
   glm::vec2 figuresMost{0.0f};   ///< largest size of one side's figures, at the picture's top left
@@ -45,7 +45,7 @@ glm::ivec2 windowFor(glm::ivec2 picture, float scale, bool panel);
 /// height.
 size_t screenOf(const glm::ivec4& window, std::span<const glm::ivec4> screens);
 
-/// Returns true if a picture is wide enough to begin with the panel open beside it.
+/// Returns true if a picture is wide enough to begin with the panel open next to it.
 bool fitsPanel(glm::vec2 picture, float scale);
 
 /// A width of the panel that its controls can be read in, next to a wanted one; pixels at 96 dots an inch.

@@ -107,7 +107,7 @@ def end_session(leader):
 
 
 class Run:
-    """A command in a session of its own. Its streams go to files beside its folder, so that nothing waits for who reads them."""
+    """A command in a session of its own. Its streams go to files next to its folder, so that nothing waits for who reads them."""
 
     def __init__(self, words, folder, environment=None, program=None, limits=None):
         self.words = [str(word) for word in words]

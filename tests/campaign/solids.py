@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Light in, through and beside solids: each cell of a matrix of cameras, lamps and receivers is drawn in ways that must agree, and compared with its closed form
+"""Light in, through and next to solids: each cell of a matrix of cameras, lamps and receivers is drawn in ways that must agree, and compared with its closed form
 where there is one. A tank of water holds what is inside; a box of glass in the tank holds a lamp in another solid. A case is one cell."""
 import functools
 import math

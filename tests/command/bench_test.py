@@ -194,7 +194,7 @@ STAND_IN = '#!/bin/sh\nprintf "%s\\n" "$$" "$0" "$@"\nkill -TERM $$\n'
 
 
 class BenchProgram(Case):
-    """`fragtrace bench` becomes the program fragtrace-bench, which lies beside it."""
+    """`fragtrace bench` becomes the program fragtrace-bench, which lies next to it."""
 
     def setUp(self):
         super().setUp()
@@ -601,7 +601,7 @@ class GpuMemory(BenchTraversalBench):
         self.renders(ROOM, "-o", self.folder / "p.pfm", *SMALL, "--stats", stats)
         told = json.loads(stats.read_text())
         info = json.loads(run("info", ROOM, "--json").stdout)
-        # `render` may keep the largest triangles beside the tree.
+        # `render` may keep the largest triangles next to the tree.
         self.assertAlmostEqual(info["gpu_bytes_per_triangle"], told["gpu_bytes_per_triangle"], delta=0.1)
         self.assertTrue(60 < told["gpu_bytes_per_triangle"] < 160, told["gpu_bytes_per_triangle"])
         self.assertLessEqual(told["gpu_bytes_per_triangle"] * 69326, told["scene_bytes"])

@@ -74,6 +74,14 @@ class CameraTypes(Case):
                 for x in (0, 1, 2, 29, 30, 31):
                     self.assertEqual([exr.layers[c][y][x] for c in "RGB"], [0, 0, 0], options)
 
+    def test_a_focal_length_is_a_view_angle(self):
+        for option, sensor, mm in (("50", 24, 50), ("35,15.6", 15.6, 35)):
+            angle = math.degrees(2 * math.atan(sensor / 2 / mm))
+            pictures = [self.layers(*words).values("position.X") for words in (("--focal-length", option), ("--camera-view-angle", repr(angle)), ("--focal-length", "49"))]
+            apart = [max(abs(a - b) for a, b in zip(pictures[0], other)) for other in pictures[1:]]
+            self.assertLess(apart[0], 1e-5)
+            self.assertGreater(apart[1], 1e-3)
+
     def test_a_shifted_lens_shows_what_lies_aside(self):
         look = ("--camera-focal-point", "0.1,0.5,-1", "--lens-shift", "%g,%g" % SHIFT)
         self.assertGreater(self.assert_seen("perspective", self.layers("--camera-view-angle", ANGLE, *look)), 1000)
@@ -92,7 +100,7 @@ class CameraTypes(Case):
             self.assertLess(max(abs(x - i % WIDTH - 0.5), abs(y - i // WIDTH - 0.5)), 0.502, i)
 
     def test_a_panorama_is_an_environment(self):
-        """A room of unlit walls, and its own panorama in place of it, are the same picture."""
+        """A room of unlit walls, and its own panorama instead of it, are the same picture."""
         room = {"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_materials_unlit"], "materials": [], "meshes": [], "nodes": [], "scenes": [{"nodes": []}]}
         wall = quad({})
         room.update(buffers=wall["buffers"], bufferViews=wall["bufferViews"], accessors=wall["accessors"])
@@ -139,7 +147,8 @@ class CameraTypes(Case):
                               (["--camera-type", "fisheye", "--fit"], "--fit"), (["--camera-type", "panorama", "--f-stop", "2"], "--f-stop"),
                               (["--camera-type", "fisheye", "--camera-view-angle", "361"], "360"), (["--camera-view-angle", "181"], "180"),
                               (["--camera-type", "perspective", "--camera-parallel-scale", "1"], "orthographic cameras"), (["--lens-shift", "0,11"], "between -10 and 10"),
-                              (["--camera-type", "panorama", "--tree-level", "1"], "--tree-level"), (["--camera-type", "fish"], "fisheye"),
+                              (["--focal-length", "50", "--camera-view-angle", "30"], "--focal-length"), (["--focal-length", "50", "--camera-type", "fisheye"], "--focal-length: is of perspective"),
+                              (["--focal-length", "50,0"], "--focal-length"), (["--camera-type", "panorama", "--tree-level", "1"], "--tree-level"), (["--camera-type", "fish"], "fisheye"),
                               (["--camera-type", "panorama", "--camera-orbit", "0,0,2"], "zoom"),
                               (["--camera-type", "panorama", "--caustics", "on", "--pixel-filter", "gaussian"], "--pixel-filter box")):
             self.fails(2, "render", scene, "-o", self.folder / "x.png", *options, says=[text])
@@ -150,7 +159,7 @@ SEEDS = range(1, 7)
 
 
 class CameraRays(Case):
-    """Samples of several camera rays (--camera-rays): all bring what they see and one light sample, the last alone goes on."""
+    """Samples of several camera rays (--camera-rays): all bring what they see and one light sample, the last alone continues."""
 
     def stats(self, scene, *options):
         path = self.folder / "stats.json"

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""tests/campaign: each campaign that has a short form runs for a moment and finds nothing; what it keeps, how it goes on, how it is called."""
+"""tests/campaign: each campaign that has a short form runs for a moment and finds nothing; what it keeps, how it continues, how it is called."""
 import json
 import os
 import shutil

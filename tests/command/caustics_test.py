@@ -17,14 +17,14 @@ from known_light_test import MATT, SPECULAR, from_lamp, over_ground
 from scene_parts import place_quad
 
 WIDE = 2.5    # half of the width of the ground
-MIRROR = 1.1  # the mirror stands at x = -MIRROR, just beside what the camera sees
+MIRROR = 1.1  # the mirror stands at x = -MIRROR, just next to what the camera sees
 POINT = (-0.8, 0.1, 0.9)
 INTENSITY = 3.0
 CORNERS = ((-1, -1), (1, -1), (1, 1), (-1, 1))
 LAMP = ((-0.7, -0.1, 1.1), 0.2, 20.0)   # middle, half of its width, radiance
 SUN = (1.1, 2.0)                       # angle to the vertical, irradiance
 CONE = (0.5, 1.1)                      # cone angles of the spot
-UP = ((1.5, 0.0, 0.3), 0.35, 20.0)     # a lamp beside the picture that faces away from the ground; as LAMP
+UP = ((1.5, 0.0, 0.3), 0.35, 20.0)     # a lamp next to the picture that faces away from the ground; as LAMP
 ABOVE = 1.0                            # height of the mirror over it, whose front faces the ground
 VIEW = 2.2 * math.tan(0.45)            # half of the width of what the camera sees
 BACK = [-math.sqrt(0.5), 0, 0, math.sqrt(0.5)]
@@ -154,7 +154,7 @@ class Caustics(Case):
         def light(x, y):
             return INTENSITY / math.pi * (from_point(POINT, x, y) + from_point(mirrored(POINT), x, y))
         for kind in ("gaussian", "blackman-harris"):
-            # Beside the picture's edges the filter sees what the mean leaves out.
+            # Next to the picture's edges the filter sees what the mean leaves out.
             self.assert_near(self.seen(scene, "--pixel-filter", kind, spp=256), over_ground(light), kind, 0.006)
         self.assert_near(self.seen(scene, "--camera-parallel-scale", 2.2 * math.tan(0.45), spp=768), over_ground(light), "orthographic", 0.004)
 
@@ -475,7 +475,7 @@ class GlossyCaustics(Case):
             self.assert_alike(scene, f"brushed {roughness}", 1024, 512, bounces=3)
 
     def test_a_frosted_pane(self):
-        """It stands beside the picture, before the light."""
+        """It stands next to the picture, before the light."""
         glass = {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.3}, "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}}
         pane = glass, {"translation": [-1.2, 0, 0.5], "rotation": TURN, "scale": [0.5, 0.8, 1]}
         scene = self.scene("pane", pane, lights=[(GLOSSY_CAUSTICS_POINT[0][0], {"translation": [-2.2, 0.1, 1.1]})])
@@ -535,7 +535,7 @@ SUN_CAUSTICS_WIDE = (("layout.glsl", "kSunRadius = 0.004651303f", f"kSunRadius =
 
 class SunCaustics(Case):
     """--caustics: light that the sun of --sky, or of a map, sends by way of a mirror. The mirror stands at the edge of matt ground and faces the sun, so what
-    it throws there is as bright as what the sun itself sends, which is drawn from the ground. The sky beside the sun is made black. The mean of one picture
+    it throws there is as bright as what the sun itself sends, which is drawn from the ground. The sky next to the sun is made black. The mean of one picture
     lies within the part that is given, which is about 4 standard errors (of 4 seeds)."""
 
     def scene(self, name, mirror=True, lamp=0.0, roughness=0.0):

@@ -286,7 +286,7 @@ class Statistics(Case):
 
 
 class DriverLimits(Case):
-    """Work that would need more than llvmpipe's 65,535 loop iterations in one invocation goes on in the next draw."""
+    """Work that would need more than llvmpipe's 65,535 loop iterations in one invocation continues in the next draw."""
 
     def compare(self, scene, backend, traversal, spp, size, stage="flat"):
         paths = [self.folder / "a.pfm", self.folder / "b.pfm"]

@@ -40,7 +40,7 @@ def material(draw):
 
 
 def scene(seed):
-    """A wall of squares, tilted up to its edge; normals of all lengths, some that look away; a point light and a mirror of all kinds beside it."""
+    """A wall of squares, tilted up to its edge; normals of all lengths, some that look away; a point light and a mirror of all kinds next to it."""
     draw = random.Random(seed)
     gltf = Gltf()
     indices, uvs = gltf.accessor(TWO_TRIANGLES, "H"), gltf.accessor([(0, 1), (1, 1), (1, 0), (0, 0)])

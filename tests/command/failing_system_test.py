@@ -3,17 +3,23 @@
 """A system that fails (tests/faults/failing_system.cpp), where campaigns have found something: the whole is tests/campaign/faults.py."""
 import os
 import signal
+import struct
 import subprocess
 import time
 
 from support import FRAGTRACE, SCENES, SMALL, Case, main, run
 
 BOX = SCENES / "cornell-box.gltf"
+MEMORY = 8  # kKinds of failing_system.cpp
+
+
+def under(setting, value, *words):
+    return run(*words, timeout=60, env={**os.environ, "LD_PRELOAD": str(FRAGTRACE.parent / "libfailing_system.so"), "FRAGTRACE_SYSTEM_PROGRAM": "fragtrace",
+                                        f"FRAGTRACE_SYSTEM_{setting}": str(value)})
 
 
 def with_fault(kind, number, *words):
-    return run(*words, timeout=60, env={**os.environ, "LD_PRELOAD": str(FRAGTRACE.parent / "libfailing_system.so"), "FRAGTRACE_SYSTEM_PROGRAM": "fragtrace",
-                                        "FRAGTRACE_SYSTEM_FAIL": f"{kind},{number}"})
+    return under("FAIL", f"{kind},{number}", *words)
 
 
 class FailingSystem(Case):
@@ -21,9 +27,17 @@ class FailingSystem(Case):
         self.assertEqual((result.returncode, len(result.stderr.splitlines())), (3, 1), result.stderr)
         self.assertIn("memory", result.stderr)
 
+    def among_allocations(self, number, *words):
+        """So many numbers of allocations that the command makes, evenly spread."""
+        counts = self.folder / "counts"
+        self.assertEqual(under("COUNTS", counts, *words).returncode, 0)
+        count = struct.unpack_from("<Q", counts.read_bytes(), 8 * MEMORY)[0]
+        self.assertGreater(count, 1000)
+        return [1 + i * (count - 1) // number for i in range(number)]
+
     def test_an_allocation_that_fails_before_main_or_where_nothing_may_throw_is_said(self):
         """CLI11 looks for options in functions that may not throw."""
-        for number in (1, 31, 53, 5787, 9023, 10116):
+        for number in (31, 53, *self.among_allocations(40, "info", BOX)):
             with self.subTest(number):
                 self.out_of_memory(with_fault("memory", number, "info", BOX))
 
@@ -32,7 +46,7 @@ class FailingSystem(Case):
         path = self.folder / "x.pfm"
         self.renders(BOX, "-o", path, *SMALL)
         right = path.read_bytes()
-        for number in range(27600, 30600, 250):
+        for number in self.among_allocations(100, "render", BOX, "-o", path, *SMALL):
             with self.subTest(number):
                 path.write_bytes(b"old")
                 result = with_fault("memory", number, "render", BOX, "-o", path, *SMALL)
@@ -49,15 +63,15 @@ class FailingSystem(Case):
             self.renders(BOX, "-o", part, *SMALL, "--sample-offset", offset)
         path.write_bytes(b"old")
         slow = {"LD_PRELOAD": str(FRAGTRACE.parent / "libfailing_system.so"), "FRAGTRACE_SYSTEM_PROGRAM": "fragtrace", "FRAGTRACE_SYSTEM_DELAY": "1,200000"}
-        part = self.folder / ".x.exr.part"
+        is_there = lambda: list(self.folder.glob(".x.exr.*.part"))
         seen = 0
         for signal_number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             with subprocess.Popen([FRAGTRACE, "merge", *parts, "-o", path], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, env={**os.environ, **slow}) as process:
-                while not part.exists() and process.poll() is None:
+                while not is_there() and process.poll() is None:
                     time.sleep(0.001)
                 process.send_signal(signal_number)
                 process.communicate(timeout=60)
-            self.assertFalse(part.exists())
+            self.assertFalse(is_there())
             if path.read_bytes() == b"old":
                 self.assertEqual(process.returncode, 130)
                 seen += 1

@@ -67,11 +67,16 @@ class FarmParts(Farm):
         self.assertEqual(lines[-1], "true")
         self.assertTrue(all(shlex.split(line)[-1] == "--continue" for line in lines[:-1]))
 
+        for frames, ranges in (([], ["0:2:1", "3:6:1"]), (["--frames", "2:5"], ["2:3:1", "4:5:1"])):
+            lines = self.parts(2, "render", "s.glb", "-o", "f.##.png", "--turntable", 7, *frames)
+            self.assertEqual([shlex.split(line)[-2] for line in lines[:-1]], ranges)
+            self.assertTrue(all("--turntable 7 " in line for line in lines[:-1]))
+
     def test_what_cannot_be_cut(self):
         for words, says in (((0, "render", "s", "-o", "x.exr", "--spp", 4), "PARTS"), ((2, "render", "s", "-o", "x.exr"), "--spp"),
                             ((2, "render", "s", "--spp", 4), "-o"), ((2, "render", "s", "-o", "x.png", "--spp", 4), ".exr"),
                             ((2, "render", "s", "-o", "x.exr", "--spp", 4, "--noise", 0.1), "--noise"),
-                            ((2, "render", "s", "-o", "x.##.exr", "--turntable", 4), "turntable"), ((2, "render", "s", "-o", "x.exr", "--spp"), "--spp"),
+                            ((2, "render", "s", "-o", "x.##.exr", "--turntable", "x"), "turntable"), ((2, "render", "s", "-o", "x.exr", "--spp"), "--spp"),
                             ((2, "render", "s", "-o", "x.##.exr", "--frames", "4"), "--frames"), ((2, "view", "s", "-o"), "PARTS")):
             self.assertIn(says, self.parts(*words, status=2))
         self.assertEqual(list(self.folder.iterdir()), [])

@@ -6,6 +6,7 @@ import base64
 import json
 import math
 import os
+import resource
 import shutil
 import signal
 import struct
@@ -18,6 +19,7 @@ from statistics import correlation
 from support import EXTENDED, FRAGTRACE, SCENES, SMALL, Case, Exr, Gltf, main, read_png, run
 
 PLANE = SCENES / "mapped-plane.gltf"
+FAR_PROCESS = "1-0123abcd.part"  # of another machine
 SEQUENCE_SMALL = ["--resolution", "40,30", "--spp", "2", "--traversal", "front-to-back"]
 
 
@@ -138,6 +140,81 @@ class Sequences(Case):
         for k in (0, 1, 3):
             self.assertEqual((self.folder / f"x.{k:02}.exr").stat().st_mtime_ns, before[k])
         self.assertGreater((self.folder / "x.02.exr").stat().st_size, 0)
+
+    def test_processes_may_share_a_folder(self):
+        """They write under names of their own. A part of another machine stays."""
+        left = self.folder / f".x.07.exr.{FAR_PROCESS}"
+        left.write_bytes(b"half of one")
+        words = ["render", self.scene, "-o", self.folder / "x.##.exr", "--resolution", "40,30", "--spp", "1", "--frames", "0:15", "--quiet", "--continue"]
+        processes = [subprocess.Popen([FRAGTRACE, *map(str, words)], stderr=subprocess.PIPE, text=True) for _ in range(4)]
+        said = [process.communicate(timeout=300)[1] for process in processes]
+        self.assertEqual([(process.returncode, text) for process, text in zip(processes, said)], [(0, "")] * 4)
+        self.assertEqual({p.name for p in self.folder.iterdir() if p.name.lstrip(".").startswith("x.")}, {f"x.{k:02}.exr" for k in range(16)} | {left.name})
+
+    def test_continue_draws_pictures_of_another_size_or_cut_off_again(self):
+        turn = ["--turntable", 4, *SEQUENCE_SMALL[2:4]]
+        for kind in ("png", "jpg", "pfm", "exr"):
+            path = lambda k: self.folder / f"c.{k}.{kind}"
+            self.renders(PLANE, "-o", path("#"), *turn, "--resolution", "40,30", "--quiet")
+            whole = [path(k).read_bytes() for k in range(4)]
+            self.renders(PLANE, "-o", path("#"), *turn, "--resolution", "20,15", "--frames", "1:1", "--quiet")
+            if kind != "exr":
+                path(2).write_bytes(whole[2][:-20])
+            result = self.renders(PLANE, "-o", path("#"), *turn, "--resolution", "40,30", "--continue")
+            self.assertEqual([path(k).read_bytes() for k in range(4)], whole, kind)
+            self.assertIn(f"{path(1)}: 20 x 15 pixels, not 40 x 30; it is drawn again", result.stderr)
+            self.assertEqual(f"{path(2)}: the file is truncated; it is drawn again" in result.stderr, kind != "exr", result.stderr)
+            self.assertIn(f"{3 if kind == 'exr' else 2} of 4 pictures were there already", result.stderr)
+
+    def test_equal_failures_are_said_once(self):
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+        result = run("render", PLANE, "-o", self.folder / "x.##.png", "--resolution", "100,100", "--spp", 1, "--frames", "0:9", "--turntable", 10, "--quiet", preexec_fn=limit)
+        self.assertEqual(result.returncode, 1)
+        lines = result.stderr.splitlines()
+        self.assertEqual(len(lines), 2, lines)
+        self.assertIn("picture 0: cannot write ", lines[0])
+        self.assertIn("10 of 10 pictures failed", lines[1])
+
+    def test_pictures_that_show_nothing_are_said_once(self):
+        """The first names its number; a picture alone has none."""
+        away = ["--camera-position", "0,1e5,0", "--camera-focal-point", "0,2e5,0", "--resolution", "16,12", "--spp", 1]
+        said = self.renders(PLANE, "-o", self.folder / "n.#.pfm", "--turntable", 3, *away).stderr
+        self.assertEqual(said.count("shows nothing of the scene"), 1, said)
+        self.assertIn("warning: picture 0: this view shows nothing", said)
+        self.assertIn("(nothing is said of later ones)", said)
+        said = self.renders(PLANE, "-o", self.folder / "n.pfm", *away).stderr
+        self.assertIn("warning: this view shows nothing", said)
+        self.assertNotIn("later ones", said)
+
+    def test_a_turntable_can_be_split(self):
+        """Each picture has the bits of the whole turn's."""
+        self.renders(PLANE, "-o", self.folder / "w.#.exr", *SEQUENCE_SMALL, "--turntable", 6, "--quiet")
+        for frames in ("0:2", "3:5:2", "4:4"):
+            self.renders(PLANE, "-o", self.folder / "p.#.exr", *SEQUENCE_SMALL, "--turntable", 6, "--frames", frames, "--quiet", "--continue")
+        self.assertEqual(sorted(p.name for p in self.folder.glob("p.*")), [f"p.{k}.exr" for k in range(6)])
+        for k in range(6):
+            self.assertEqual((self.folder / f"p.{k}.exr").read_bytes(), (self.folder / f"w.{k}.exr").read_bytes(), k)
+        self.fails(2, "render", PLANE, "-o", self.folder / "q.#.exr", "--turntable", 6, "--frames", "4:6", says=["--frames: --turntable 6 has pictures 0 to 5"])
+
+    def test_rates_of_broadcast_are_exact(self):
+        for word, rate in (("23.976", 24000 / 1001), ("29.97", 30000 / 1001), ("59.94", 60000 / 1001), ("47.952", 48000 / 1001), ("119.88", 120000 / 1001),
+                           ("30000/1001", 30000 / 1001), ("23.98", 23.98), ("25", 25), ("50/2", 25)):
+            self.draw("--frames", "7:7", "--fps", word, "--quiet")
+            picture = (self.folder / "x.07.exr").read_bytes()
+            self.assertEqual(picture, self.single("--animation-time", repr(7 / rate), "--seed", self.seed(7)), word)
+        for word, says in (("1/0", "no fraction such as 30000/1001"), ("a/b", "no fraction"), ("x", "no number"), ("1/9999", "not in the range")):
+            self.fails(2, "render", self.scene, "-o", self.folder / "x.##.exr", "--frames", "0:1", "--fps", word, says=["--fps", says])
+
+    def test_the_end_of_an_animation_is_that_of_its_float_times(self):
+        self.scene = self.moving("end.gltf", ((0.0, (0, 0, 0)), (3.41667, (1, 0, 0))))
+        self.assertNotIn("ends after", self.draw("--frames", "82:82").stderr)
+        self.assertIn("at picture 82;", self.draw("--frames", "83:83").stderr)
+
+    def test_a_picture_that_shows_nothing_is_named(self):
+        self.scene = self.moving("gone.gltf", ((0.0, (0, 0, 0)), (1.0, (0, 0, 0)), (1.01, (1e4, 0, 0)), (4.0, (1e4, 0, 0))))
+        said = self.draw("--frames", "0:4", "--fps", 1).stderr
+        self.assertEqual(said.count("warning: picture 2: "), 1, said)
+        self.assertEqual(said.count("warning: picture"), 1, said)
 
     def test_a_broken_frame_is_said_and_the_rest_is_drawn(self):
         # Between frames 1 and 3 the plane is farther away than floats reach.
@@ -296,7 +373,7 @@ class Videos(Case):
         self.assertIn("turn.mp4: 3 pictures of 40 x 30, 0.24 s at 12.5 per second", ran.stderr)
         trial, arguments = map(json.loads, self.log.read_text().splitlines())
         self.assertEqual(trial[-1], "file:/dev/null")
-        self.assertEqual(arguments[-1], f"file:{self.folder}/.turn.mp4.part")
+        self.assertRegex(arguments[-1], rf"^file:{self.folder}/\.turn\.mp4\.\d+-[0-9a-f]{{8}}\.part$")
         words = " ".join(arguments)
         for part in ("-pixel_format rgb24 -video_size 40x30 -framerate 12.5 -i pipe:0", "-crf 16", "-colorspace bt709 -color_range tv", "-f mp4"):
             self.assertIn(part, words)
@@ -308,6 +385,8 @@ class Videos(Case):
         self.assertIn("-pixel_format rgba64le -video_size 40x30 -framerate 10", " ".join(json.loads(self.log.read_text().splitlines()[-1])))
 
     def test_an_interrupted_video_holds_the_frames_that_were_finished(self):
+        """It has a name of its own, and an older video stays."""
+        self.video.write_text("an older one")
         process = subprocess.Popen([FRAGTRACE, "render", PLANE, "-o", self.video, "--turntable", "90", "--resolution", "40,30", "--spp", "1000", "--progress", "json"],
                                    env=self.stand_in, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         self.addCleanup(process.communicate)
@@ -319,9 +398,9 @@ class Videos(Case):
         self.assertEqual(process.returncode, 130, events)
         count = 1 + sum(event["type"] == "picture" for event in events)
         self.assertLess(count, 90)
-        self.assertIn(f"interrupted: {count} of 90 pictures are in {self.video}", [event.get("text") for event in events])
-        self.assertEqual(self.video.stat().st_size, count * 40 * 30 * 3)
-        self.assertEqual(self.left(), ["turn.mp4"])
+        self.assertIn(f"interrupted: {count} of 90 pictures are in {self.folder}/turn.partial.mp4", [event.get("text") for event in events])
+        self.assertEqual((self.folder / "turn.partial.mp4").stat().st_size, count * 40 * 30 * 3)
+        self.assertEqual((self.left(), self.video.read_text()), (["turn.mp4", "turn.partial.mp4"], "an older one"))
 
     def test_interrupted_before_the_first_picture_it_leaves_nothing(self):
         process = subprocess.Popen([FRAGTRACE, "render", PLANE, "-o", self.video, "--turntable", "90", "--resolution", "40,30", "--spp", "100000000", "--progress", "none"],
@@ -333,7 +412,7 @@ class Videos(Case):
             time.sleep(0.02)
         process.send_signal(signal.SIGINT)
         self.assertIn("nothing is written", process.communicate(timeout=20)[1])
-        time.sleep(0.3)  # in which an encoder that goes on would make its file
+        time.sleep(0.3)  # in which an encoder that continues would make its file
         self.assertEqual(self.left(), [])
 
     def test_a_name_with_a_number_sign_stays(self):
@@ -351,6 +430,20 @@ class Videos(Case):
             self.assertIn(f"cannot write {self.video}: ffmpeg ended with status 1: one line; No space left on device", result.stderr)
             self.assertEqual((self.left(), self.video.read_text()), (["turn.mp4"], "an older one"))
         self.assertNotIn("are in", result.stderr)
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "there is no ffmpeg")
+    def test_a_full_disk_keeps_what_was_encoded(self):
+        """Where players show a file that is cut off. ulimit -f stands for the disk."""
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (60000, 60000))
+        gif = self.folder / "turn.gif"
+        words = ["render", SCENES / "plastics.gltf", "-o", gif, "--resolution", "160,120", "--turntable", "60", "--spp", "1", "--stage", "phong", "--quiet"]
+        result = run(*words, preexec_fn=limit)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn(f"cannot write {gif}: ffmpeg ended with ", result.stderr)
+        self.assertIn(f"what was encoded before that is in {self.folder}/turn.partial.gif", result.stderr)
+        self.assertEqual(self.left(), ["turn.partial.gif"])
+        frames = subprocess.run(["ffmpeg", "-loglevel", "fatal", "-i", self.folder / "turn.partial.gif", "-f", "framecrc", "-"], capture_output=True).stdout
+        self.assertGreater(frames.count(b"\n0,"), 1)
 
     def test_without_ffmpeg_a_message_names_it(self):
         self.fails(2, "render", PLANE, "-o", self.video, *TURN, env={**os.environ, "PATH": str(self.folder)},
@@ -393,6 +486,28 @@ class Videos(Case):
             shifts = [abs(sum(second[c::3]) - sum(expected[c::3])) / len(expected[c::3]) for c in range(3)]
             self.assertLess(mean, most_mean, kind)
             self.assertLess(max(shifts), most_shift, kind)
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "there is no ffmpeg")
+    def test_joined_pictures_have_the_colours_of_a_film(self):
+        """The command of docs/video.md, whose matrix and tags ffmpeg would not choose by itself."""
+        flat = ["--resolution", "64,48", "--background-color", "#ff8020", "--camera-position", "0,0,1e6", "--camera-focal-point", "0,0,2e6", "--spp", 1,
+                "--turntable", 2, "--quiet"]
+        self.renders(PLANE, "-o", self.video, *flat)
+        (self.folder / "frames").mkdir()
+        self.renders(PLANE, "-o", self.folder / "frames/turn.####.png", *flat)
+        text = (SCENES.parent / "docs/video.md").read_text()
+        command = text[text.index("ffmpeg -framerate 24 -i frames"):].split(".mp4")[0].replace("\\\n", " ")
+        joined = self.folder / "joined.mp4"
+        subprocess.run([*command.split()[:-1], "-loglevel", "error", joined], cwd=self.folder, check=True)
+        read = lambda path: subprocess.run(["ffmpeg", "-loglevel", "error", "-i", path, "-vf", "scale=flags=accurate_rnd+full_chroma_int", "-frames:v", "1",
+                                            "-pix_fmt", "rgb24", "-f", "rawvideo", "-"], capture_output=True, check=True).stdout
+        own, other = read(self.video), read(joined)
+        self.assertEqual(len(own), 64 * 48 * 3)
+        self.assertLessEqual(max(abs(a - b) for a, b in zip(own, other)), 2)
+        self.assertLess(max(abs(a - b) for a, b in zip(own[:3], (255, 128, 32))), 6)
+        tags = ["ffprobe", "-v", "error", "-select_streams", "v", "-show_entries", "stream=color_space,color_transfer,color_primaries", "-of", "json"]
+        told = [json.loads(subprocess.run([*tags, path], capture_output=True, check=True).stdout)["streams"] for path in (self.video, joined)]
+        self.assertEqual(*told)
 
 
 # Animated files at one moment against files in which that pose stands.

@@ -116,7 +116,7 @@ class KnownLight(Case):
         self.near(self.mean([], [], "--hdri-file", SCENES / "sky.pfm", spp=64), self.sky(), 5e-4)
 
     def test_the_intensity_of_a_sky(self):
-        """Beside a lamp that light samples are shared with, by the power that the factor leaves."""
+        """Next to a lamp that light samples are shared with, by the power that the factor leaves."""
         sky = ["--hdri-file", SCENES / "sky.pfm", "--hdri-intensity"]
         self.near(self.mean([], [], *sky, "3", spp=64), 3 * self.sky(), 5e-4)
         place, half, radiance = (0.2, -0.3, 0.8), 0.15, 4

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""made_files.py FOLDER: writes small files, one a feature (NAME.gltf is valid) and one an error, each with its expectation beside it
+"""made_files.py FOLDER: writes small files, one a feature (NAME.gltf is valid) and one an error, each with its expectation next to it
 (NAME.expected.json): whether the Khronos validator calls it valid, the exit status of `fragtrace info` and what it says on stderr."""
 import base64
 import copy

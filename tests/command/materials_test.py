@@ -130,7 +130,7 @@ class Materials(Case):
         gltf = quad({"pbrMetallicRoughness": {"metallicFactor": 0}}) | {}
         gltf["materials"].append(lamp)
         gltf["meshes"].append({"primitives": [dict(gltf["meshes"][0]["primitives"][0], material=1)]})
-        # The second quad stands beside the first one, upright, and faces it at a grazing angle.
+        # The second quad stands next to the first one, upright, and faces it at a grazing angle.
         gltf["nodes"].append({"mesh": 1, "translation": [-1, 0, 1], "rotation": [0, 0.70710678, 0, 0.70710678]})
         gltf["scenes"][0]["nodes"].append(2)
         means = []

@@ -226,7 +226,7 @@ class Media(Case):
             self.assertIn(reason, done.stderr)
 
 
-# Beside the program, or in the build folder where a copy of it is tried.
+# Next to the program, or in the build folder where a copy of it is tried.
 MAKE_GRID = next((path for path in (FRAGTRACE.parent / "make_grid", SCENES.parent / "build/make_grid") if path.exists()), Path("/nowhere"))
 
 

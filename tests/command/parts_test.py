@@ -484,7 +484,7 @@ class Checkpoints(Broken):
         self.assertEqual(partly.texts["fragtrace:interrupted"], "1")
         self.assertTrue(self.checkpoint.exists())
         self.fails(2, *self.arguments("--resume", *CHECKPOINT_SIZE, "--spp", 160, "--aov", "denoising"),
-                   says=["cannot go on to more samples (spp 80 and 160): what --denoise reads was kept at a quarter"])
+                   says=["cannot continue to more samples (spp 80 and 160): what --denoise reads was kept at a quarter"])
         self.assertEqual(self.resumed(*options), whole)
         self.assertNotIn("fragtrace:interrupted", Exr(self.output).texts)
 
@@ -530,7 +530,7 @@ class Checkpoints(Broken):
         self.assertGreater(self.output.stat().st_size, 0)
 
     def test_a_part_that_a_killed_render_has_left_is_removed(self):
-        (self.folder / ".x.exr.checkpoint.part").write_bytes(b"half of one")
+        (self.folder / ".x.exr.checkpoint.7-another.part").write_bytes(b"half of one")
         self.resumed("--resolution", "16,16", "--spp", 2, scene=BOX)
 
     def test_other_settings_are_named(self):
@@ -551,7 +551,7 @@ class Checkpoints(Broken):
         self.assertEqual(self.interrupted_after_a_checkpoint(*size, 4000), 130)
         said = run(*[a for a in self.arguments("--resume", *size, 5000, scene=BOX) if a != "--quiet"])
         self.assertEqual(said.returncode, 0, said.stderr)
-        self.assertRegex(said.stderr, r"(?m)^fragtrace: --resume: goes on after [\d.]+ of 5000 samples per pixel$")
+        self.assertRegex(said.stderr, r"(?m)^fragtrace: --resume: continues after [\d.]+ of 5000 samples per pixel$")
         self.assertEqual(self.output.read_bytes(), whole)
 
     def test_broken_checkpoints_are_refused(self):
@@ -579,7 +579,7 @@ class Checkpoints(Broken):
         self.checkpoint.mkdir()
         said = process.communicate(timeout=60)[1]
         self.assertTrue(self.output.exists(), said)
-        self.assertEqual(said.count("the render goes on"), 1, said)
+        self.assertEqual(said.count("the render continues"), 1, said)
 
     def test_a_checkpoint_that_is_not_asked_for_is_said(self):
         self.checkpoint.write_bytes(b"old")

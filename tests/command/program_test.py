@@ -65,6 +65,35 @@ class ProgressJson(Case):
         self.assertEqual([(p["frame"], p["first_frame"], p["last_frame"], p["output"]) for p in pictures],
                          [(i, 0, 2, str(self.folder / f"t.{i}.pfm")) for i in range(3)])
 
+    def test_a_sequence_tells_the_progress_of_all(self):
+        """The fraction and the time left of all its pictures; with --continue, of those that are missing."""
+        turn = ["-o", self.folder / "t.#.pfm", "--turntable", 4, "--resolution", "160,120", "--bounces", 1]
+        told = self.told(0, BOX, *turn, "--spp", 64, "--progress", "json")
+        steps = [event for event in told if event["type"] == "progress"]
+        for before, after in zip(steps, steps[1:]):
+            self.assertLessEqual(before["sequence_fraction"], after["sequence_fraction"])
+        for step in steps:
+            self.assertAlmostEqual(step["sequence_fraction"], (step["frame"] + step["fraction"]) / 4)
+        # What is left is what all pictures took so far, in proportion: every step gives one moment of the first one's beginning.
+        begins = [step["seconds"] - step["sequence_seconds_left"] * step["sequence_fraction"] / (1.0 - step["sequence_fraction"])
+                  for step in steps if 0.0 < step["sequence_fraction"] < 1.0]
+        self.assertGreater(len(begins), 4)
+        self.assertLess(max(begins) - min(begins), 0.2 * told[-1]["seconds"])
+        (self.folder / "t.3.pfm").unlink()
+        told = self.told(0, BOX, *turn, "--spp", 64, "--progress", "json", "--continue")
+        for step in (event for event in told if event["type"] == "progress"):
+            self.assertEqual(step["sequence_fraction"], step["fraction"])
+
+    def test_lines_and_bars_are_those_of_the_whole_sequence(self):
+        words = [BOX, "-o", self.folder / "t.#.pfm", "--turntable", 4, "--resolution", "200,150", "--spp", 60]
+        lines = [line for line in run("render", *words).stderr.splitlines() if "left" in line]
+        self.assertGreater(len(lines), 2)
+        for line in lines:
+            self.assertRegex(line, r"^picture [1-4] of 4: \d+ %, \d+:\d\d left$")
+        shares = [int(line.split(": ")[1].split(" ")[0]) for line in lines]
+        self.assertEqual(shares, sorted(set(shares)))
+        self.assertEqual(run("render", *words[:-1], 4, "--progress", "none").stderr.count("left"), 0)
+
     def test_an_interruption_is_told(self):
         with subprocess.Popen([FRAGTRACE, "render", BOX, "-o", self.folder / "x.pfm", "--spp", "100000", "--progress", "json"],
                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:

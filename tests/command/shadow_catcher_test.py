@@ -32,7 +32,7 @@ class CatcherCase(Case):
     ERRORS, BESIDE = 5, 0
 
     def scene(self, name, nodes, materials, lights=()):
-        """Nodes beside those lights; shape 0 is the ball, mesh 0 the quad of quad()."""
+        """Nodes next to those lights; shape 0 is the ball, mesh 0 the quad of quad()."""
         gltf = quad(materials[0])
         gltf["materials"] = materials
         gltf["extensions"] = {"KHR_implicit_shapes": {"shapes": [{"type": "sphere", "sphere": {"radius": RADIUS}}]}}
@@ -130,7 +130,7 @@ class ShadowCatcher(CatcherCase):
         self.assertEqual(tile, self.picture(scene, "c.exr", *small, "--fit", "--fill", 0.6, "--shadow-catcher", "0.3").layers["A"][24:])
 
     def test_the_fade_is_as_wide_as_the_margins(self):
-        """Nothing fades before and behind the ball; beside its foot the shadow ends bit by bit, with round corners. --shadow-fade says it in numbers."""
+        """Nothing fades before and behind the ball; next to its foot the shadow ends bit by bit, with round corners. --shadow-fade says it in numbers."""
         wide = ["--resolution", "96,48", "--spp", 16, "--no-background", "--camera-orbit", "0,30", "--fit", "--fill", 0.8, "--shadow-catcher", "0.3", "--studio"]
         shots = [self.picture(self.ball(), "x.exr", *wide, *more).layers["A"] for more in ([], ["--shadow-fade", 0], ["--shadow-fade", "0.6,0.1"], ["--shadow-fade", "0.1"])]
         left, given, one = ([[a / b if b > 0.001 else None for a, b in zip(*rows)] for rows in zip(shot, shots[1])] for shot in (shots[0], *shots[2:]))

@@ -38,7 +38,7 @@ class Sheets(Case):
         self.assertAlmostEqual(seen, share * light, delta=5 * light * math.sqrt(share * (1 - share) / samples) + 1e-6)
 
     def test_each_sheet_covers_its_alpha_of_what_the_ones_before_leave(self):
-        # So close together that a ray that goes on 2 % of the way behind one misses all.
+        # So close together that a ray that continues 2 % of the way behind one misses all.
         alphas = (0.5, 0.4, 0.6)
         colors = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
         sheets = [(sheet(color, alpha, alphaMode="BLEND"), -0.01 * i, 3) for i, (color, alpha) in enumerate(zip(colors, alphas))]
@@ -72,7 +72,7 @@ class Sheets(Case):
         self.assertEqual(self.stack([(sheet((1, 1, 1)), 0, 3), (sheet(), 3.96, 2), (lamp, 4, 1), (sheet(), 5, 30)], size=16, spp=64), [0, 0, 0])
 
     def test_fog_behind_a_sheet_is_that_before_it_once_more(self):
-        """Beer's law goes on behind a sheet that half of the light passes, and takes no flight twice."""
+        """Beer's law continues behind a sheet that half of the light passes, and takes no flight twice."""
         black = sheet(alpha=0.5, alphaMode="BLEND")
         for seen in self.stack([(black, 0, 3)], *NARROW, "--background-color", "1,1,1", "--fog-density", 0.8, "--fog-color", "0,0,0", "--fog-distance", 1, size=64):
             self.assert_share(seen, 0.5 * math.exp(-0.8 * 2), 64 * 64 * 64)

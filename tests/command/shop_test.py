@@ -255,7 +255,7 @@ class Shop(PageCase):
         places = [(x, y) for y, row in enumerate(self.exr(self.ball(), "--shop", "--spp", 16, "--aov", "object").layers["object.Y"]) for x, value in enumerate(row) if value]
         for axis in (0, 1):
             self.assertAlmostEqual(max(p[axis] for p in places) - min(p[axis] for p in places) + 1, 0.85 * 48, delta=1.5)
-        # The ball casts a shadow beside it.
+        # The ball casts a shadow next to it.
         ball = set(places)
         self.assertLess(min(rows[y][x][1] for y in range(30, 48) for x in range(48) if all((x + i, y + j) not in ball for i in (-1, 0, 1) for j in (-1, 0, 1))), 235)
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The built-in environment, and the backdrop that the camera sees in place of the environment map."""
+"""The built-in environment, and the backdrop that the camera sees instead of the environment map."""
 import json
 import math
 import struct

@@ -153,7 +153,7 @@ class Case(unittest.TestCase):
         self.assertTrue(math.isfinite(sum(values)), f"{what} holds a value that is not finite")
 
     def fails(self, status, *arguments, says=(), **options):
-        """Gives that status, one line on stderr and no picture beside those that were there."""
+        """Gives that status, one line on stderr and no picture besides those that were there."""
         pictures = lambda: {p for p in self.folder.iterdir() if p.suffix in (".png", ".exr", ".pfm", ".part")}
         before = pictures()
         result = run(*arguments, **options)
@@ -188,7 +188,7 @@ class Case(unittest.TestCase):
         self.assertEqual(len(error.splitlines()), 1, error)
         self.assertEqual(set(self.folder.iterdir()), files)
 
-    # Of assert_mean: standard errors, what is off beside them, and the largest of them, as parts of the mean.
+    # Of assert_mean: standard errors, what is off besides them, and the largest of them, as parts of the mean.
     ERRORS, BESIDE, KNOWN = 6, 1e-4, 0.005
 
     def assert_mean(self, seen, wanted, what, beside=None, known=None):

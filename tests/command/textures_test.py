@@ -55,7 +55,7 @@ MATERIALS = [
 
 
 def multiplied(values, _):
-    """Multiplies each texture's texel into the factor beside it, in the objects of a material."""
+    """Multiplies each texture's texel into the factor next to it, in the objects of a material."""
     for key in [key for key in values if key.endswith("Texture")]:
         texel = linear(key, values.pop(key))
         names = {"metallicRoughnessTexture": ["metallicFactor", "roughnessFactor"],

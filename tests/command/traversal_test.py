@@ -116,7 +116,7 @@ MORE_PICTURES = {
 }
 
 
-# The ways to draw, and what only some scenes and stages have: passes beside the picture, stages before gi, suspended paths, the catcher.
+# The ways to draw, and what only some scenes and stages have: passes next to the picture, stages before gi, suspended paths, the catcher.
 ENTRIES = (["--dispatch", "fragment"], ["--dispatch", "compute", "--schedule", "megakernel"], ["--schedule", "wavefront"])
 TUNED = (("room-ball", []), ("cornell-box", ["--traversal", "literals"]), ("thin-glass", SKY), ("coverage", []), ("lobes", SKY))
 TUNED_BY_FRAGMENTS = (("plastics", ["--stage", "refraction", *SKY]), ("many-lights", ["--light-reuse", "spatial"]), ("caustics", []), ("many-lights", ["--stage", "shadows"]),
@@ -154,7 +154,7 @@ class Schedules(BothSchedules):
             self.same(str(self.folder / "field"), *SKY, "--instancing", "share", "--resolution", "37,40", "--spp", 2, switch, "light-sampling")
 
     def test_what_is_cut_into_many_draws(self):
-        """Columns that end before a lane does, tiles beside each other, and more samples than the steps of a draw take."""
+        """Columns that end before a lane does, tiles next to each other, and more samples than the steps of a draw take."""
         self.same("room-ball", "--resolution", "150,261", "--spp", 1)
         self.same("room-ball", "--resolution", "8,40", "--spp", 200, "--sample-offset", 1000)
 
@@ -165,7 +165,9 @@ class Schedules(BothSchedules):
         """On a software rasteriser, which is what the tests have."""
         for scene, options, chosen in (("room-ball", ["--spp", 1], ("megakernel", "few paths")),
                                        ("room-ball", ["--spp", 65536, "--noise", 0.5], ("wavefront", None)),
-                                       ("many-lights", ["--spp", 65536, "--noise", 0.5], ("megakernel", "a small tree"))):
+                                       ("many-lights", ["--spp", 65536, "--noise", 0.5], ("megakernel", "a small tree")),
+                                       ("city", ["--spp", 65536, "--noise", 0.5], ("megakernel", "lamps are chosen by a tree")),
+                                       ("mesh-15743", ["--spp", 65536, "--noise", 0.5], ("megakernel", "paths end in the surroundings"))):
             stats = self.drawn(scene, "auto", "--resolution", "8,8", *options)[1]
             self.assertEqual((stats["schedule"], stats.get("schedule_reason")), chosen, scene)
 

@@ -120,7 +120,7 @@ class Work(Case):
 
 class WorkOfSchedules(Case):
     def test_both_schedules_do_the_same_work(self):
-        """Except that the wavefront takes each ray's first step beside its round, and its lanes that wait read rows of nodes."""
+        """Except that the wavefront takes each ray's first step next to its round, and its lanes that wait read rows of nodes."""
         for name in filter(known, IN_WAVES):
             for tune in ("software", "gpu") if EXTENDED else ("software",):
                 waves = counted(self.folder, name, "--schedule", "wavefront", "--tune", tune)

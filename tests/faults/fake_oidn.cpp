@@ -38,7 +38,7 @@ void fail(Device* device, int error, const char* message) {
   device->message = message;
 }
 
-/// Goes on until it is stopped, or gives up.
+/// Continues until it is stopped, or gives up.
 void runUntilStopped(Filter* filter) {
   std::raise(SIGINT);
   if (isTold("interrupted-twice")) std::raise(SIGTERM);

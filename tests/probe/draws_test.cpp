@@ -131,7 +131,7 @@ TEST_P(Draws, TwoInFlight) {
       renderer_->setDrawTime(ms);
       EXPECT_EQ(bitsOf(atOnce()), expected) << resumable << ms;
     }
-    // Stopped after a draw, it goes on where it was.
+    // Stopped after a draw, it continues where it was.
     EXPECT_EQ(
         bitsOf(drawn([&](Film& film) {
           EXPECT_FALSE(renderer_->addSamples(film, view_, 0, kSamples, times_, [](double) { return false; }));
@@ -143,7 +143,7 @@ TEST_P(Draws, TwoInFlight) {
 
 TEST_P(Draws, PixelsWithTargetsOfTheirOwn) {
   const FilmPixels expected = atOnce();
-  // Three samples everywhere, then a third of the pixels goes on to 7, then all to the end.
+  // Three samples everywhere, then a third of the pixels continues to 7, then all to the end.
   const FilmPixels film = drawn([&](Film& f) {
     add(f, 0, 3);
     std::vector<uint32_t> targets(size_t(size_.x) * size_t(size_.y));
@@ -289,7 +289,7 @@ TEST_P(Draws, PathsThatAreSuspendedInAnInstance) {
   EXPECT_EQ(bitsOf(drawn([&](Film& film) { add(film, 0, kMany); })), bitsOf(expected));
 }
 
-/// Paths that are longer than a draw go on in the next one.
+/// Paths that are longer than a draw continue in the next one.
 TEST_P(Draws, PathsThatAreSuspended) {
   RenderOptions options;
   options.stages = stagesUpTo(Stage::Flat);

@@ -121,7 +121,7 @@ TEST_P(Places, AMillimetreInTenKilometres) {
   EXPECT_LE(countOther(expected.depth, drawing.depth, 1.0, 1e-3), 2u);
 }
 
-/// A lamp a million times as bright beside walls that it lights: neither it nor they lose anything.
+/// A lamp a million times as bright next to walls that it lights: neither it nor they lose anything.
 TEST_P(Places, BrightnessIsNoMatter) {
   SceneSketch sketch = randomSketch(0);
   const Drawn expected = draw(sketch, 16);

@@ -213,7 +213,7 @@ TEST_P(Probe, TrianglesAreHitAlikeAndWithinSixteenUlps) {
 }
 
 TEST_P(Probe, NoRayPassesASharedEdge) {
-  // Seen edge-on, as near as directions come: one fused product in place of two rounded ones opens gaps here.
+  // Seen edge-on, as near as directions come: one fused product instead of two rounded ones opens gaps here.
   Table given(18);
   Draw draw(7);
   constexpr int kCases = 200000;

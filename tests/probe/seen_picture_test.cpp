@@ -147,7 +147,7 @@ TEST_P(Reprojection, EachTypeOfCameraFindsTheSamePoints) {
       before.position = {0.0, 0.0, kDistance};
       const Seen now = seen(camera, kLight, 4, 0.25);
       const Image whole = joined(now, seen(before, kLight, 1e6, 0.0), 1e6);
-      // The middle is where all see the wall in pixels that are fine beside a stripe.
+      // The middle is where all see the wall in pixels that are fine next to a stripe.
       for (int x = 29; x < 36; ++x) {
         EXPECT_NEAR(valueOf(whole, "R", x, 32) / valueOf(now.layers, "R", x, 32), 1.0, 4e-3)
             << int(type) << shifted << x;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Triangles that meet in creases, made of genes, and rays that leave one of them beside a crease.
+// Triangles that meet in creases, made of genes, and rays that leave one of them next to a crease.
 #pragma once
 
 #include <optional>
@@ -113,7 +113,7 @@ inline bool isPromised(const Fold& fold) {
          });
 }
 
-/// A point beside a crease of the first face, near the edge from vertex 0 to 1, or near vertex 0.
+/// A point next to a crease of the first face, near the edge from vertex 0 to 1, or near vertex 0.
 inline dvec3 besideCrease(const std::array<vec3, 3>& v, Genes& g) {
   const double near = std::min(0.5, g.scale(0x1p-6, 64.0) * hitPointError(v) / leastAltitude(v));
   const double along = g.take();
@@ -149,7 +149,7 @@ inline std::optional<dvec3> startOn(const Fold& fold, const vec3& origin, const 
 }
 
 /// Returns true if the face lies behind a ray in floats that meets it well within its sides in double
-/// precision. A ray that runs past the face in floats meets one beside it.
+/// precision. A ray that runs past the face in floats meets one next to it.
 inline bool isBehind(const std::array<vec3, 3>& v, const vec3& origin, const vec3& direction) {
   const dvec3 normal = normalOf(v);
   const dvec3 d(direction);

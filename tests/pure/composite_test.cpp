@@ -49,6 +49,15 @@ TEST(Composite, TheDifferenceIsOfRadianceWhateverTheExposure) {
   EXPECT_EQ(texel(apart, 0, 0)[2], 0.0f);
 }
 
+TEST(Composite, RadianceAndColoursOfADisplayDifferAsTheyAreShown) {
+  const std::array<ComposedSide, 2> sides{ComposedSide{filled(2, 2, {0.25f, 0.0f, 2.0f})},
+                                          ComposedSide{filled(2, 2, {0.5f, 1.0f, 1.0f}), true}};
+  const Image apart =
+      composite(sides, {2, 2},
+                {.difference = true, .differenceStops = -1.0, .exposure = 1.0, .toneMap = ToneMap::Linear});
+  EXPECT_EQ(texel(apart, 0, 0), (std::vector<float>{0.0f, 0.5f, 0.0f}));
+}
+
 TEST(Composite, DebugColoursStayAndCoverageIsKept) {
   const std::array<ComposedSide, 2> sides{ComposedSide{filled(2, 1, {0.5f, 0.5f, 0.5f}), true},
                                           ComposedSide{filled(2, 1, {0.25f, 0.0f, 0.0f, 0.5f})}};

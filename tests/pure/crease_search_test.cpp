@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A search for rays that leave a triangle beside a crease and are not in front of its neighbours: pairs that
+// A search for rays that leave a triangle next to a crease and are not in front of its neighbours: pairs that
 // share an edge, and pointed cones, whose faces share a vertex, of any angle, shape, place and size that
 // docs/design/ray-origins.md promises. It is steered towards the least height over a neighbour's plane.
 #include <gtest/gtest.h>

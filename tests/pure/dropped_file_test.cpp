@@ -45,8 +45,8 @@ TEST(Drop, OfTheSelectionTheUpAxisOfTheStartStays) {
 }
 
 TEST(Drop, APictureOfLinearRadianceMayBeAReference) {
-  for (const char* name : {"a.exr", "b.PFM"}) EXPECT_TRUE(mayBeReference(name)) << name;
-  for (const char* name : {"a.hdr", "b.png", "c.glb", "exr"}) EXPECT_FALSE(mayBeReference(name)) << name;
+  for (const char* name : {"a.exr", "b.PFM", "c.png", "d.jpg"}) EXPECT_TRUE(mayBeReference(name)) << name;
+  for (const char* name : {"a.hdr", "c.glb", "exr"}) EXPECT_FALSE(mayBeReference(name)) << name;
 }
 
 TEST(Drop, WhatIsNotTakenIsSaid) {

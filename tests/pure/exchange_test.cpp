@@ -31,7 +31,7 @@ TEST(Exchange, OnlyTheLatestRequestOfAKindCounts) {
   ASSERT_TRUE(requests.trace && requests.load);
   EXPECT_EQ(requests.trace->number, 2u);
   EXPECT_EQ(requests.trace->size, glm::ivec2(20, 10));
-  EXPECT_FALSE(requests.load->options) << "the load is cancelled";
+  EXPECT_FALSE(*requests.load) << "the load is cancelled";
   EXPECT_FALSE(exchange.interrupted());
   EXPECT_FALSE(exchange.wait(0.0).trace);
 }
@@ -150,7 +150,7 @@ TEST(Exchange, NothingIsLostBetweenTwoThreads) {
   EXPECT_EQ(exchange.wait(0.0).trace->number, asked);
 }
 
-/// Else the window would show an old picture beside a new one.
+/// Else the window would show an old picture next to a new one.
 TEST(Exchange, PicturesThatAreShownTogetherGiveWayTogether) {
   for (const bool together : {false, true}) {
     Exchange exchange;

@@ -22,7 +22,6 @@ inline bool kTriangles = true;
 inline bool kSpheres = true;
 inline bool kCulling = true;
 inline bool kCountVisits = true;
-inline bool kCountWork = false;
 inline bool kIterative = false;
 inline bool kFrontToBack = true;
 inline bool kSpecular = true;

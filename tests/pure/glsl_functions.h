@@ -42,7 +42,14 @@ inline void umulExtended(uint a, uint b, uint& high, uint& low) {
   low = uint(product);
 }
 
-inline void countWork(int, uint) {}
+// Functions of shaders/work/none.glsl.
+inline void countNodeSteps(uint) {}
+inline void countBoxesTested(uint) {}
+inline void countPrimitivesTested(uint) {}
+inline void countSurfacesPassed(uint) {}
+inline void countBsdfEvaluations(uint) {}
+inline void countVolumeWalks(uint) {}
+inline void countVolumeSteps(uint) {}
 
 inline uvec4 readNodes(int index) { return glsl_variant::rowOf(glsl_variant::nodes, index); }
 inline uvec4 readLeaves(int index) { return glsl_variant::rowOf(glsl_variant::leaves, index); }

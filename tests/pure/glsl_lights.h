@@ -8,7 +8,6 @@
 namespace fragtrace::glsl_variant {
 
 inline bool kGi = true;
-inline bool kPhong = true;
 inline bool kEnvironment = true;
 inline bool kEnvironmentSampling = true;
 inline bool kSun = false;
@@ -20,6 +19,7 @@ inline bool kCandidates = false;
 inline bool kStoresReservoirs = false;
 inline bool kNeighbours = false;
 inline bool kTexcoords = false;
+inline bool kLampTextures = false;
 inline bool kAlpha = false;
 inline bool kVertexColors = false;
 inline bool kRayCones = false;

@@ -23,7 +23,6 @@ inline vec3 emissionAt(uint material, vec4 /*texcoords*/) {
   return vec3(materialFloats(material, kMaterialEmission));
 }
 inline vec2 coveredAreas;
-inline bool readsSlot(uint /*slot*/) { return false; }
 inline uint materialFlags(uint /*material*/) { return 0u; }
 inline vec4 readColorAt(int /*i*/) { return vec4(1.0f); }
 inline vec4 baseColorAt(uint /*material*/, vec4 /*texcoords*/, vec4 color) { return color; }

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "gltf/build/animation.h"
+#include "gltf/assemble/animation.h"
 #include "gltf_builder.h"
 #include "image_samples.h"
 

@@ -110,7 +110,7 @@ TEST(GltfFiles, NamesFromWindowsAreExplained) {
 TEST(GltfFiles, MissingFileIsRefusedInOneLine) {
   const TemporaryFolder folder;
   EXPECT_EQ(refusalOf(folder.path() / "none.gltf"), "none.gltf: cannot be opened: No such file or directory");
-  EXPECT_EQ(refusalOf(folder.path() / "."), ".: is a directory");
+  EXPECT_EQ(refusalOf(folder.path() / "."), ".: is a folder, not a file");
 }
 
 TEST(GltfFiles, MissingBufferIsRefusedByName) {

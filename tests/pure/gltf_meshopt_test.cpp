@@ -7,7 +7,7 @@
 namespace fragtrace::gltf_test {
 namespace {
 
-/// The same document with the ratified extension in place of its predecessor.
+/// The same document with the ratified extension instead of its predecessor.
 GltfBuilder khrGrid(const Grid& grid) {
   GltfBuilder builder = meshoptGrid(grid);
   std::string text = builder.root.dump();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Numbers in place of the file's: as they are loaded, set in a scene that is there, and written.
+// Numbers instead of the file's: as they are loaded, set in a scene that is there, and written.
 #include <gtest/gtest.h>
 
-#include "gltf/build/numbers.h"
+#include "gltf/assemble/numbers.h"
 #include "gltf/edit/changed_file.h"
 #include "gltf/edit/factors.h"
 #include "gltf_builder.h"

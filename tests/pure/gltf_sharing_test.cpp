@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests which meshes the scene holds once, and that they stand where their copies would.
-#include "gltf/build/meshes.h"
+#include "gltf/assemble/meshes.h"
 
 #include <cmath>
 
@@ -137,7 +137,7 @@ TEST(GltfSharing, WhatShinesOrIsScaledTooUnevenlyOrStandsThereOnceIsCopied) {
   EXPECT_EQ(flatTriangleCount(scene), 2u);
   EXPECT_EQ(scene.triangles.size(), 3u);
   EXPECT_TRUE(anyWarningHas(scene,
-                            "not all is shared: --instancing share: 0 MB in place of 0 MB; always copied: "
+                            "not all is shared: --instancing share: 0 MB instead of 0 MB; always copied: "
                             "unevenly scaled instances (2)"));
   EXPECT_TRUE(load(uneven).warnings.empty());
 

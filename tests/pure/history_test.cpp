@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/history.h"
+#include "view/view_state.h"
 
 #include <gtest/gtest.h>
 

@@ -202,7 +202,7 @@ TEST_F(ImageRead, MissingFileAndFolderAreErrorsWithPathAndReason) {
       FAIL() << path;
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos);
-      EXPECT_NE(std::string(error.what()).find(path == folder ? "directory" : "No such file"),
+      EXPECT_NE(std::string(error.what()).find(path == folder ? "folder" : "No such file"),
                 std::string::npos);
     }
   }

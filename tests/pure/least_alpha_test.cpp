@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Alpha that hides nothing (src/gltf/build/textures.h).
-#include "gltf/build/textures.h"
+// Alpha that hides nothing (src/gltf/assemble/textures.h).
+#include "gltf/assemble/textures.h"
 
 #include <string>
 

@@ -202,7 +202,7 @@ std::set<uint32_t> lightsWithin(const glsl_float::Receiver& to) {
 TEST(LightTree, ASpotIsChosenWhereverItShines) {
   Scene scene = octantScene();
   Draw draw(659);
-  // Groups of spots that look the same way, so that nodes keep a narrow cone and are seen from beside it.
+  // Groups of spots that look the same way, so that nodes keep a narrow cone and are seen from the side.
   for (int i = 0; i < 48; ++i) {
     Light spot;
     spot.type = LightType::Spot;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A search for rays that arrive beside a crease and graze the face that they leave, which
+// A search for rays that arrive next to a crease and graze the face that they leave, which
 // docs/design/ray-origins.md leaves open: how far behind a neighbour they begin. The point within the plane
 // is off by roundings of the ray's length over the cosine between ray and normal.
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ struct Graze {
   vec3 direction;
 };
 
-/// A ray that arrives beside a crease of the first face with a cosine between these, from in front of all
+/// A ray that arrives next to a crease of the first face with a cosine between these, from in front of all
 /// faces.
 std::optional<Graze> grazingRay(const Fold& fold, Genes& g, double least, double most) {
   const std::array<vec3, 3>& v = fold.faces[0];

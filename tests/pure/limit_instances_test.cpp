@@ -34,7 +34,7 @@ struct Shown {
 };
 
 /// Meshes are copied where the Frobenius norms of both matrices have a larger product (isWellConditioned of
-/// gltf/build/meshes.cpp).
+/// gltf/assemble/meshes.cpp).
 bool isShared(const dmat3& m) {
   const auto frobenius = [](const dmat3& a) {
     return std::sqrt(glm::dot(a[0], a[0]) + glm::dot(a[1], a[1]) + glm::dot(a[2], a[2]));
@@ -154,7 +154,7 @@ double clearanceOf(const Corners& v, const dvec3& origin, const dvec3& direction
 struct LeavingTrial {
   double clearance = kImpossible;  ///< units of eps m
   double behind = kImpossible;     ///< how far behind the ray the next test finds it, the same
-  double share = kImpossible;      ///< what is left of the offset beside the promised clearance
+  double share = kImpossible;      ///< what is left of the offset besides the promised clearance
   bool isHit = false;              ///< the next test finds it before the ray
 };
 

@@ -45,6 +45,9 @@ TEST(LiveText, BranchesThatConstantsSettle) {
   EXPECT_EQ(mainOf("if (x) { b(); } else if (kOff) a();"), "if (x) { b(); } else;");
   EXPECT_EQ(mainOf("for (;;) if (kOff) a();"), "for (;;);");
   EXPECT_EQ(mainOf("while (kOff && x) { a(); }"), "");
+  EXPECT_EQ(mainOf("if (x) { if (kOn) return; a(); } b();"), "if (x) { return; } b();");
+  EXPECT_EQ(mainOf("if (x) if (kOn) return; a();"), "if (x) return; a();");
+  EXPECT_EQ(mainOf("if (x) a(); else if (kOn) return; b();"), "if (x) a(); else return; b();");
   EXPECT_EQ(mainOf("while (kOn) { a(); }"), "while (kOn) { a(); }");
 }
 
@@ -54,18 +57,6 @@ TEST(LiveText, ConditionsOfSeveralParts) {
   EXPECT_EQ(mainOf("if (kOff || (kSize > 8 && kOn)) a();"), "");
   EXPECT_EQ(mainOf("if (kSize == 8 && !(kOff || false)) a();"), "a();");
   EXPECT_EQ(mainOf("if (x && kOn) a();"), "if (x && kOn) a();");
-}
-
-TEST(LiveText, SlotsOfTexturesAreBitsOfAConstant) {
-  const auto reads = [](const std::string& condition) {
-    return live(
-        "const int kTextureSlots = 4; const uint kSlotA = 2u; const uint kSlotB = 1u; void main() { if (" +
-        condition + ") a(); }");
-  };
-  EXPECT_TRUE(reads("readsSlot(kSlotA)").ends_with("{ a(); }"));
-  EXPECT_TRUE(reads("readsSlot(kSlotB)").ends_with("{ }"));
-  EXPECT_TRUE(reads("x && (readsSlot(kSlotB) || readsSlot(0u))").ends_with("{ }"));
-  EXPECT_TRUE(reads("readsSlot(slot)").ends_with("if (readsSlot(slot)) a(); }"));
 }
 
 TEST(LiveText, WhatMayActInAConditionStays) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/message_list.h"
+#include "view/shown_text.h"
 
 #include <gtest/gtest.h>
 

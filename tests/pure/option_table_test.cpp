@@ -52,6 +52,10 @@ Words companionsOf(const std::string& name) {
                                                    {"--volume-color", {"--volume=cloud.nvdb"}},
                                                    {"--volume-anisotropy", {"--volume=cloud.nvdb"}},
                                                    {"--volume-emission", {"--volume=cloud.nvdb"}},
+                                                   {"--ocio-config", {"--ocio-view=AgX"}},
+                                                   {"--ocio-display", {"--ocio-view=AgX"}},
+                                                   {"--ocio-look", {"--ocio-view=AgX"}},
+                                                   {"--ocio-input", {"--ocio-view=AgX"}},
                                                    {"--format", {"--output=-"}},
                                                    {"--sample-offset", {"--spp=1"}}};
   const auto found = needed.find(name);
@@ -89,8 +93,8 @@ void forEachUse(const Law& law) {
   }
 }
 
-/// The options beside it. A format is refused without standard output, and the reverse; so are a time and its
-/// place.
+/// The options next to it. A format is refused without standard output, and the reverse; so are a time and
+/// its place.
 RenderOptions withoutOption(const std::string_view name) {
   const bool pair = name == "--format" || name == "--sun-time" || name == "--sun-place";
   return parsed(pair ? Words{"a.gltf"} : companionsOf(std::string(name)));
@@ -190,32 +194,13 @@ TEST(OptionTable, TheViewersCommandSaysEachRowThatItIsToSay) {
 
 TEST(OptionTable, GoesRoundAsAWhole) {
   // Other rows exclude these.
-  const Words left{"--camera",
-                   "--camera-orbit",
-                   "--camera-view-angle",
-                   "--frames",
-                   "--hdri-file",
-                   "--format",
-                   "--resume",
-                   "--checkpoint",
-                   "--noise",
-                   "--time",
-                   "--quality",
-                   "--caustics",
-                   "--camera-type",
-                   "--shadow-catcher",
-                   "--light-reuse",
-                   "--stage",
-                   "--disable",
-                   "--sample-offset",
-                   "--no-default-light",
-                   "--tree-level",
-                   "--background-blur",
-                   "--studio",
-                   "--studio-look",
-                   "--turn",
-                   "--sun-elevation",
-                   "--sun-azimuth"};
+  const Words left{"--camera",     "--focal-length",    "--camera-orbit",   "--camera-view-angle",
+                   "--frames",     "--hdri-file",       "--format",         "--resume",
+                   "--checkpoint", "--noise",           "--time",           "--quality",
+                   "--caustics",   "--camera-type",     "--shadow-catcher", "--light-reuse",
+                   "--stage",      "--disable",         "--sample-offset",  "--no-default-light",
+                   "--tree-level", "--background-blur", "--studio",         "--studio-look",
+                   "--turn",       "--sun-elevation",   "--sun-azimuth"};
   Words words{"a.gltf"};
   for (const OptionRow& row : optionRows()) {
     if (isOption(row) && std::ranges::find(left, row.name) == left.end()) words.push_back(uses(row).back());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/remembered.h"
+#include "view/files.h"
 
 #include <gtest/gtest.h>
 

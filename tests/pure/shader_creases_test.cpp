@@ -154,7 +154,7 @@ TEST(ShaderCreases, NoRayStartsOutsideOfASpike) {
 TEST(ShaderCreases, SmoothMeshesCardsAndSpheresAskForNothing) {
   Draw draw(41);
   const Place p = drawPlace(draw);
-  // A right angle asks: a point beside the edge is no higher over the other face than it is away from it.
+  // A right angle asks: a point next to the edge is no higher over the other face than it is away from it.
   EXPECT_FALSE(creaseInsets(wedge(p, glm::radians(90.0), false)).empty());
   EXPECT_FALSE(creaseInsets(wedge(p, glm::radians(100.0), false)).empty());
   EXPECT_FALSE(creaseInsets(wedge(p, glm::radians(133.0), false)).empty());

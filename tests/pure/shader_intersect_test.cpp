@@ -272,7 +272,7 @@ std::optional<vec3> hitPoint(Draw& draw, const std::array<vec3, 3>& v, const glm
   return glsl_float::pointOnPlane(origin, direction, t, vec3(plane), plane.w);
 }
 
-/// Small beside their distance from the ray, all edge functions are rounding: the worst case of `bench stress
+/// Small for their distance from the ray, all edge functions are rounding: the worst case of `bench stress
 /// --rows huge-and-tiny`, and rays in the planes of small triangles.
 TEST(ShaderTriangle, SmallTrianglesAreNotHitFromFarBeside) {
   EXPECT_FALSE(testInFloat(vec3(1.48330891f, -0.767524838f, -2.81794262f),
@@ -286,7 +286,7 @@ TEST(ShaderTriangle, SmallTrianglesAreNotHitFromFarBeside) {
     const vec3 middle(draw.inCube(1.0));
     const dvec3 a = 1e-6 * draw.direction();
     const dvec3 b = 1e-6 * draw.direction();
-    // The ray runs along the triangle's plane and passes beside it, by about half of its distance.
+    // The ray runs along the triangle's plane and passes next to it, by about half of its distance.
     const vec3 direction(glm::normalize(a + 0.3 * b));
     const vec3 origin = middle + vec3(1e6 * (0.5 * a + double(draw.unit()) * b)) - 2.0f * direction;
     const vec3 v1 = middle + vec3(a);

@@ -47,8 +47,8 @@ bool lampFinds(const std::string& vertices) {
          isRough(vertices[0]);  // lightPathAt() decides in the same way where a path may be seen
 }
 
-/// The same by the definition: E D, then anything, beside the lamp a run of casters and thin walls that
-/// begins behind a rough surface and holds a caster. A glossy one can only be the caster beside the lamp.
+/// The same by the definition: E D, then anything, next to the lamp a run of casters and thin walls that
+/// begins behind a rough surface and holds a caster. A glossy one can only be the caster next to the lamp.
 bool isCaustic(const std::string& vertices) {
   const size_t last = vertices.find_last_not_of('T');
   if (last == std::string::npos || last == 0 || !vertexOf(vertices[last]).caster) return false;

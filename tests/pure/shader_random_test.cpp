@@ -108,7 +108,7 @@ TEST(ShaderRandom, NeighbouringPixelsSamplesAndSeedsAreNotCorrelated) {
 }
 
 TEST(ShaderRandom, DiagonalPixelsAndSamplesHaveKeysOfTheirOwn) {
-  // A sum of the coordinates in place of a hash would join these.
+  // A sum of the coordinates instead of a hash would join these.
   std::unordered_set<uint32_t> keys;
   constexpr int kSide = 64;
   for (int x = 0; x < kSide; ++x) {

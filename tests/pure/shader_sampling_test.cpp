@@ -160,13 +160,18 @@ TEST(ShaderSampling, TriangleIsUniformByArea) {
 TEST(ShaderSampling, MisWeightsOfTwoStrategiesAddUpToOne) {
   for (double a : {1e-6, 0.3, 1.0, 40.0, 1e6}) {
     for (double b : {1e-6, 0.2, 1.0, 1e5}) {
-      EXPECT_NEAR(glsl_double::misWeight(a, b) + glsl_double::misWeight(b, a), 1.0, 1e-14);
-      EXPECT_NEAR(glsl_double::misWeight(a, b), a * a / (a * a + b * b), 1e-14);
+      EXPECT_NEAR(glsl_double::misWeight(a, b, false), a * a / (a * a + b * b), 1e-14);
+      EXPECT_NEAR(glsl_double::misWeight(a, b, true), a / (a + b), 1e-14);
+      for (const bool environment : {false, true}) {
+        const double both =
+            glsl_double::misWeight(a, b, environment) + glsl_double::misWeight(b, a, environment);
+        EXPECT_NEAR(both, 1.0, 1e-14);
+      }
     }
-    EXPECT_EQ(glsl_double::misWeight(a, 0.0), 1.0);
-    EXPECT_EQ(glsl_double::misWeight(0.0, a), 0.0);
+    EXPECT_EQ(glsl_double::misWeight(a, 0.0, false), 1.0);
+    EXPECT_EQ(glsl_double::misWeight(0.0, a, false), 1.0);  // a delta lobe
   }
-  EXPECT_EQ(glsl_float::misWeight(1e-20f, 1e20f), 0.0f);  // the squared ratio overflows
+  EXPECT_EQ(glsl_float::misWeight(1e-20f, 1e20f, false), 0.0f);  // the squared ratio overflows
 }
 
 TEST(ShaderSampling, LuminanceOfWhiteIsOne) {

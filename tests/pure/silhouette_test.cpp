@@ -12,7 +12,7 @@ namespace fragtrace {
 namespace {
 
 /// Node 2 is a square of 1 x 1 m about (0.5, 0.5, 0), node 5 below it a sphere of radius 1 about (10, 0, 0),
-/// node 3 an instance of a shared triangle; node 7 stands beside them and is empty. All about a place far
+/// node 3 an instance of a shared triangle; node 7 stands next to them and is empty. All about a place far
 /// away.
 struct OutlinedScene {
   glm::dvec3 place{1000.0, 2000.0, -500.0};

@@ -194,7 +194,7 @@ double zenith(const SkyAir& sky, double sunElevation) {
 struct OfMitsuba {
   double turbidity;
   double sun;         // elevation, degrees
-  double aside;       // luminance at an elevation of 2 degrees, 90 degrees beside the sun, by the zenith's
+  double aside;       // luminance at an elevation of 2 degrees, 90 degrees off the sun, by the zenith's
   double behind;      // the same opposite to the sun
   double irradiance;  // irradiance of level ground by the sky, over the zenith's luminance
   double sunlight;    // irradiance of a surface that faces the sun

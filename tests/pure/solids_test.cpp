@@ -162,7 +162,7 @@ TEST(Solids, ARectangleCrossesTheBoundariesThatItMeets) {
     EXPECT_TRUE(crossesSolid(solids, facingZ({0.0, 0.0, z}, 9.0)));  // around it
     EXPECT_TRUE(crossesSolid(solids, facingZ({1.5, 0.0, z})));
     EXPECT_TRUE(crossesSolid(solids, facingZ({2.5, 0.0, z})));
-    EXPECT_FALSE(crossesSolid(solids, facingZ({3.5, 0.0, z})));  // beside it
+    EXPECT_FALSE(crossesSolid(solids, facingZ({3.5, 0.0, z})));  // next to it
     EXPECT_FALSE(crossesSolid(solids, facingZ({0.0, 2.6, z})));
     EXPECT_TRUE(crossesSolid(solids, facingZ({0.0, 2.4, z})));
     EXPECT_FALSE(crossesSolid(solids, facingZ({0.0, 0.0, z + 2.1}, 9.0, 9.0)));  // before it

@@ -112,10 +112,10 @@ TEST(ViewState, AReferenceIsSideB) {
 
 TEST(ViewState, EveryControlChangesTheStateOrIsLeftToTheWindow) {
   const std::set<Command> ofTheWindow{
-      Command::CenterOn,     Command::Inspect,   Command::Measure,    Command::Level,    Command::CopyCommand,
-      Command::PasteCommand, Command::Undo,      Command::Redo,       Command::Reload,   Command::Open,
-      Command::SaveAs,       Command::SaveModel, Command::Screenshot, Command::WriteExr, Command::Fullscreen,
-      Command::Quit,         Command::NextModel};
+      Command::CenterOn,    Command::FocusOn,      Command::Inspect,   Command::Measure,    Command::Level,
+      Command::CopyCommand, Command::PasteCommand, Command::Undo,      Command::Redo,       Command::Reload,
+      Command::Open,        Command::SaveAs,       Command::SaveModel, Command::Screenshot, Command::WriteExr,
+      Command::Fullscreen,  Command::Quit,         Command::NextModel};
   for (const Control& control : controls()) {
     ViewState state = someState();
     press(state, Command::ToggleSplit);

@@ -2,7 +2,6 @@
 // Nodes that the viewer's user hides.
 #include <gtest/gtest.h>
 
-#include "view/history.h"
 #include "view/view_state.h"
 
 namespace fragtrace {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The Python package as it is installed, beside the command. usage: package_test.py FRAGTRACE SOURCE_FOLDER [unittest arguments]"""
+"""The Python package as it is installed, next to the command. usage: package_test.py FRAGTRACE SOURCE_FOLDER [unittest arguments]"""
 import _thread
 import base64
 import io
@@ -39,7 +39,7 @@ class Package(unittest.TestCase):
         self.folder = Path(folder.name)
 
     def command(self, *words):
-        """The picture of the command built beside the tests, all layers."""
+        """The picture of the command built next to the tests, all layers."""
         path = self.folder / "command.exr"
         subprocess.run([FRAGTRACE, "render", *map(str, words), "-o", path, "--quiet"], check=True)
         return fragtrace.read(path)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """The wheel: made by scripts/package, installed into a clean virtual environment, and tried there (package_test.py), notebook included.
 
-usage: wheel_test.py FRAGTRACE SOURCE_FOLDER. Needs the network. Kept beside the program: the environment, made anew for another wheel."""
+usage: wheel_test.py FRAGTRACE SOURCE_FOLDER. Needs the network. Kept next to the program: the environment, made anew for another wheel."""
 import hashlib
 import os
 import subprocess

@@ -254,7 +254,7 @@ class Tracer:
         return result
 
     def meet(self, result, points, outgoing, distance, ray, weight, scatterings, splits):
-        """Adds what the points send back, and returns the rays that go on from them."""
+        """Adds what the points send back, and returns the rays that continue from them."""
         material = points.material
         if not self.phong or material.unlit:
             np.add.at(result, ray, weight * points.color)

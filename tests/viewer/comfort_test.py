@@ -96,7 +96,7 @@ class Panel(Case):
         for name, last in (("Phong", 5), ("Path traced", 6), ("stage reflections", 3), ("stage gi", 6), ("Preview", 1)):
             viewer.click(name)
             status = viewer.rest(lambda s: [n for n in s["sides"][0]["stages"] if n in cumulative] == cumulative[:last + 1], name)
-        # The last one clicked is still under the cursor; what explains it stands beside the panel.
+        # The last one clicked is still under the cursor; what explains it stands next to the panel.
         places = viewer.until(lambda s: "tip" in s["places"], "what it does")["places"]
         self.assertLessEqual(places["tip"][0] + places["tip"][2], places["panel"][0])
         self.assertIn("finished; 1 sample per pixel", status["status"])
@@ -125,7 +125,7 @@ class Panel(Case):
         before = viewer.rest()
         viewer.click("Environment")
         viewer.until(lambda s: s["focus"] == "popup", "the list")
-        # The list has as many thumbnails as there are files beside the scene, and one of the studio.
+        # The list has as many thumbnails as there are files next to the scene, and one of the studio.
         viewer.until(lambda s: s["thumbnails"] >= 1 + len(list(SCENES.glob("*.pfm"))), "pictures of them")
         viewer.click("environment sky.pfm")
         status = viewer.rest(lambda s: s["environment"].endswith("sky.pfm"), "chosen")
@@ -140,6 +140,91 @@ class Panel(Case):
         viewer.xdotool("keyup", "ctrl")
         viewer.keys_at_once("ctrl+a", *"400", "Return")
         viewer.rest(lambda s: s["hdri_rotation"] == 40, "round and round")
+        self.ends_well(viewer, viewer.close())
+
+
+class Defaults(Case):
+    def keeps(self, text):
+        self.file = self.folder / "config/fragtrace/view.json"
+        self.file.parent.mkdir(parents=True, exist_ok=True)
+        self.file.write_text(text)
+
+    def test_the_viewer_begins_with_them_and_render_does_not(self):
+        self.keeps(json.dumps({"tone-map": "agx", "no-panel": True, "studio": True, "enable": "schlick"}))
+        before = self.render("furnace", *FEW, name="before.png").read_bytes()
+        rendered = self.folder / "a.png"
+        subprocess.run([FRAGTRACE, "render", SCENES / "furnace.gltf", "-o", rendered, *FEW, "--quiet", "--default-light", "white"], check=True,
+                       env={**self.screen.environment, "XDG_CONFIG_HOME": str(self.folder / "config")})
+        self.assertEqual(rendered.read_bytes(), before)
+        config = self.folder / "own.json"
+        config.write_text(json.dumps({"tone-map": "aces", "disable": "sobol"}))
+        for options, curve, panel, schlick in (([], "agx", False, True), (["--no-config"], "neutral", True, False), (["--tone-map", "linear"], "linear", False, True),
+                                               (["--config", config], "aces", False, True), (["--sky"], "agx", False, True)):
+            viewer = self.view("furnace", *PANEL, *options)
+            status = viewer.rest()
+            seen = status["tone_map"], status["panel"], "schlick" in status["sides"][0]["stages"]
+            self.assertEqual(seen, (curve, panel, schlick), options)
+            self.assertEqual(viewer.stderr().count("defaults"), 0)
+            self.assertNotIn("--studio", copied_command(self, viewer), options)  # Viewer says who lights the scene
+            self.ends_well(viewer, viewer.close())
+
+    def test_a_file_that_cannot_be_used_is_a_warning(self):
+        for text, says in (("{", "at line 1"), ("[]", "is no JSON object"), ('{"tone-map": "agx", "size": 3}', "view.json: /size: is no option"), ('{"bounces": "x"}', "/bounces"),
+                           ('{"fog-density": 0.1, "shadow-catcher": "bottom"}', "view.json: /fog-density: cannot be combined")):
+            self.keeps(text)
+            viewer = self.view("furnace", *FEW)
+            status = viewer.rest()
+            message = next(m for m in status["messages"] if m.startswith("the viewer's defaults are left out: "))
+            self.assertIn(says, message)
+            self.assertIn("fragtrace: warning: the viewer's defaults are left out", viewer.stderr())
+            self.assertEqual(status["tone_map"], "neutral")
+            self.ends_well(viewer, viewer.close())
+        broken = subprocess.run([FRAGTRACE, "view", SCENES / "furnace.gltf", "--bounces", "x"], capture_output=True, text=True,
+                                env={**self.screen.environment, "XDG_CONFIG_HOME": str(self.folder / "config")})
+        self.assertEqual((broken.returncode, "view.json" in broken.stderr), (2, False))
+
+    def test_what_is_set_is_kept(self):
+        self.keeps(json.dumps({"bounces": 3, "tone-map": "agx"}))
+        viewer = self.view("sphere-phong", "--resolution", "640,920", "--spp", "1", "--stage", "flat", "--default-light", "white")
+        drop(self.screen, viewer.id, SCENES / "sky.pfm")
+        viewer.rest(lambda s: s["environment"].endswith("sky.pfm"), "an environment")
+        viewer.key("t")
+        viewer.rest(lambda s: s["tone_map"] == "neutral", "the next curve")
+        viewer.click("section Camera")  # makes room in the panel
+        viewer.rest(lambda s: "Projection" not in s["places"], "closed")
+        time.sleep(0.5)  # without a bar to scroll by, buttons move
+        viewer.click("Keep as default")
+        viewer.until(lambda s: f"kept as default in {self.file}" in s["messages"], "kept")
+        kept = json.loads(self.file.read_text())
+        self.assertEqual(kept, {"bounces": 3, "denoise": "none", "hdri-file": str(SCENES / "sky.pfm")})
+        self.assertEqual([path.name for path in self.file.parent.iterdir()], ["view.json"])
+        self.file.write_text("{")
+        viewer.click("Keep as default")
+        viewer.until(lambda s: any(m.startswith("not kept: ") and "view.json" in m for m in s["messages"]), "not kept")
+        self.assertEqual(self.file.read_text(), "{")
+        self.ends_well(viewer, viewer.close())
+
+
+class Focus(Case):
+    def test_a_click_focuses_without_moving_the_camera(self):
+        viewer = self.view("sphere-plane", "--resolution", "640,920", "--spp", "1", "--stage", "gi")
+        before = viewer.rest()
+        viewer.at(320, 460)
+        viewer.xdotool("keydown", "ctrl", "click", 1, "keyup", "ctrl")
+        status = viewer.rest(lambda s: any(m.startswith("sharp at ") for m in s["messages"]), "focused")
+        distance = float(next(m for m in status["messages"] if m.startswith("sharp at ")).split()[2])
+        words = shlex.split(status["camera"])
+        self.assertNotIn("--focus-distance", shlex.split(before["camera"]))
+        self.assertAlmostEqual(float(words[words.index("--focus-distance") + 1]), distance, delta=1e-3 * distance)
+        options = dict(zip(words[::2], words[1::2]))
+        for name, value in zip(*[iter(shlex.split(before["camera"]))] * 2):
+            self.assertEqual(options[name], value)
+        viewer.until(lambda s: {"Focus distance", "Focal length"} <= set(s["places"]), "their rows")
+        shown = pixels_of(viewer.press_for_file("F12", ".png"))
+        words = copied_command(self, viewer)
+        words[words.index("--output") + 1] = str(self.folder / "command.png")
+        subprocess.run([FRAGTRACE, *words[1:], "--quiet"], check=True, cwd=self.folder, timeout=300)
+        self.same(shown, pixels_of(self.folder / "command.png"))
         self.ends_well(viewer, viewer.close())
 
 
@@ -207,6 +292,9 @@ class Undo(Case):
         viewer.rest(lambda s: s["environment"].endswith("sky.pfm"), "an environment")
         viewer.key("l")
         viewer.rest(lambda s: s["exposure"] > 0, "brighter")
+        viewer.click("section Camera")  # makes room in the panel
+        viewer.rest(lambda s: "Projection" not in s["places"], "closed")
+        time.sleep(0.5)  # without a bar to scroll by, buttons move
         viewer.click("Reset all")
         status = viewer.rest(lambda s: s["environment"] == "", "the light of the start")
         self.assertEqual(status["exposure"], 0)

@@ -14,7 +14,7 @@ from gltf_file import SQUARE, TWO_TRIANGLES, Gltf
 from xdnd import drop
 
 SMALL = ["--resolution", "160,120", "--spp", "2"]
-WITH_PANEL = ["--resolution", "760,620", "--spp", "1", "--stage", "flat"]
+WITH_PANEL = ["--resolution", "760,670", "--spp", "1", "--stage", "flat"]
 LONG = 30000
 
 

@@ -53,7 +53,7 @@ class Killed(Case):
         return {path.name for path in folder.glob("*." + kind)}
 
     def parts(self, folder):
-        return set(parts_in(os.listdir(folder))) - {".status.json.part"}
+        return {part for part in parts_in(os.listdir(folder)) if not part.startswith(".status.json.")}
 
     def write(self, viewer, folder, kind):
         """The bytes that an unbroken writing leaves."""

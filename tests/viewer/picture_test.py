@@ -79,7 +79,7 @@ class Camera(Case):
     def measures(self, viewer, picked):
         """Shift+click says how far it is from the point that was clicked, until the next click."""
         place = lambda lines: [float(x) for x in next(line for line in lines if line.startswith("at "))[3:].split(";")[0].split(",")]
-        viewer.at(130, 50)  # beside the lines about the first
+        viewer.at(130, 50)  # next to the lines about the first
         viewer.xdotool("keydown", "shift", "click", 1, "keyup", "shift")
         said = viewer.until(lambda s: s["measured"], "the distance", 10)["measured"]
         self.assertEqual(viewer.status()["pick"], picked)  # the picked surface stays

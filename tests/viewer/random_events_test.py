@@ -95,7 +95,7 @@ class RandomEvents(Case):
                 file.write(line + "\n")
 
     def place(self, viewer):
-        """Somewhere in the window; beside it would be the desktop's menus."""
+        """Somewhere in the window; next to it would be the desktop's menus."""
         geometry = self.screen.call("xdotool", "getwindowgeometry", viewer.id)
         width, height = map(int, re.search(r"Geometry: (\d+)x(\d+)", geometry).groups())
         return self.random.randrange(width), self.random.randrange(height)

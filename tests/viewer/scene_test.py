@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The scene's parts in the panel, a picture from a file beside the one that is traced, and all stages side by side."""
+"""The scene's parts in the panel, a picture from a file next to the one that is traced, and all stages side by side."""
 import shutil
 import subprocess
 import time
@@ -199,17 +199,43 @@ class Reference(Case):
         self.assertEqual(viewer.status()["environment"], "")
         self.ends_well(viewer, viewer.close())
 
-    def test_it_can_be_closed_and_must_be_linear(self):
+    def test_a_picture_of_display_colours_is_side_b(self):
+        """As it is in its file, whatever exposure and curve are; the difference is that of what is shown."""
+        picture = self.reference("display.png")
+        viewer = self.view("furnace", "--spp", "4", "--exposure", "-1", "--tone-map", "aces", "--reference", picture)
+        viewer.rest(lambda s: s["reference"], "the reference")
+        viewer.key("u")
+        viewer.rest(lambda s: s["comparison"] == "difference", "difference")
+        time.sleep(0.3)
+        _, _, seen = viewer.picture()  # before a message covers it
+        saved = pixels_of(viewer.press_for_file("F12", ".png"))
+        left = pixels_of(self.render("furnace", *SIZE, "--spp", 4, "--exposure", -1, "--tone-map", "aces"))
+        right = pixels_of(picture)
+        middle = 160 * 50 + 60
+        linear = abs(left[middle][0] - right[middle][0]) / 255
+        for pixels in (seen, saved):
+            self.assertAlmostEqual(pixels[middle][0] / 255, 1.055 * linear ** (1 / 2.4) - 0.055, delta=0.03)
+        self.assertGreater(linear, 0.1)
+        viewer.key("i")
+        viewer.rest(lambda s: s["comparison"] == "bar", "the bar")
+        composite = pixels_of(viewer.press_for_file("F12", ".png"))
+        self.same(composite, [(left if x < 80 else right)[160 * y + x] for y in range(120) for x in range(160)])
+        drop(self.screen, viewer.id, self.reference("other.jpg"))
+        viewer.rest(lambda s: s["reference"].endswith("other.jpg"), "the other one")
+        self.ends_well(viewer, viewer.close())
+
+    def test_it_can_be_closed_and_must_be_a_picture(self):
         viewer = self.view("furnace", "--resolution", "640,700", "--spp", "1", "--stage", "flat", "--reference", self.reference("reference.pfm"))
         status = viewer.rest(lambda s: s["reference"], "the reference")
         self.assertTrue(any("scaled" in m for m in status["messages"]), status["messages"])
         viewer.click("close reference")
         status = viewer.rest(lambda s: not s["reference"] and len(s["sides"]) == 2, "side B is traced")
         self.ends_well(viewer, viewer.close())
-        picture = self.reference("display.png")
+        picture = self.folder / "broken.png"
+        picture.write_text("no picture")
         result = subprocess.run([FRAGTRACE, "view", SCENES / "furnace.gltf", "--reference", picture], capture_output=True, text=True)
         self.assertEqual(result.returncode, 3)
-        self.assertIn("display.png", result.stderr)
+        self.assertIn("broken.png", result.stderr)
 
 
 class Overview(Case):

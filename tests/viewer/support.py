@@ -116,7 +116,7 @@ class Viewer:
         for option, value in (("--denoise", "none"), ("--default-light", "white")):
             if option not in options and f"no{option[1:]}" not in options:
                 options += (option, value)
-        environment = {**(environment or screen.environment), "XDG_STATE_HOME": str(self.folder / "state")}
+        environment = {**(environment or screen.environment), "XDG_STATE_HOME": str(self.folder / "state"), "XDG_CONFIG_HOME": str(self.folder / "config")}
         self.errors = open(self.folder / "stderr.txt", "w+")
         self.process = subprocess.Popen([FRAGTRACE, "view", *scenes, "--status-file", self.status_file, *map(str, options)],
                                         cwd=folder, env=environment, stdout=subprocess.DEVNULL, stderr=self.errors)

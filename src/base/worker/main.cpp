@@ -12,6 +12,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <utility>
 
 #include "base/message.h"
 #include "base/worker/confine.h"
@@ -57,7 +58,7 @@ WorkReply answer(WorkFunction* work, const WorkRequest& request, int file) {
 
 int main(int argumentCount, char** arguments) {
   using namespace fragtrace;
-  if (argumentCount != 2 || !isStartedByProgram()) {
+  if (argumentCount < 2 || !isStartedByProgram()) {
     std::fputs("fragtrace_worker: started by fragtrace, not by hand\n", stderr);
     return 2;
   }
@@ -69,11 +70,13 @@ int main(int argumentCount, char** arguments) {
   if (work == nullptr) return kNotLoaded;
   WorkOutput nothing;
   work({}, nothing);
-  const std::string unconfined = confine();
+  bool opensFiles = argumentCount > 2 && std::string(arguments[2]) == kOpensFiles;
+  std::string unconfined = opensFiles ? "" : confine();
   WorkRequest request;
   int file = -1;
   while (receiveWithFile(kWorkerSocket, asMessage(request), file)) {
     WorkReply reply = answer(work, request, file);
+    if (std::exchange(opensFiles, false)) unconfined = confine();
     std::strncpy(reply.unconfined, unconfined.c_str(), sizeof reply.unconfined - 1);
     if (::send(kWorkerSocket, &reply, sizeof reply, MSG_NOSIGNAL) != ssize_t(sizeof reply)) break;
   }

@@ -8,14 +8,11 @@
 #include <iterator>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
-#include "gltf/check/extensions.h"
-#include "gltf/check/schema.h"
 #include "gltf/read/accessor.h"
 #include "gltf/read/json.h"
 
@@ -24,6 +21,14 @@ namespace fragtrace {
 namespace {
 
 using nlohmann::json;
+
+/// Calls use(element, its place) for each element of an array of the document.
+template <typename Use>
+void forEachOf(json& root, const char* pointer, const Use& use) {
+  const json::json_pointer array(pointer);
+  if (!root.contains(array) || !root[array].is_array()) return;
+  for (size_t i = 0; i < root[array].size(); ++i) use(root[array][i], pointer + pointerTo(i));
+}
 
 /// An element of one of the document's arrays.
 struct Element {
@@ -41,7 +46,6 @@ struct Element {
     warn(pointerTo(member), reason + "; it is taken as absent");
     value.erase(member);
   }
-  double number(const char* member, double otherwise) const { return value.value(member, otherwise); }
 };
 
 constexpr const char* kIsEmpty = "is empty, and nothing is drawn of it";
@@ -111,15 +115,14 @@ void mendCamera(const Element& camera) {
 }
 
 void mendLight(const Element& light) {
-  if (light.number("range", 1.0) <= 0.0) light.takeAsAbsent("range", "is not above 0");
+  if (numberOf(light.value, "range", 1.0) <= 0.0) light.takeAsAbsent("range", "is not above 0");
   if (light.value["type"] != "spot") return;
   constexpr double kRightAngle = 1.5707963267948966;
   constexpr double kRoundingSlack = 1e-6;  // of an exporter that rounds the right angle up
   constexpr double kDefaultOuter = 0.7853981633974483;
-  json& spot = light.value["spot"];  // tinygltf refuses a spot light without it
-  if (spot.is_null()) spot = json::object();
-  const double inner = spot.value("innerConeAngle", 0.0);
-  const double outer = spot.value("outerConeAngle", kDefaultOuter);
+  json& spot = light.value["spot"];
+  const double inner = numberOf(spot, "innerConeAngle", 0.0);
+  const double outer = numberOf(spot, "outerConeAngle", kDefaultOuter);
   const double outerMended = std::min(outer, kRightAngle);
   const double innerMended = std::clamp(inner, 0.0, std::max(outerMended, 0.0));
   if (!(outer > 0.0)) light.lose("/spot/outerConeAngle", "is not above 0");
@@ -181,27 +184,6 @@ constexpr Repair kRepairs[] = {
     {"/cameras", mendCamera},     {"/extensions/KHR_lights_punctual/lights", mendLight},
     {"/nodes", mendNode},
 };
-
-}  // namespace
-
-void mendValues(json& root, const IsUsed& isUsed, Diagnostics& diagnostics) {
-  for (const Repair& repair : kRepairs) {
-    const json::json_pointer array(repair.array);
-    if (!root.contains(array)) continue;
-    const LostObject& object = *lostObjectAt(std::string(repair.array) + "/*");
-    for (size_t i = 0; i < root[array].size(); ++i) {
-      const std::string place = repair.array + pointerTo(i);
-      if (diagnostics.isLost(place)) continue;
-      try {
-        repair.mend({root[array][i], place, diagnostics});
-      } catch (const Loss& loss) {
-        loseObject(root, object, place, loss, isUsed, diagnostics);
-      }
-    }
-  }
-}
-
-namespace {
 
 /// The document, for readings of an object.
 struct Context {
@@ -274,93 +256,6 @@ constexpr Supply kSupplies[] = {
     {"/extensions/KHR_lights_punctual/lights", "type", lightOf, "its cone makes it a spot light"},
 };
 
-}  // namespace
-
-void supplyMembers(json& root, Diagnostics& diagnostics) {
-  Context context{root, std::vector<uint32_t>(memberOf(root, "bufferViews").size(), 0)};
-  forEachIn(root, "accessors", [&](const json& accessor, const std::string&) {
-    const json& view = memberOf(accessor, "bufferView");
-    if (view.is_number_unsigned() && view.get<size_t>() < context.uses.size())
-      ++context.uses[view.get<size_t>()];
-  });
-  for (const Supply& supply : kSupplies) {
-    const json::json_pointer array(supply.array);
-    if (!root.is_object() || !root.contains(array) || !root[array].is_array()) continue;
-    for (size_t i = 0; i < root[array].size(); ++i) {
-      json& object = root[array][i];
-      if (!object.is_object() || !memberOf(object, supply.member).is_null()) continue;
-      json value = supply.read(context, object);
-      if (value.is_null()) continue;
-      const std::string place = supply.array + pointerTo(i);
-      const bool isNull = object.contains(supply.member);
-      diagnostics.warn(isNull ? place + pointerTo(supply.member) : place,
-                       (isNull ? "is null; " : inQuotes(supply.member) + " is missing; ") + supply.words);
-      object[supply.member] = std::move(value);
-    }
-  }
-}
-
-namespace {
-
-/// An extension that is not in the table may be anywhere, unless its name says that it belongs to materials.
-bool isAtHome(std::string_view name, std::string_view place, std::string_view owner) {
-  const Extension* extension = extensionNamed(name);
-  if (extension == nullptr) return !name.starts_with("KHR_materials_") || place == "/materials/*";
-  if (extension->places[0] == kTextureInfo) return owner.ends_with("Texture");
-  return std::ranges::find(extension->places, place) != extension->places.end();
-}
-
-class MemberChecker {
- public:
-  explicit MemberChecker(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
-
-  /// `owner` is the name of the member that holds the value.
-  void visit(json& value, std::string_view owner) {
-    if (value.is_array()) {
-      for (size_t i = 0; i < value.size(); ++i) descend(value[i], std::to_string(i), "*", owner);
-    } else if (value.is_object()) {
-      for (auto member = value.begin(); member != value.end();) {
-        const std::string& name = member.key();
-        if (name == "extensions") warnOfStrangers(*member, owner);
-        if (name != "extras") descend(*member, name, name, name);
-        member = member->is_null() && takesOut(name) ? value.erase(member) : std::next(member);
-      }
-    }
-  }
-
- private:
-  void descend(json& value, const std::string& part, std::string_view pattern, std::string_view owner) {
-    if (!value.is_structured()) return;
-    const size_t place = place_.size();
-    const size_t length = pattern_.size();
-    place_.append("/").append(escapedForPointer(part));
-    pattern_.append("/").append(pattern);
-    visit(value, owner);
-    place_.resize(place);
-    pattern_.resize(length);
-  }
-
-  /// Returns true, with a warning, if a null can be taken for an absent member.
-  bool takesOut(const std::string& name) {
-    if (isRequiredAt(pattern_ + "/" + name)) return false;
-    diagnostics_.warn(place_ + pointerTo(name), "is null, and taken as absent");
-    return true;
-  }
-
-  void warnOfStrangers(const json& extensions, std::string_view owner) {
-    if (!extensions.is_object()) return;
-    for (const auto& extension : extensions.items()) {
-      if (!isAtHome(extension.key(), pattern_, owner))
-        diagnostics_.warn(place_ + pointerTo("extensions", extension.key()),
-                          "is not expected here, and ignored");
-    }
-  }
-
-  Diagnostics& diagnostics_;
-  std::string place_;
-  std::string pattern_;
-};
-
 struct Version {
   unsigned major = 0, minor = 0;
   auto operator<=>(const Version&) const = default;  // NOLINT(modernize-use-nullptr): it is none
@@ -384,7 +279,39 @@ std::optional<Version> readVersion(json& asset, const char* member, Diagnostics&
 
 }  // namespace
 
-void checkMembers(json& root, Diagnostics& diagnostics) { MemberChecker(diagnostics).visit(root, ""); }
+void mendValues(json& root, const IsUsed& isUsed, Diagnostics& diagnostics) {
+  for (const Repair& repair : kRepairs) {
+    const LostObject& object = *lostObjectAt(std::string(repair.array) + "/*");
+    forEachOf(root, repair.array, [&](json& value, const std::string& place) {
+      if (diagnostics.isLost(place)) return;
+      try {
+        repair.mend({value, place, diagnostics});
+      } catch (const Loss& loss) {
+        loseObject(root, object, place, loss, isUsed, diagnostics);
+      }
+    });
+  }
+}
+
+void supplyMembers(json& root, Diagnostics& diagnostics) {
+  Context context{root, std::vector<uint32_t>(memberOf(root, "bufferViews").size(), 0)};
+  forEachOf(root, "/accessors", [&](const json& accessor, const std::string&) {
+    const json& view = memberOf(accessor, "bufferView");
+    if (view.is_number_unsigned() && view.get<size_t>() < context.uses.size())
+      ++context.uses[view.get<size_t>()];
+  });
+  for (const Supply& supply : kSupplies) {
+    forEachOf(root, supply.array, [&](json& object, const std::string& place) {
+      if (!object.is_object() || !memberOf(object, supply.member).is_null()) return;
+      json value = supply.read(context, object);
+      if (value.is_null()) return;
+      const bool isNull = object.contains(supply.member);
+      diagnostics.warn(isNull ? place + pointerTo(supply.member) : place,
+                       (isNull ? "is null; " : inQuotes(supply.member) + " is missing; ") + supply.words);
+      object[supply.member] = std::move(value);
+    });
+  }
+}
 
 void checkVersions(json& root, Diagnostics& diagnostics) {
   if (!memberOf(root, "asset").is_object()) return;

@@ -21,7 +21,7 @@ namespace fragtrace {
 using IsUsed = std::function<bool(std::string_view place)>;
 
 struct LostObject {
-  std::string_view pattern;  ///< its place; see Rule
+  std::string_view pattern;  ///< its place, with * for an index
   const char* name;          ///< in messages
   const char* empty;         ///< JSON of one without content
   const char* reference{};   ///< the member of a node that refers to it, if a node can do without
@@ -35,57 +35,21 @@ const LostObject* lostObjectAt(std::string_view pattern);
 void loseObject(nlohmann::json& root, const LostObject& object, const std::string& place, const Loss& loss,
                 const IsUsed& isUsed, Diagnostics& diagnostics);
 
-// Checks a document against one rule of the schema, and takes out what breaks it.
-
-enum class Kind {
-  Object,
-  Array,
-  Objects,  ///< an array of objects
-  Text,
-  Word,  ///< one of those in `target`, "what they are: A B", without regard to case
-  Texts,
-  Flag,
-  Number,
-  Numbers,  ///< an array of `size` numbers; 0: of any number of them
-  Int,      ///< 0 to 2^31 - 1, what tinygltf keeps in an int
-  Size,     ///< 0 to 2^53
-  Index,    ///< into the array at `target`
-};
-
-/// A pattern is a JSON pointer in which * stands for any member or element, and a last ! for "required".
-struct Rule {
-  const char* pattern;
-  Kind kind;
-  const char* target = nullptr;
-  size_t size = 0;
-};
-
-/// Checks the rule. Whole numbers written as 1.0 become integers. What breaks the rule goes, with a warning:
-/// an optional member; else the member or element that holds it, and so on. An object of schema.h
-/// becomes one without content, and an optional word the first one. Throws InputError where that ends at the
-/// root, and for a broken reference in an object that is used.
-struct SchemaContext {
-  Diagnostics& diagnostics;
-  bool (*isRequired)(std::string_view pattern);  ///< a member's pattern, without its !
-  const IsUsed& isUsed;
-};
-void applyRule(const Rule& rule, nlohmann::json& root, const SchemaContext& context);
-
 /// Returns the next part of a JSON pointer, and removes it from the pointer.
 std::string_view cutPart(std::string_view& pointer);
 
 // Checks types and references of a glTF document before tinygltf sees it. tinygltf silently drops members of
 // a wrong type, and does not check an index before it uses it.
 
-/// Takes out what the loader reads and what has the wrong type, is missing though required, or refers to
-/// something that does not exist, with a warning each: see applyRule(). Whole numbers written as 1.0 become
-/// integers. Throws InputError for a reference to something that does not exist, in an object that the
-/// selected scene uses. Returns what tells if it uses the object at a place, as long as the document is
-/// there.
+/// Takes out what the loader reads and what is null, has the wrong type, is missing though required, or
+/// refers to something that does not exist, with a warning each: an optional member; else the member or
+/// element that holds it, and so on. An object that can be lost becomes one without content, and an optional
+/// word the first one. Whole numbers written as 1.0 become integers. Warns of extensions at places where
+/// nothing reads them. Throws InputError where that ends at the root, and for a reference to something that
+/// does not exist, in an object that the selected scene uses. Returns what tells if it uses the object at a
+/// place, as long as the document is there: animations only if a time is asked for, and materials of variants
+/// only if one is.
 IsUsed applySchema(nlohmann::json& root, const SceneSelection& selection, Diagnostics& diagnostics);
-
-/// Returns true if what holds the member at a pattern cannot do without it.
-bool isRequiredAt(std::string_view pattern);
 
 /// Numbers that the loader reads.
 struct NumberRule {

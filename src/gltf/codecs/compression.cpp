@@ -156,7 +156,7 @@ class PrimitiveDecoder {
   }
 
   void addAttribute(const std::string& name, uint32_t id) {
-    const std::string part = "/attributes/" + escapedForPointer(name);
+    const std::string part = pointerTo("attributes", name);
     if (!primitive_["attributes"].contains(name))
       return document_.diagnostics.warn(place_ + part, "is no attribute of the primitive, and ignored");
     if (request_.attributeCount == kMostCodecAttributes) lose("/attributes", "has too many attributes");
@@ -268,22 +268,15 @@ namespace {
 constexpr std::string_view kExt = "EXT_meshopt_compression";
 constexpr std::string_view kKhr = "KHR_meshopt_compression";
 
-const json* viewExtension(const json& object, std::string_view name) {
-  const auto extensions = object.find("extensions");
-  if (extensions == object.end() || !extensions->is_object()) return nullptr;
-  const auto extension = extensions->find(std::string(name));
-  return extension != extensions->end() ? &*extension : nullptr;
-}
-
 /// The members of both extensions that an object has.
 struct Meshopt {
-  std::string_view name = kExt;
-  const json* object = nullptr;  ///< none
+  std::string_view name;
+  const json& object;  ///< null: none
 };
 
 Meshopt meshoptOf(const json& object) {
-  const json* khr = viewExtension(object, kKhr);
-  return khr != nullptr ? Meshopt{kKhr, khr} : Meshopt{kExt, viewExtension(object, kExt)};
+  const json& khr = extensionOf(object, kKhr);
+  return khr.is_object() ? Meshopt{kKhr, khr} : Meshopt{kExt, extensionOf(object, kExt)};
 }
 
 std::optional<Codec> codecNamed(const std::string& mode) {
@@ -359,10 +352,7 @@ std::span<const uint8_t> encodedBytes(const json& extension, const Buffers& buff
 
 }  // namespace
 
-bool isFallback(const json& buffer) {
-  const json* extension = meshoptOf(buffer).object;
-  return extension != nullptr && extension->value("fallback", false);
-}
+bool isFallback(const json& buffer) { return memberOf(meshoptOf(buffer).object, "fallback") == true; }
 
 namespace {
 
@@ -373,8 +363,8 @@ void decompressView(json& root, size_t index, Buffers& buffers, Worker& codecs, 
   const std::string place = pointerTo("bufferViews", index, "extensions", name);
   Diagnostics& diagnostics = document.diagnostics;
   const CodecRequest request =
-      requestOf(*extension, name == kKhr, view["byteLength"].get<uint64_t>(), place, diagnostics);
-  const std::span<const uint8_t> encoded = encodedBytes(*extension, buffers, place, diagnostics);
+      requestOf(extension, name == kKhr, view["byteLength"].get<uint64_t>(), place, diagnostics);
+  const std::span<const uint8_t> encoded = encodedBytes(extension, buffers, place, diagnostics);
   takeMemory(document, place, 2 * request.outputBytes);
   std::vector<uint8_t> decoded =
       diagnostics.attemptObject(place, [&] { return decodeByProcess(codecs, request, encoded); });
@@ -391,9 +381,9 @@ void decompressViews(json& root, Buffers& buffers, Worker& codecs, Document& doc
   for (size_t i = 0; i < root["bufferViews"].size(); ++i) {
     json& view = root["bufferViews"][i];
     const auto [name, extension] = meshoptOf(view);
-    if (extension == nullptr || view["byteLength"] == 0) continue;
+    if (!extension.is_object() || view["byteLength"] == 0) continue;
     const std::string place = pointerTo("bufferViews", i, "extensions", name);
-    if (name == kKhr && viewExtension(view, kExt) != nullptr)
+    if (name == kKhr && extensionOf(view, kExt).is_object())
       diagnostics.warn(place, "stands beside " + std::string(kExt) + ", which is ignored");
     if (!codecs.works()) {
       if (buffers[view["buffer"].get<size_t>()].empty())

@@ -15,9 +15,6 @@ namespace fragtrace {
 
 // Replaces compressed geometry in the document by its decoded form, before anything reads it.
 
-/// The bytes of the document's buffers, in its order. A buffer without data is empty.
-using Buffers = std::vector<std::vector<uint8_t>>;
-
 /// Returns true if a buffer only stands in for readers that cannot decode EXT_ or KHR_meshopt_compression.
 bool isFallback(const nlohmann::json& buffer);
 

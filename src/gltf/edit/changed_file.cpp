@@ -3,20 +3,17 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstring>
 #include <optional>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "base/errors.h"
-#include "gltf/build/numbers.h"
+#include "gltf/assemble/numbers.h"
 #include "gltf/read/container.h"
 #include "gltf/read/json.h"
 #include "image/files/whole_file.h"
-#include "scene/parts.h"
 
 namespace fragtrace {
 
@@ -209,19 +206,6 @@ void useExtension(std::string& text, const std::string& name) {
   text.insert(end, (names.empty() ? "" : ", ") + quoted);
 }
 
-}  // namespace
-
-std::string withNumbers(std::string text, std::span<const SetNumber> set) {
-  for (const SetNumber& one : set) {
-    setValue(text, one);
-    const std::string extension = extensionIn(one.pointer);
-    if (!extension.empty() && one.word != kNoValue) useExtension(text, extension);
-  }
-  return text;
-}
-
-namespace {
-
 using nlohmann::json;
 
 // A .glb: magic, version, length; then chunks, each with length and kind before its bytes.
@@ -289,6 +273,15 @@ json documentOf(const std::filesystem::path& from) {
 
 }  // namespace
 
+std::string withNumbers(std::string text, std::span<const SetNumber> set) {
+  for (const SetNumber& one : set) {
+    setValue(text, one);
+    const std::string extension = extensionIn(one.pointer);
+    if (!extension.empty() && one.word != kNoValue) useExtension(text, extension);
+  }
+  return text;
+}
+
 void checkChange(const std::filesystem::path& from, std::span<const SetNumber> set) {
   checkNumbers(documentOf(from), set);
 }
@@ -299,13 +292,8 @@ bool hasPart(const std::filesystem::path& file, std::span<const char* const> arr
   return std::ranges::any_of(arrays, [&](const char* array) {
     const json::json_pointer pointer(array);
     if (!document.contains(pointer) || !document[pointer].is_array()) return false;
-    std::vector<std::string> names;
-    for (const json& part : document[pointer]) {
-      const json& name = memberOf(part, "name");
-      names.push_back(name.is_string() ? name.get<std::string>() : "");
-    }
     const bool isPlace = wanted.starts_with(array) && document.contains(json::json_pointer(wanted));
-    return isPlace || findPart(wanted, names).has_value();
+    return isPlace || findPart(wanted, namesOf(document[pointer])).has_value();
   });
 }
 

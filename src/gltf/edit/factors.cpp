@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "base/text.h"
-#include "gltf/build/numbers.h"
+#include "gltf/assemble/numbers.h"
 #include "scene/casters.h"
 
 namespace fragtrace {

@@ -11,6 +11,17 @@
 
 namespace fragtrace {
 
+std::span<const uint8_t> bytesOf(const Document& document, int bufferView) {
+  document.diagnostics.need(pointerTo("bufferViews", bufferView));
+  const tinygltf::BufferView& view = document.model.bufferViews.at(size_t(bufferView));
+  if (view.byteLength == 0) return {};
+  const std::vector<uint8_t>& bytes = document.bytes->buffers.at(size_t(view.buffer));
+  if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset) {
+    document.diagnostics.lose(pointerTo("bufferViews", bufferView), "is used, but its buffer has no data");
+  }
+  return {bytes.data() + view.byteOffset, view.byteLength};
+}
+
 namespace {
 
 /// Elements in memory that are known to lie inside their buffer.
@@ -106,7 +117,7 @@ Elements elementsOf(const Document& document, int index) {
   elements.componentType = accessor.componentType;
   elements.components = tinygltf::GetNumComponentsInType(uint32_t(accessor.type));
   elements.normalized = accessor.normalized;
-  if (accessor.bufferView >= 0) {
+  if (size_t(accessor.bufferView) + 1 < document.model.bufferViews.size()) {  // the last one stands for none
     return checkedRange(document, place, accessor.bufferView, accessor.byteOffset, elements, true);
   }
   // Zeros take no room in the file, so only this limits the memory that they take.
@@ -186,26 +197,42 @@ void settleIntegers(Document& document, Integers integers, const std::string& pl
                               "holds integers, as KHR_mesh_quantization allows; they are read as they are");
 }
 
+/// Calls store(element, component, value) for everything that lies in memory, and then for what a sparse
+/// accessor replaces.
+template <typename Store>
+void forEachValue(const Document& document, int accessor, const Elements& elements, const Store& store) {
+  const SparseElements sparse = sparseElementsOf(document, accessor, elements);
+  if (elements.data != nullptr) forEachComponent(elements, store);
+  if (sparse.indices.empty()) return;
+  forEachComponent(sparse.values, [&](size_t i, int c, auto value) { store(sparse.indices[i], c, value); });
+}
+
 template <typename Vector>
 std::vector<Vector> decodeAttribute(Document& document, int accessor, Elements elements, Integers integers,
                                     const std::string& place, const Vector& base) {
   settleIntegers(document, integers, place, elements);
-  const SparseElements sparse = sparseElementsOf(document, accessor, elements);
   std::vector<Vector> result(elements.count, base);
-  if (elements.data != nullptr) {
-    forEachComponent(elements, [&](size_t i, int c, auto value) {
-      result[i][c] = componentToFloat(value, elements.normalized);
-    });
-  }
-  if (!sparse.indices.empty()) {
-    forEachComponent(sparse.values, [&](size_t i, int c, auto value) {
-      result[sparse.indices[i]][c] = componentToFloat(value, elements.normalized);
-    });
-  }
+  forEachValue(document, accessor, elements, [&](size_t i, int c, auto value) {
+    result[i][c] = componentToFloat(value, elements.normalized);
+  });
   return result;
 }
 
+int typeOf(const Document& document, int accessor) {
+  return document.model.accessors.at(size_t(accessor)).type;
+}
+
+/// Throws a Loss unless the accessor is as it must be.
+void expect(bool condition, const Document& document, int accessor, const std::string& place,
+            const std::string& reason) {
+  if (!condition) document.diagnostics.lose(place, "accessor " + std::to_string(accessor) + " " + reason);
+}
+
 }  // namespace
+
+void takeMemory(Document& document, const std::string& place, uint64_t bytes) {
+  document.diagnostics.attempt(place, [&] { document.memory.take(bytes); });
+}
 
 size_t accessorCount(const Document& document, int accessor) { return elementsOf(document, accessor).count; }
 
@@ -213,11 +240,8 @@ template <glm::length_t components>
 std::vector<glm::vec<components, float>> readVectors(Document& document, int accessor,
                                                      const std::string& place, Integers integers) {
   const Elements elements = elementsOf(document, accessor);
-  if (document.model.accessors.at(size_t(accessor)).type !=
-      components) {  // TINYGLTF_TYPE_VEC2 is 2, and so on
-    document.diagnostics.lose(
-        place, "accessor " + std::to_string(accessor) + " is not of type VEC" + std::to_string(components));
-  }
+  expect(typeOf(document, accessor) == components, document, accessor, place,  // TINYGLTF_TYPE_VEC2 is 2
+         "is not of type VEC" + std::to_string(components));
   return decodeAttribute(document, accessor, elements, integers, place, glm::vec<components, float>(0.0f));
 }
 
@@ -227,40 +251,28 @@ template std::vector<glm::vec4> readVectors<4>(Document&, int, const std::string
 
 std::vector<glm::vec4> readColors(Document& document, int accessor, const std::string& place) {
   const Elements elements = elementsOf(document, accessor);
-  const int type = document.model.accessors.at(size_t(accessor)).type;
-  if (type != TINYGLTF_TYPE_VEC3 && type != TINYGLTF_TYPE_VEC4) {
-    document.diagnostics.lose(place, "accessor " + std::to_string(accessor) + " is not of type VEC3 or VEC4");
-  }
-  const float alpha = type == TINYGLTF_TYPE_VEC3 ? 1.0f : 0.0f;
+  const bool hasAlpha = typeOf(document, accessor) == TINYGLTF_TYPE_VEC4;
+  expect(hasAlpha || typeOf(document, accessor) == TINYGLTF_TYPE_VEC3, document, accessor, place,
+         "is not of type VEC3 or VEC4");
   return decodeAttribute(document, accessor, elements, Integers::Fractions, place,
-                         glm::vec4(0.0f, 0.0f, 0.0f, alpha));
+                         glm::vec4(0.0f, 0.0f, 0.0f, hasAlpha ? 0.0f : 1.0f));
 }
 
 std::vector<glm::uvec4> readJoints(const Document& document, int accessor, const std::string& place) {
   const Elements elements = elementsOf(document, accessor);
-  if (document.model.accessors.at(size_t(accessor)).type != TINYGLTF_TYPE_VEC4 ||
-      !isIndexType(elements.componentType) ||
-      elements.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
-    document.diagnostics.lose(place, "accessor " + std::to_string(accessor) +
-                                         " does not hold unsigned bytes or shorts of type VEC4");
-  }
-  const SparseElements sparse = sparseElementsOf(document, accessor, elements);
+  expect(typeOf(document, accessor) == TINYGLTF_TYPE_VEC4 && isIndexType(elements.componentType) &&
+             elements.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+         document, accessor, place, "does not hold unsigned bytes or shorts of type VEC4");
   std::vector<glm::uvec4> result(elements.count, glm::uvec4(0));
-  if (elements.data != nullptr)
-    forEachComponent(elements, [&](size_t i, int c, auto value) { result[i][c] = indexOf(value); });
-  if (!sparse.indices.empty()) {
-    forEachComponent(sparse.values,
-                     [&](size_t i, int c, auto value) { result[sparse.indices[i]][c] = indexOf(value); });
-  }
+  forEachValue(document, accessor, elements,
+               [&](size_t i, int c, auto value) { result[i][c] = indexOf(value); });
   return result;
 }
 
 std::vector<glm::dmat4> readMatrices(Document& document, int accessor, const std::string& place) {
   const tinygltf::Accessor& source = document.model.accessors.at(size_t(accessor));
-  if (source.type != TINYGLTF_TYPE_MAT4 || source.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
-    document.diagnostics.lose(place,
-                              "accessor " + std::to_string(accessor) + " does not hold floats of type MAT4");
-  }
+  expect(source.type == TINYGLTF_TYPE_MAT4 && source.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT, document,
+         accessor, place, "does not hold floats of type MAT4");
   const std::vector<float> numbers = readComponents(document, accessor, 16, place);
   std::vector<glm::dmat4> result(numbers.size() / 16);
   for (size_t i = 0; i < numbers.size(); ++i) {
@@ -274,47 +286,26 @@ std::vector<glm::dmat4> readMatrices(Document& document, int accessor, const std
 std::vector<float> readComponents(Document& document, int accessor, int components, const std::string& place,
                                   Integers integers) {
   Elements elements = elementsOf(document, accessor);
-  if (elements.components != components) {
-    document.diagnostics.lose(place, "accessor " + std::to_string(accessor) + " does not have " +
-                                         std::to_string(components) + " components an element");
-  }
+  expect(elements.components == components, document, accessor, place,
+         "does not have " + std::to_string(components) + " components an element");
   settleIntegers(document, integers, place, elements);
-  const SparseElements sparse = sparseElementsOf(document, accessor, elements);
   const auto width = size_t(components);
   std::vector<float> result(elements.count * width, 0.0f);
-  if (elements.data != nullptr) {
-    forEachComponent(elements, [&](size_t i, int c, auto value) {
-      result[i * width + size_t(c)] = componentToFloat(value, elements.normalized);
-    });
-  }
-  if (!sparse.indices.empty()) {
-    forEachComponent(sparse.values, [&](size_t i, int c, auto value) {
-      result[sparse.indices[i] * width + size_t(c)] = componentToFloat(value, elements.normalized);
-    });
-  }
+  forEachValue(document, accessor, elements, [&](size_t i, int c, auto value) {
+    result[i * width + size_t(c)] = componentToFloat(value, elements.normalized);
+  });
   return result;
 }
 
 std::vector<uint32_t> readIndices(const Document& document, int accessor, size_t vertexCount,
                                   const std::string& place) {
   const Elements elements = elementsOf(document, accessor);
-  if (document.model.accessors.at(size_t(accessor)).type != TINYGLTF_TYPE_SCALAR ||
-      !isIndexType(elements.componentType)) {
-    document.diagnostics.lose(
-        place, "accessor " + std::to_string(accessor) + " does not hold unsigned integers of type SCALAR");
-  }
-  const SparseElements sparse = sparseElementsOf(document, accessor, elements);
+  expect(typeOf(document, accessor) == TINYGLTF_TYPE_SCALAR && isIndexType(elements.componentType), document,
+         accessor, place, "does not hold unsigned integers of type SCALAR");
   std::vector<uint32_t> result(elements.count, 0);
-  if (elements.data != nullptr) {
-    forEachComponent(elements, [&](size_t i, int, auto value) { result[i] = indexOf(value); });
-  }
-  if (!sparse.indices.empty()) {
-    forEachComponent(sparse.values,
-                     [&](size_t i, int, auto value) { result[sparse.indices[i]] = indexOf(value); });
-  }
-  if (result.empty()) return result;
-  const uint32_t largest = *std::max_element(result.begin(), result.end());
-  if (largest >= vertexCount) {
+  forEachValue(document, accessor, elements, [&](size_t i, int, auto value) { result[i] = indexOf(value); });
+  const uint32_t largest = result.empty() ? 0 : std::ranges::max(result);
+  if (!result.empty() && largest >= vertexCount) {
     document.diagnostics.lose(place, "index " + std::to_string(largest) + " is past the " +
                                          std::to_string(vertexCount) + " vertices");
   }

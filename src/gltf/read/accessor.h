@@ -13,18 +13,12 @@ namespace fragtrace {
 
 // The types of an accessor's components, by glTF's numbers (those of OpenGL).
 
-inline constexpr unsigned kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123,
-                          kUnsignedInt = 5125, kFloat = 5126;
+inline constexpr unsigned kUnsignedInt = 5125;
 
-inline bool isComponentType(unsigned type) {
-  return (type >= kByte && type <= kUnsignedShort) || type == kUnsignedInt || type == kFloat;
-}
+inline bool isComponentType(unsigned type) { return type >= 5120 && type <= 5126 && type != 5124; }
 
 /// Bytes; 4 of a type that is none.
-inline uint64_t componentSize(unsigned type) {
-  if (type == kByte || type == kUnsignedByte) return 1;
-  return type == kShort || type == kUnsignedShort ? 2 : 4;
-}
+inline uint64_t componentSize(unsigned type) { return type < 5120 || type > 5123 ? 4 : type < 5122 ? 1 : 2; }
 
 // Decodes accessors: strided, normalised, sparse, or without any buffer view, and never past the end.
 

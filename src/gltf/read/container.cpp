@@ -8,30 +8,36 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <set>
 #include <span>
 #include <stdexcept>
-#include <string_view>
 #include <utility>
 
 #include "base/errors.h"
 #include "base/text.h"
-#include "gltf/read/diagnostics.h"
 #include "image/image.h"
 
 namespace fragtrace {
 
 namespace {
 
-int hexValue(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
+/// "%20" to " ", byte by byte, so that UTF-8 stays UTF-8; what is no valid escape is kept as it is.
+std::string percentDecoded(std::string_view text) {
+  std::string result;
+  result.reserve(text.size());
+  for (size_t i = 0; i < text.size(); ++i) {
+    unsigned byte = 0;
+    const char* end = text.data() + std::min(i + 3, text.size());
+    const bool isEscape = text[i] == '%' && i + 2 < text.size() &&
+                          std::from_chars(text.data() + i + 1, end, byte, 16).ptr == end;
+    result += isEscape ? char(byte) : text[i];
+    i += isEscape ? 2 : 0;
+  }
+  return result;
 }
 
 constexpr std::string_view kWhiteSpace = " \t\n\r\f";
@@ -151,20 +157,6 @@ std::string likeNamed(const std::filesystem::path& path) {
 }
 
 }  // namespace
-
-std::string percentDecoded(std::string_view text) {
-  std::string result;
-  result.reserve(text.size());
-  for (size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '%' && i + 2 < text.size() && hexValue(text[i + 1]) >= 0 && hexValue(text[i + 2]) >= 0) {
-      result += char(hexValue(text[i + 1]) * 16 + hexValue(text[i + 2]));
-      i += 2;
-    } else {
-      result += text[i];
-    }
-  }
-  return result;
-}
 
 bool isDataUri(std::string_view uri) { return uri.starts_with("data:"); }
 
@@ -381,7 +373,6 @@ Container splitGlb(const std::vector<uint8_t>& bytes, Diagnostics& diagnostics) 
   if (length < bytes.size()) diagnostics.warn("", "holds more bytes than its header says; they are ignored");
 
   Container container;
-  container.isGlb = true;
   size_t offset = kHeaderSize;
   for (size_t chunk = 0; offset < length; ++chunk) {
     if (length - offset < kChunkHeaderSize) {

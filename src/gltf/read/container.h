@@ -12,7 +12,7 @@
 
 namespace fragtrace {
 
-// Resolves a glTF URI: bytes in the URI itself, or a file beside the scene.
+// Resolves a glTF URI: bytes in the URI itself, or a file next to the scene.
 
 /// The places to which a file's URIs may lead.
 struct FileAccess {
@@ -20,9 +20,6 @@ struct FileAccess {
   bool allowExternal = false;    ///< allows files out of the folder
   ReadProgress progress{};       ///< reports every file
 };
-
-/// "%20" to " ", byte by byte, so that UTF-8 stays UTF-8; what is no valid escape is kept as it is.
-std::string percentDecoded(std::string_view text);
 
 bool isDataUri(std::string_view uri);
 
@@ -53,7 +50,6 @@ struct Container {
   std::string json;
   std::vector<uint8_t> binary;  ///< the BIN chunk of a .glb
   bool hasBinary = false;
-  bool isGlb = false;
 };
 
 /// Reads the file and splits it. Its content decides which container it is, not its name. Throws InputError

@@ -7,15 +7,7 @@ namespace fragtrace {
 
 std::string escapedForPointer(std::string_view name) {
   std::string escaped;
-  for (const char c : name) {
-    if (c == '~') {
-      escaped += "~0";
-    } else if (c == '/') {
-      escaped += "~1";
-    } else {
-      escaped += c;
-    }
-  }
+  for (const char c : name) escaped += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
   return escaped;
 }
 

@@ -4,29 +4,42 @@
 #include <tiny_gltf.h>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "gltf/gltf.h"
 #include "gltf/read/container.h"
 #include "gltf/read/diagnostics.h"
-#include "gltf/read/motion.h"
+#include "gltf/read/json.h"
 #include "image/image.h"
 
 namespace fragtrace {
 
 // A glTF file as tinygltf's model, with all references and byte ranges checked and all buffers in memory.
 
+/// The bytes of the document's buffers, in its order. A buffer without data is empty.
+using Buffers = std::vector<std::vector<uint8_t>>;
+
 /// The place of a picture as the file gives it: a URI as written, or a buffer view.
 struct ImageSource {
   std::string uri;
   int bufferView = -1;
-  std::string mimeType;
   std::vector<uint8_t> bytes{};  ///< content of the URI, with Document::keepsPictures; empty until it is read
+};
+
+/// The bytes that all poses of a file share.
+struct FileBytes {
+  Buffers buffers;
+  std::vector<ImageSource> images;
+};
+
+/// glTF 2.0, section 3.7.3: indices of nodes, and of an accessor of one matrix a joint.
+struct Skin {
+  std::vector<int> joints;
+  int inverseBindMatrices = -1;  ///< none: all are the identity
 };
 
 struct Document {
@@ -36,10 +49,13 @@ struct Document {
         drawMissingTextures(limits.drawMissingTextures),
         memory(limits.memoryBytes) {}
 
-  tinygltf::Model model;  ///< the document without skins, animations and pictures
+  /// The JSON that all poses of a file share but for numbers: materials, lights, and all extensions and
+  /// extras are read from it. It has no skins and animations any more.
+  std::shared_ptr<nlohmann::json> root = nullptr;
+  tinygltf::Model model = {};  ///< the geometry, nodes, cameras and textures in it
+  std::shared_ptr<FileBytes> bytes = std::make_shared<FileBytes>();
   FileAccess access;
-  GltfProgress progress{};  ///< reports this load; a document that is kept has none
-  std::vector<ImageSource> images;
+  GltfProgress progress{};      ///< reports this load; a document that is kept has none
   std::vector<size_t> strides;  ///< bytes between elements by buffer view; 0: they are packed
   std::vector<Skin> skins;
   std::vector<std::string> sceneNames, animationNames, materialVariants;
@@ -58,32 +74,12 @@ struct Document {
 /// The bytes of a buffer view. Throws a Loss if its buffer has none, as a buffer without URI may.
 std::span<const uint8_t> bytesOf(const Document& document, int bufferView);
 
+/// The JSON of an element of one of its arrays.
+inline const nlohmann::json& jsonOf(const Document& document, const char* array, int index) {
+  return document.root->at(array).at(size_t(index));
+}
+
 /// Counts memory that `place` asks for. Throws InputError if it is too much.
 void takeMemory(Document& document, const std::string& place, uint64_t bytes);
-
-// Reads extensions and extras, which tinygltf passes on as generic values. The schema has checked their
-// types.
-
-/// The member of that name, or a null value where there is none.
-inline const tinygltf::Value& memberOf(const tinygltf::Value& object, std::string_view name) {
-  static const tinygltf::Value kNone;
-  const std::string key(name);
-  return object.Has(key) ? object.Get(key) : kNone;
-}
-
-inline double numberOf(const tinygltf::Value& object, std::string_view name, double otherwise) {
-  const tinygltf::Value& member = memberOf(object, name);
-  return member.IsNumber() ? member.GetNumberAsDouble() : otherwise;
-}
-
-inline std::vector<double> numbersOf(const tinygltf::Value& object, std::string_view name,
-                                     std::vector<double> otherwise) {
-  const tinygltf::Value& member = memberOf(object, name);
-  if (!member.IsArray()) return otherwise;
-  std::vector<double> numbers;
-  numbers.reserve(member.ArrayLen());
-  for (int i = 0; i < int(member.ArrayLen()); ++i) numbers.push_back(member.Get(i).GetNumberAsDouble());
-  return numbers;
-}
 
 }  // namespace fragtrace

@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
-#include <string>
-
-#include <nlohmann/json.hpp>
 
 namespace fragtrace {
 
@@ -120,33 +117,12 @@ std::string placeOfReplacement(const nlohmann::json& value) {
   return "";
 }
 
-/// Notes where the parser finds a fault.
-struct FaultFinder : nlohmann::json_sax<nlohmann::json> {
-  size_t position = 0;  ///< bytes read
-
-  bool null() override { return true; }
-  bool boolean(bool) override { return true; }
-  bool number_integer(number_integer_t) override { return true; }
-  bool number_unsigned(number_unsigned_t) override { return true; }
-  bool number_float(number_float_t, const string_t&) override { return true; }
-  bool string(string_t&) override { return true; }
-  bool binary(binary_t&) override { return true; }
-  bool start_object(size_t) override { return true; }
-  bool key(string_t&) override { return true; }
-  bool end_object() override { return true; }
-  bool start_array(size_t) override { return true; }
-  bool end_array() override { return true; }
-  bool parse_error(size_t at, const std::string&, const nlohmann::json::exception&) override {
-    position = at;
-    return false;
-  }
-};
-
-/// The line and column of the fault, as the parser writes them.
-std::string placeOfFault(std::string_view text) {
-  FaultFinder finder;
-  nlohmann::json::sax_parse(text, &finder);
-  const std::string_view read = text.substr(0, finder.position);
+/// The line and column behind a number, as the parser writes them.
+std::string placeOfNumber(std::string_view text, std::string_view number) {
+  size_t at = text.find(number);
+  while (at != text.npos && at > 0 && std::string_view(":[, \t\r\n").find(text[at - 1]) == text.npos)
+    at = text.find(number, at + 1);
+  const std::string_view read = text.substr(0, at == text.npos ? 0 : at + number.size());
   const size_t line = size_t(std::ranges::count(read, '\n')) + 1;
   const size_t column = read.size() - (read.rfind('\n') + 1);
   return "line " + std::to_string(line) + ", column " + std::to_string(column);
@@ -184,9 +160,20 @@ nlohmann::json parseJson(std::string_view text, MemoryBudget& memory, Diagnostic
     what.remove_prefix(std::min(what.find("] ") + 2, what.size()));
     std::string reason(what.substr(0, what.find("; last read")));
     // The parser names no place of a number that is too large.
-    if (reason.find("at line ") == std::string::npos) reason += " at " + placeOfFault(text);
+    const size_t quote = reason.find('\'') + 1;
+    if (reason.find("at line ") == std::string::npos)
+      reason += " at " + placeOfNumber(text, reason.substr(quote, reason.rfind('\'') - quote));
     diagnostics.refuse("", "the JSON is broken: " + reason);
   }
+}
+
+std::vector<std::string> namesOf(const nlohmann::json& array) {
+  std::vector<std::string> names;
+  for (const nlohmann::json& element : array) {
+    const nlohmann::json& name = memberOf(element, "name");
+    names.push_back(name.is_string() ? name.get<std::string>() : "");
+  }
+  return names;
 }
 
 }  // namespace fragtrace

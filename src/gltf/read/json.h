@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <nlohmann/json.hpp>
-#include <nlohmann/json_fwd.hpp>
 
 #include "gltf/read/diagnostics.h"
 #include "image/image.h"
@@ -17,11 +18,27 @@ nlohmann::json parseJson(std::string_view text, MemoryBudget& memory, Diagnostic
 // Parts of a document's JSON that may be missing.
 
 /// Null where there is no such member.
-inline const nlohmann::json& memberOf(const nlohmann::json& object, const char* name) {
+inline const nlohmann::json& memberOf(const nlohmann::json& object, std::string_view name) {
   static const nlohmann::json kNone;
   if (!object.is_object()) return kNone;
   const auto found = object.find(name);
   return found != object.end() ? *found : kNone;
+}
+
+/// An extension of an object; null where it has none.
+inline const nlohmann::json& extensionOf(const nlohmann::json& object, std::string_view name) {
+  return memberOf(memberOf(object, "extensions"), name);
+}
+
+inline double numberOf(const nlohmann::json& object, std::string_view name, double otherwise) {
+  const nlohmann::json& member = memberOf(object, name);
+  return member.is_number() ? member.get<double>() : otherwise;
+}
+
+inline std::vector<double> numbersOf(const nlohmann::json& object, std::string_view name,
+                                     const std::vector<double>& otherwise) {
+  const nlohmann::json& member = memberOf(object, name);
+  return member.is_array() ? member.get<std::vector<double>>() : otherwise;
 }
 
 /// The element of the root's list that `index` names, or an empty object.
@@ -33,11 +50,7 @@ inline const nlohmann::json& elementOf(const nlohmann::json& root, const char* l
   return index.get<size_t>() < elements.size() ? elements[index.get<size_t>()] : kNone;
 }
 
-/// Calls check(element, its JSON pointer) for each element of the root's list.
-template <typename Check>
-void forEachIn(const nlohmann::json& root, const char* list, const Check& check) {
-  const nlohmann::json& elements = memberOf(root, list);
-  for (size_t i = 0; i < elements.size(); ++i) check(elements[i], pointerTo(list, i));
-}
+/// The names of an array's elements, "" where one has none.
+std::vector<std::string> namesOf(const nlohmann::json& array);
 
 }  // namespace fragtrace

@@ -2,7 +2,6 @@
 #include "image/compare/bias.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -13,7 +12,6 @@
 #include "base/vectors.h"
 #include "image/channels.h"
 #include "image/compare/difference.h"
-#include "image/image.h"
 
 namespace fragtrace {
 
@@ -44,25 +42,6 @@ double betaFraction(double x, double a, double b) {
   }
   return result;
 }
-
-}  // namespace
-
-double studentTails(double t, double freedom) {
-  // The regularised incomplete beta function I_x(a, b), where 1 - x keeps its digits (ibid., 8.17.4).
-  const double square = t * t;
-  if (std::isinf(square)) return 0;
-  const double a = freedom / 2;
-  const double b = 0.5;
-  const double x = freedom / (freedom + square);
-  const double y = square / (freedom + square);
-  const double logX = -std::log1p(square / freedom);
-  const double front =
-      std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * logX) * std::sqrt(y);
-  if (x < (a + 1) / (a + b + 2)) return front * betaFraction(x, a, b) / a;
-  return 1 - front * betaFraction(y, b, a) / b;
-}
-
-namespace {
 
 constexpr double kFloatRounding = 1e-6;  // smaller relative differences are those of floats
 constexpr double kFullColorDigits = 6;   // -log10 of the p of full red or blue
@@ -197,6 +176,21 @@ void paint(Image& map, const Tile& tile, std::optional<double> p, bool brighter)
 }
 
 }  // namespace
+
+double studentTails(double t, double freedom) {
+  // The regularised incomplete beta function I_x(a, b), where 1 - x keeps its digits (ibid., 8.17.4).
+  const double square = t * t;
+  if (std::isinf(square)) return 0;
+  const double a = freedom / 2;
+  const double b = 0.5;
+  const double x = freedom / (freedom + square);
+  const double y = square / (freedom + square);
+  const double logX = -std::log1p(square / freedom);
+  const double front =
+      std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * logX) * std::sqrt(y);
+  if (x < (a + 1) / (a + b + 2)) return front * betaFraction(x, a, b) / a;
+  return 1 - front * betaFraction(y, b, a) / b;
+}
 
 BiasTest testBias(const Image& picture, const Image& reference, int side) {
   const size_t pixelCount = commonPixelCount(picture, reference);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "image/compare/difference.h"
 
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -15,6 +14,18 @@ namespace {
 std::string sizeText(const Image& image) {
   return std::to_string(image.width) + " x " + std::to_string(image.height);
 }
+
+constexpr std::array<std::string_view, 7> kMetricNames{"rmse", "mse",  "relmse", "psnr",
+                                                       "max",  "flip", "bias"};
+constexpr std::array kMeanings{
+    "root of the mean squared difference of the values; 0 is equal, smaller is better",
+    "mean squared difference of the values; 0 is equal, smaller is better",
+    "mean squared difference relative to the reference; 0 is equal, smaller is better",
+    "peak signal to noise ratio in dB, for a peak of 1; inf is equal, larger is better",
+    "largest difference of a value; 0 is equal, smaller is better",
+    "mean difference as seen on a display, from 0, which is equal, to 1; smaller is better",
+    "chance that pictures without bias differ as much; larger is better, and below 0.001 there is bias"};
+static_assert(kMeanings.size() == kMetricNames.size());
 
 }  // namespace
 
@@ -30,22 +41,6 @@ size_t commonPixelCount(const Image& picture, const Image& reference) {
                       sizeText(reference) + " pixels");
   return size_t(picture.width) * size_t(picture.height);
 }
-
-namespace {
-
-constexpr std::array<std::string_view, 7> kMetricNames{"rmse", "mse",  "relmse", "psnr",
-                                                       "max",  "flip", "bias"};
-constexpr std::array kMeanings{
-    "root of the mean squared difference of the values; 0 is equal, smaller is better",
-    "mean squared difference of the values; 0 is equal, smaller is better",
-    "mean squared difference relative to the reference; 0 is equal, smaller is better",
-    "peak signal to noise ratio in dB, for a peak of 1; inf is equal, larger is better",
-    "largest difference of a value; 0 is equal, smaller is better",
-    "mean difference as seen on a display, from 0, which is equal, to 1; smaller is better",
-    "chance that pictures without bias differ as much; larger is better, and below 0.001 there is bias"};
-static_assert(kMeanings.size() == kMetricNames.size());
-
-}  // namespace
 
 Difference compare(const Image& picture, const Image& reference) {
   const size_t pixelCount = commonPixelCount(picture, reference);

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "image/denoise/oidn.h"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <initializer_list>
-#include <memory>
-#include <optional>
-#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -54,56 +49,25 @@ std::vector<std::filesystem::path> packageFolders() {
   return folders;
 }
 
-/// The error of the dynamic loader since the last call.
-std::string loaderError() {
-  const char* reason = dlerror();
-  return reason == nullptr ? "cannot be opened" : reason;
-}
-
-/// Null when a file cannot be opened, and why.
-void* openOidnFile(const std::filesystem::path& path, std::string& reason) {
+/// Not loaded when a file cannot be opened; `reason` says why.
+DynamicLibrary openOidnFile(const std::filesystem::path& path, std::string& reason) {
   std::error_code error;
   // The loader waits for whoever writes to a pipe.
   if (!std::filesystem::is_regular_file(path, error)) {
     reason =
         path.string() + (std::filesystem::exists(path, error) ? ": is no file" : ": there is no such file");
-    return nullptr;
+    return DynamicLibrary(std::initializer_list<const char*>());
   }
-  void* handle = dlopen(std::filesystem::absolute(path).c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (handle == nullptr) reason = loaderError();
-  return handle;
-}
-
-template <typename Function>
-void findOidnFunction(void* handle, const std::string& file, const char* name, Function& function) {
-  function = reinterpret_cast<Function>(dlsym(handle, name));
-  if (function == nullptr) throw UsageError(file + ": is no Open Image Denoise 2: it lacks " + name);
-}
-
-OidnFunctions findOidnFunctions(void* handle, const std::string& file) {
-  OidnFunctions call{};
-  const auto find = [&](const char* name, auto& function) { findOidnFunction(handle, file, name, function); };
-  find("oidnNewDevice", call.newDevice);
-  find("oidnCommitDevice", call.commitDevice);
-  find("oidnGetDeviceError", call.getDeviceError);
-  find("oidnGetDeviceInt", call.getDeviceInt);
-  find("oidnReleaseDevice", call.releaseDevice);
-  find("oidnNewFilter", call.newFilter);
-  find("oidnSetSharedFilterImage", call.setSharedFilterImage);
-  find("oidnSetFilterBool", call.setFilterBool);
-  find("oidnSetFilterInt", call.setFilterInt);
-  find("oidnSetFilterProgressMonitorFunction", call.setProgressMonitor);
-  find("oidnCommitFilter", call.commitFilter);
-  find("oidnExecuteFilter", call.executeFilter);
-  find("oidnReleaseFilter", call.releaseFilter);
-  return call;
+  DynamicLibrary library({std::filesystem::absolute(path).c_str()});
+  reason = library.error();
+  return library;
 }
 
 /// Makes the device, which knows the version.
-OidnLibrary startOidn(void* handle, const std::string& file) {
-  OidnLibrary library;
-  library.call = findOidnFunctions(handle, file);
-  library.file = file;
+OidnLibrary startOidn(const DynamicLibrary& opened, const std::string& file) {
+  OidnLibrary library{.call = OidnFunctions(opened), .file = file};
+  if (!library.call.complete())
+    throw UsageError(file + ": is no Open Image Denoise 2: it lacks " + library.call.missing());
   const auto checkStarted = [&] {
     const char* message = nullptr;
     if (library.call.getDeviceError(library.device.get(), &message) == kOidnNoError && library.device) return;
@@ -129,20 +93,21 @@ OidnLibrary startOidn(void* handle, const std::string& file) {
 
 OidnLibrary openNamedOidn(const std::filesystem::path& path, const std::string& saidBy) {
   std::string reason;
-  void* handle = openOidnFile(path, reason);
-  if (handle == nullptr) throw UsageError(saidBy + ": cannot be opened as a library: " + reason);
-  return startOidn(handle, path.string());
+  const DynamicLibrary library = openOidnFile(path, reason);
+  if (!library.loaded()) throw UsageError(saidBy + ": cannot be opened as a library: " + reason);
+  return startOidn(library, path.string());
 }
 
 OidnLibrary openAnyOidn() {
-  if (void* handle = dlopen(kOidnName, RTLD_NOW | RTLD_LOCAL)) return startOidn(handle, kOidnName);
+  if (const DynamicLibrary library({kOidnName}); library.loaded()) return startOidn(library, kOidnName);
   std::string reasons;
   for (const std::filesystem::path& folder : packageFolders()) {
     const std::filesystem::path path = folder / "pyoidn/oidn/lib" / kOidnName;
     std::error_code error;
     if (!std::filesystem::exists(path, error)) continue;
     std::string reason;
-    if (void* handle = openOidnFile(path, reason)) return startOidn(handle, path.string());
+    const DynamicLibrary library = openOidnFile(path, reason);
+    if (library.loaded()) return startOidn(library, path.string());
     reasons += "; " + reason;
   }
   throw UsageError(std::string("Open Image Denoise is not there: neither ") + kOidnName +
@@ -150,25 +115,6 @@ OidnLibrary openAnyOidn() {
                    "--oidn-library or " +
                    kOidnVariable + ")" + reasons);
 }
-
-}  // namespace
-
-bool namesOidn(const std::filesystem::path& chosen) {
-  return !chosen.empty() || !textOfVariable(kOidnVariable).empty();
-}
-
-OidnLibrary openOidn(const std::filesystem::path& chosen) {
-  const auto start = std::chrono::steady_clock::now();
-  const std::string byVariable = textOfVariable(kOidnVariable);
-  OidnLibrary library = !chosen.empty()       ? openNamedOidn(chosen, "--oidn-library")
-                        : !byVariable.empty() ? openNamedOidn(byVariable, kOidnVariable)
-                                              : openAnyOidn();
-  library.loadMs =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  return library;
-}
-
-namespace {
 
 using LayerNames = std::array<const char*, 3>;
 constexpr LayerNames kOidnColor{"R", "G", "B"};
@@ -333,14 +279,6 @@ class OidnRuns {
   const OidnProgress& progress_;
 };
 
-}  // namespace
-
-bool hasOidnGuides(const Image& picture) {
-  return hasLayer(picture, kOidnAlbedo) && hasLayer(picture, kOidnNormal);
-}
-
-namespace {
-
 /// The library takes what is outside of a thin picture for black: its last rows and columns are repeated.
 constexpr int kThinnest = 64;
 
@@ -378,44 +316,6 @@ void keepBackground(Triples& output, const Triples& color, const Image& noisy) {
     if (!(noisy.values[pixel] > 0.0f)) std::copy_n(&color[i], 3, &output[i]);
   }
 }
-
-}  // namespace
-
-std::optional<Image> denoisedByOidn(const Image& noisy, const OidnLibrary& library, uint64_t memoryBytes,
-                                    const OidnProgress& progress) {
-  if (noisy.width < kThinnest || noisy.height < kThinnest) {
-    const std::optional<Image> larger = denoisedByOidn(atLeastAsLarge(noisy), library, memoryBytes, progress);
-    return larger ? std::optional(cutTo(*larger, noisy.width, noisy.height)) : std::nullopt;
-  }
-  const bool guided = hasOidnGuides(noisy);
-  Triples color = triplesOf(noisy, kOidnColor);
-  const std::optional<int> exponent = exponentOf(color);
-  // The library would make light of it.
-  if (!exponent) return Image{noisy.width, noisy.height, {"R", "G", "B"}, std::move(color), {}};
-  Triples scaled = color;
-  multiplyByPowerOfTwo(scaled, -*exponent);
-  Triples output(color.size());
-  OidnRuns runs(library, noisy.width, noisy.height, memoryBytes, guided ? 3 : 1, progress);
-  if (guided) {
-    // Guides that have noise of their own, as at edges, blur the picture unless they are filtered first.
-    Triples albedo = triplesOf(noisy, kOidnAlbedo);
-    Triples normal = triplesOf(noisy, kOidnNormal);
-    if (!runs.run({{"albedo", albedo}}, albedo, false, false) ||
-        !runs.run({{"normal", normal}}, normal, false, false) ||
-        !runs.run({{"color", scaled}, {"albedo", albedo}, {"normal", normal}}, output, true, true))
-      return std::nullopt;
-  } else if (!runs.run({{"color", scaled}}, output, true, false)) {
-    return std::nullopt;
-  }
-  for (size_t i = 0; i < output.size(); ++i) {
-    output[i] = std::ldexp(output[i], *exponent);
-    if (!std::isfinite(output[i])) output[i] = color[i];
-  }
-  keepBackground(output, color, noisy);
-  return Image{noisy.width, noisy.height, {"R", "G", "B"}, std::move(output), {}};
-}
-
-namespace {
 
 /// Indices of a layer's three channels, and what stands before the layer's name: "ViewLayer.".
 struct FoundLayer {
@@ -492,6 +392,59 @@ Image coverageOf(const Image& file, size_t depth) {
 }
 
 }  // namespace
+
+bool namesOidn(const std::filesystem::path& chosen) {
+  return !chosen.empty() || !textOfVariable(kOidnVariable).empty();
+}
+
+OidnLibrary openOidn(const std::filesystem::path& chosen) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::string byVariable = textOfVariable(kOidnVariable);
+  OidnLibrary library = !chosen.empty()       ? openNamedOidn(chosen, "--oidn-library")
+                        : !byVariable.empty() ? openNamedOidn(byVariable, kOidnVariable)
+                                              : openAnyOidn();
+  library.loadMs =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return library;
+}
+
+bool hasOidnGuides(const Image& picture) {
+  return hasLayer(picture, kOidnAlbedo) && hasLayer(picture, kOidnNormal);
+}
+
+std::optional<Image> denoisedByOidn(const Image& noisy, const OidnLibrary& library, uint64_t memoryBytes,
+                                    const OidnProgress& progress) {
+  if (noisy.width < kThinnest || noisy.height < kThinnest) {
+    const std::optional<Image> larger = denoisedByOidn(atLeastAsLarge(noisy), library, memoryBytes, progress);
+    return larger ? std::optional(cutTo(*larger, noisy.width, noisy.height)) : std::nullopt;
+  }
+  const bool guided = hasOidnGuides(noisy);
+  Triples color = triplesOf(noisy, kOidnColor);
+  const std::optional<int> exponent = exponentOf(color);
+  // The library would make light of it.
+  if (!exponent) return Image{noisy.width, noisy.height, {"R", "G", "B"}, std::move(color), {}};
+  Triples scaled = color;
+  multiplyByPowerOfTwo(scaled, -*exponent);
+  Triples output(color.size());
+  OidnRuns runs(library, noisy.width, noisy.height, memoryBytes, guided ? 3 : 1, progress);
+  if (guided) {
+    // Guides that have noise of their own, as at edges, blur the picture unless they are filtered first.
+    Triples albedo = triplesOf(noisy, kOidnAlbedo);
+    Triples normal = triplesOf(noisy, kOidnNormal);
+    if (!runs.run({{"albedo", albedo}}, albedo, false, false) ||
+        !runs.run({{"normal", normal}}, normal, false, false) ||
+        !runs.run({{"color", scaled}, {"albedo", albedo}, {"normal", normal}}, output, true, true))
+      return std::nullopt;
+  } else if (!runs.run({{"color", scaled}}, output, true, false)) {
+    return std::nullopt;
+  }
+  for (size_t i = 0; i < output.size(); ++i) {
+    output[i] = std::ldexp(output[i], *exponent);
+    if (!std::isfinite(output[i])) output[i] = color[i];
+  }
+  keepBackground(output, color, noisy);
+  return Image{noisy.width, noisy.height, {"R", "G", "B"}, std::move(output), {}};
+}
 
 Image layersForFilter(const Image& file) {
   const auto color = findColor(file);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "base/dynamic_library.h"
 #include "image/image.h"
 
 namespace fragtrace {
@@ -31,32 +32,35 @@ inline constexpr int kOidnCancelledError = 6;  // OIDN_ERROR_CANCELLED
 /// `fraction` is the part done, 0..1; false ends the filter with the error "cancelled".
 using OidnProgressMonitor = bool (*)(void* user, double fraction);
 
-struct OidnFunctions {
-  OidnDeviceHandle* (*newDevice)(int type);
-  void (*commitDevice)(OidnDeviceHandle*);
+struct OidnFunctions : LibraryFunctions {
+  using LibraryFunctions::LibraryFunctions;
+  OidnDeviceHandle* (*newDevice)(int type) = find("oidnNewDevice");
+  void (*commitDevice)(OidnDeviceHandle*) = find("oidnCommitDevice");
   /// The first error since the last call, and its message. Without a device it is that of the calling thread.
-  int (*getDeviceError)(OidnDeviceHandle*, const char** message);
-  int (*getDeviceInt)(OidnDeviceHandle*, const char* name);
-  void (*releaseDevice)(OidnDeviceHandle*);
-  OidnFilterHandle* (*newFilter)(OidnDeviceHandle*, const char* type);
+  int (*getDeviceError)(OidnDeviceHandle*, const char** message) = find("oidnGetDeviceError");
+  int (*getDeviceInt)(OidnDeviceHandle*, const char* name) = find("oidnGetDeviceInt");
+  void (*releaseDevice)(OidnDeviceHandle*) = find("oidnReleaseDevice");
+  OidnFilterHandle* (*newFilter)(OidnDeviceHandle*, const char* type) = find("oidnNewFilter");
   /// Strides of 0: the pixels lie one behind the other. The memory stays the caller's.
   void (*setSharedFilterImage)(OidnFilterHandle*, const char* name, void* pixels, int format, size_t width,
-                               size_t height, size_t byteOffset, size_t pixelStride, size_t rowStride);
-  void (*setFilterBool)(OidnFilterHandle*, const char* name, bool value);
-  void (*setFilterInt)(OidnFilterHandle*, const char* name, int value);
-  void (*setProgressMonitor)(OidnFilterHandle*, OidnProgressMonitor, void* user);
-  void (*commitFilter)(OidnFilterHandle*);
-  void (*executeFilter)(OidnFilterHandle*);
-  void (*releaseFilter)(OidnFilterHandle*);
+                               size_t height, size_t byteOffset, size_t pixelStride,
+                               size_t rowStride) = find("oidnSetSharedFilterImage");
+  void (*setFilterBool)(OidnFilterHandle*, const char* name, bool value) = find("oidnSetFilterBool");
+  void (*setFilterInt)(OidnFilterHandle*, const char* name, int value) = find("oidnSetFilterInt");
+  void (*setProgressMonitor)(OidnFilterHandle*, OidnProgressMonitor,
+                             void* user) = find("oidnSetFilterProgressMonitorFunction");
+  void (*commitFilter)(OidnFilterHandle*) = find("oidnCommitFilter");
+  void (*executeFilter)(OidnFilterHandle*) = find("oidnExecuteFilter");
+  void (*releaseFilter)(OidnFilterHandle*) = find("oidnReleaseFilter");
 };
 
 /// The library with a device on the processor. It stays open when this goes.
 struct OidnLibrary {
-  OidnFunctions call{};
-  std::shared_ptr<OidnDeviceHandle> device;
-  std::string file;     ///< a path, or the name that the loader found
-  std::string version;  ///< "2.5.1"
-  double loadMs = 0.0;  ///< time to open it and to make the device
+  OidnFunctions call;
+  std::shared_ptr<OidnDeviceHandle> device{};
+  std::string file{};     ///< a path, or the name that the loader found
+  std::string version{};  ///< "2.5.1"
+  double loadMs = 0.0;    ///< time to open it and to make the device
 };
 
 /// Opens `chosen`; without it the file that the variable FRAGTRACE_OIDN_LIBRARY names; without that what the
@@ -79,7 +83,7 @@ bool hasOidnGuides(const Image& picture);
 /// R, G and B of the picture that `noisy` converges to, estimated from its linear R, G and B, which it must
 /// have and which are not clamped, and from albedo (0..1) and normal (-1..1) of kGuideChannels, if it has
 /// both. Pixels whose coverage among these is 0 stay as they are. Values that are not finite count as 0.
-/// Takes about `memoryBytes` at most, beside fifteen floats per pixel. Nothing when `progress` stops it.
+/// Takes about `memoryBytes` at most, besides fifteen floats per pixel. Nothing when `progress` stops it.
 /// Throws RenderError with what the library says.
 std::optional<Image> denoisedByOidn(const Image& noisy, const OidnLibrary& library, uint64_t memoryBytes,
                                     const OidnProgress& progress = {});

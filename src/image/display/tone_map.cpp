@@ -20,6 +20,9 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kToneMapNames{"linear", "reinhard", "aces", "agx", "neutral"};
 
+/// Above this all curves are flat; it keeps infinity, and with it inf / inf, out of them.
+constexpr double kBrightest = 1e30;
+
 /// Reinhard et al., "Photographic Tone Reproduction for Digital Images", 2002, eq. 3, a channel at a time.
 glm::dvec3 reinhard(glm::dvec3 color) { return color / (1.0 + color); }
 
@@ -100,9 +103,7 @@ std::optional<ToneMap> parseToneMap(std::string_view name) {
 }
 
 glm::dvec3 applyToneMap(ToneMap toneMap, glm::dvec3 color) {
-  // Above this all curves are flat; it keeps infinity, and with it inf / inf, out of them. NaN compares
-  // false.
-  constexpr double kBrightest = 1e30;
+  // NaN compares false.
   for (int i = 0; i < 3; ++i) color[i] = color[i] > 0 ? std::min(color[i], kBrightest) : 0.0;
 
   switch (toneMap) {
@@ -132,7 +133,11 @@ double decodeSrgb(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-Image toDisplay(const Image& linear, double exposureEv, ToneMap toneMap) {
+namespace {
+
+/// The pixels' exposed, unassociated colours through a function, with A.
+template <typename Curve>
+Image mapColors(const Image& linear, double exposureEv, const Curve& curve) {
   const auto channels = findColorChannels(linear);
   if (!channels) throw RenderError("cannot tone-map a picture without colour channels");
   const auto alphaChannel = findChannel(linear, "A");
@@ -151,11 +156,28 @@ Image toDisplay(const Image& linear, double exposureEv, ToneMap toneMap) {
       alpha = value > 0 ? std::min(value, 1.0) : 0.0;  // NaN compares false
       color = alpha > 0 ? color / alpha : glm::dvec3(0.0);
     }
-    color = applyToneMap(toneMap, color * factor);
-    for (int c = 0; c < 3; ++c) display.values.push_back(float(encodeSrgb(color[c])));
+    color = curve(color * factor);
+    for (int c = 0; c < 3; ++c) display.values.push_back(float(color[c]));
     if (alphaChannel) display.values.push_back(float(alpha));
   }
   return display;
+}
+
+}  // namespace
+
+Image toDisplay(const Image& linear, double exposureEv, ToneMap toneMap) {
+  return mapColors(linear, exposureEv, [&](const glm::dvec3& color) {
+    const glm::dvec3 shown = applyToneMap(toneMap, color);
+    return glm::dvec3(encodeSrgb(shown.x), encodeSrgb(shown.y), encodeSrgb(shown.z));
+  });
+}
+
+Image exposedColors(const Image& linear, double exposureEv) {
+  return mapColors(linear, exposureEv, [](glm::dvec3 color) {
+    for (int c = 0; c < 3; ++c)
+      color[c] = std::isnan(color[c]) ? 0.0 : std::clamp(color[c], -kBrightest, kBrightest);
+    return color;
+  });
 }
 
 glm::dvec3 shownOver(const glm::dvec3& page, const glm::dvec4& color, double factor, ToneMap toneMap) {
@@ -215,14 +237,15 @@ Image forBlendedValues(Image display) {
   return display;
 }
 
-Image toDefaultDisplay(const Image& linear) {
-  Image display = toDisplay(linear, 0, ToneMap::Neutral);
+Image toDefaultDisplay(const Image& linear) { return asRead(toDisplay(linear, 0, ToneMap::Neutral), linear); }
+
+Image asRead(Image display, const Image& linear) {
   dither(display, linear.placement.value_or(Placement()).corner);
   for (float& value : display.values)
     value = std::round(std::clamp(value, 0.0F, 1.0F) * 255.0F) *
             (1 / 255.0F);  // the value that a reader of the file gets
 
-  const auto channels = findColorChannels(linear).value();  // toDisplay has thrown if there are no colours
+  const auto channels = findColorChannels(linear).value();  // what has displayed it has thrown else
   const size_t pixelCount = size_t(linear.width) * size_t(linear.height);
   for (size_t i = 0; i < pixelCount; ++i)
     for (size_t c = 0; c < 3; ++c)

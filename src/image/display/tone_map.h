@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include <glm/vec3.hpp>
@@ -29,11 +30,26 @@ double encodeSrgb(double linear);
 /// The inverse of encodeSrgb(): returns the linear value of an encoded one in 0..1.
 double decodeSrgb(double encoded);
 
+/// A view of an OpenColorIO configuration, which takes the place of the curve. Empty names: see --ocio-view.
+struct OcioView {
+  std::string config;
+  std::string display;
+  std::string view;  ///< empty: no view
+  std::string look;
+  std::string input;
+
+  bool operator==(const OcioView&) const = default;
+};
+
 /// R, G, B in 0..1, sRGB-encoded, after a factor of 2^exposureEv and the curve. With a channel A the colour
 /// is taken as premultiplied and returned unassociated, with A; colour is 0 where A is. Other channels are
 /// dropped. For a format without alpha pass withoutAlpha(linear), which puts it over black. Throws
 /// RenderError without colour.
 Image toDisplay(const Image& linear, double exposureEv, ToneMap toneMap);
+
+/// Returns what a view of OpenColorIO takes: toDisplay() with neither curve nor encoding. NaN counts as 0,
+/// and no value is beyond 1e30.
+Image exposedColors(const Image& linear, double exposureEv);
 
 /// Linear display values in 0..1 of a colour with coverage that lies over a page, after this factor and
 /// curve: a pixel of toDisplayOver().
@@ -48,9 +64,13 @@ Image toDisplayOver(const glm::vec3& page, const Image& linear, double exposureE
 /// blending light shows. Unchanged where it has no channel A.
 Image forBlendedValues(Image display);
 
+/// A displayed picture as readImage reads it from a .png: dithered and rounded to 8 bits. Only colour of the
+/// `linear` picture that is not finite becomes NaN, so that no comparison takes a broken picture for a good
+/// one.
+Image asRead(Image display, const Image& linear);
+
 /// The .png of a linear picture with default options, as readImage reads it: toDisplay at exposure 0 with the
-/// neutral curve, dithered and rounded to 8 bits. Only colour that is not finite becomes NaN, so that no
-/// comparison takes a broken picture for a good one. Throws as toDisplay does.
+/// neutral curve. Throws as toDisplay does.
 Image toDefaultDisplay(const Image& linear);
 
 /// Adds noise of one step of 8 bits to the colours of a picture of toDisplay(), for a format of 8 bits

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "image/files/header.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <initializer_list>
 #include <optional>
 #include <stdexcept>
-#include <string>
 #include <string_view>
 
 #include "base/text.h"
@@ -215,90 +212,6 @@ ImageHeader hdrHeader(Bytes bytes) {
   return header;
 }
 
-}  // namespace
-
-bool isCompletePng(Bytes bytes) {
-  // PNG specification, chapter 5: a signature, then chunks of length, type, data and checksum.
-  constexpr size_t kSignatureSize = 8, kTypeAt = 4, kTypeSize = 4, kOverhead = 12;
-  bytes = bytes.subspan(std::min(kSignatureSize, bytes.size()));
-  while (bytes.size() >= kOverhead) {
-    const size_t length = size_t(bytes[0]) << 24 | size_t(bytes[1]) << 16 | size_t(bytes[2]) << 8 | bytes[3];
-    if (length > bytes.size() - kOverhead) return false;
-    if (std::string_view(reinterpret_cast<const char*>(bytes.data()) + kTypeAt, kTypeSize) == "IEND")
-      return true;
-    bytes = bytes.subspan(length + kOverhead);
-  }
-  return false;
-}
-
-JpegFrame readJpegFrame(Bytes bytes) {
-  // Markers of ITU-T T.81, table B.1.
-  constexpr uint8_t kStuffedZero = 0x00, kTemporary = 0x01, kFirstFrame = 0xc0, kHuffmanTable = 0xc4,
-                    kExtension = 0xc8, kArithmeticTable = 0xcc, kLastFrame = 0xcf, kFirstRestart = 0xd0,
-                    kStartOfImage = 0xd8, kEndOfImage = 0xd9, kStartOfScan = 0xda, kFill = 0xff;
-  JpegFrame frame;
-  size_t at = 0;
-  while (at + 1 < bytes.size()) {
-    // Between segments, and in a scan's entropy-coded data, everything but 0xff and a marker is skipped.
-    const uint8_t marker = bytes[at + 1];
-    if (bytes[at] != 0xff || marker == kFill) {
-      ++at;
-      continue;
-    }
-    at += 2;
-    if (marker == kEndOfImage) {
-      frame.complete = frame.scans > 0;
-      return frame;
-    }
-    if (marker == kStuffedZero || marker == kTemporary ||
-        (marker >= kFirstRestart && marker <= kStartOfImage))
-      continue;
-
-    if (marker == kStartOfScan) ++frame.scans;
-    if (at + 1 >= bytes.size()) return frame;
-    const bool isFrame = marker >= kFirstFrame && marker <= kLastFrame && marker != kHuffmanTable &&
-                         marker != kExtension && marker != kArithmeticTable;
-    // B.2.2: length, precision, lines, samples per line.
-    constexpr size_t kFrameSize = 7;
-    if (isFrame && bytes.size() - at >= kFrameSize) {
-      frame.height = bytes[at + 3] << 8 | bytes[at + 4];
-      frame.width = bytes[at + 5] << 8 | bytes[at + 6];
-    }
-    at += size_t(bytes[at]) << 8 | bytes[at + 1];
-  }
-  return frame;
-}
-
-ImageHeader readImageHeader(Bytes bytes) {
-  if (bytes.empty()) throw std::runtime_error("it is empty");
-  const auto format = formatOfBytes(bytes);
-  if (!format)
-    throw std::runtime_error("it is no PNG, JPEG, WebP, AVIF, KTX2, OpenEXR, Radiance HDR or PFM picture");
-  switch (*format) {
-    case ImageFormat::Png:
-      return pngHeader(bytes);
-    case ImageFormat::Jpeg:
-      return jpegHeader(bytes);
-    case ImageFormat::WebP:
-      return webpHeader(bytes);
-    case ImageFormat::Hdr:
-      return hdrHeader(bytes);
-    case ImageFormat::Avif:
-      return avifHeader(bytes);
-    case ImageFormat::OpenExr:
-      return readExrHeader(bytes);
-    case ImageFormat::Ktx2:
-      return readKtx2Header(bytes);
-    case ImageFormat::Pfm: {
-      const PfmHeader pfm = readPfmHeader(bytes);
-      return {ImageFormat::Pfm, pfm.width, pfm.height, pfm.channelCount};
-    }
-  }
-  refuseTruncated();
-}
-
-namespace {
-
 [[noreturn]] void refuse() { throw std::runtime_error("the OpenEXR header is wrong or truncated"); }
 
 Bytes take(Bytes& bytes, size_t count) {
@@ -408,8 +321,10 @@ void extend(Window& window, const Window& other) {
             std::max(window.right, other.right), std::max(window.bottom, other.bottom)};
 }
 
-}  // namespace
-
+/// readImageHeader() of an OpenEXR file, whose libraries in the distribution believe its header before they
+/// read on: those of all parts. Refuses a file without an attribute that is needed or with a wrong one, one
+/// whose data windows are outside of the display window, one that is shorter than its tables of blocks, and
+/// deep pictures.
 ImageHeader readExrHeader(Bytes bytes) {
   constexpr uint32_t kTiled = 0x200, kDeep = 0x800, kMultiPart = 0x1000;
   take(bytes, 4);  // the signature
@@ -444,8 +359,6 @@ ImageHeader readExrHeader(Bytes bytes) {
     header.overscan = {int(data->width()), int(data->height())};
   return header;
 }
-
-namespace {
 
 /// KTX 2.0 specification, 3.1, and the first entry of the level index (3.9.7). All numbers are little-endian.
 struct Fields {
@@ -533,8 +446,9 @@ void checkMetadata(Bytes metadata) {
   }
 }
 
-}  // namespace
-
+/// readImageHeader() of a KTX2 file, of which it reads header, format and metadata: what KHR_texture_basisu
+/// allows. Refuses a truncated file, one that is no picture of two dimensions, one that is neither ETC1S nor
+/// UASTC, one that is turned or swizzled, and colours that are multiplied by alpha.
 ImageHeader readKtx2Header(Bytes bytes) {
   const auto header = valueAt<Fields>(bytes, 0);
   checkShape(header);
@@ -543,6 +457,88 @@ ImageHeader readKtx2Header(Bytes bytes) {
   sliceOf(bytes, header.globalOffset, header.globalLength);
   if (sliceOf(bytes, header.levelOffset, header.levelLength).empty()) refuse("its level 0 is empty");
   return {ImageFormat::Ktx2, int(header.width), int(header.height), kMostTextureChannels, {}, {}, 8};
+}
+
+}  // namespace
+
+bool isCompletePng(Bytes bytes) {
+  // PNG specification, chapter 5: a signature, then chunks of length, type, data and checksum.
+  constexpr size_t kSignatureSize = 8, kTypeAt = 4, kTypeSize = 4, kOverhead = 12;
+  bytes = bytes.subspan(std::min(kSignatureSize, bytes.size()));
+  while (bytes.size() >= kOverhead) {
+    const size_t length = size_t(bytes[0]) << 24 | size_t(bytes[1]) << 16 | size_t(bytes[2]) << 8 | bytes[3];
+    if (length > bytes.size() - kOverhead) return false;
+    if (std::string_view(reinterpret_cast<const char*>(bytes.data()) + kTypeAt, kTypeSize) == "IEND")
+      return true;
+    bytes = bytes.subspan(length + kOverhead);
+  }
+  return false;
+}
+
+JpegFrame readJpegFrame(Bytes bytes) {
+  // Markers of ITU-T T.81, table B.1.
+  constexpr uint8_t kStuffedZero = 0x00, kTemporary = 0x01, kFirstFrame = 0xc0, kHuffmanTable = 0xc4,
+                    kExtension = 0xc8, kArithmeticTable = 0xcc, kLastFrame = 0xcf, kFirstRestart = 0xd0,
+                    kStartOfImage = 0xd8, kEndOfImage = 0xd9, kStartOfScan = 0xda, kFill = 0xff;
+  JpegFrame frame;
+  size_t at = 0;
+  while (at + 1 < bytes.size()) {
+    // Between segments, and in a scan's entropy-coded data, everything but 0xff and a marker is skipped.
+    const uint8_t marker = bytes[at + 1];
+    if (bytes[at] != 0xff || marker == kFill) {
+      ++at;
+      continue;
+    }
+    at += 2;
+    if (marker == kEndOfImage) {
+      frame.complete = frame.scans > 0;
+      return frame;
+    }
+    if (marker == kStuffedZero || marker == kTemporary ||
+        (marker >= kFirstRestart && marker <= kStartOfImage))
+      continue;
+
+    if (marker == kStartOfScan) ++frame.scans;
+    if (at + 1 >= bytes.size()) return frame;
+    const bool isFrame = marker >= kFirstFrame && marker <= kLastFrame && marker != kHuffmanTable &&
+                         marker != kExtension && marker != kArithmeticTable;
+    // B.2.2: length, precision, lines, samples per line.
+    constexpr size_t kFrameSize = 7;
+    if (isFrame && bytes.size() - at >= kFrameSize) {
+      frame.height = bytes[at + 3] << 8 | bytes[at + 4];
+      frame.width = bytes[at + 5] << 8 | bytes[at + 6];
+    }
+    at += size_t(bytes[at]) << 8 | bytes[at + 1];
+  }
+  return frame;
+}
+
+ImageHeader readImageHeader(Bytes bytes) {
+  if (bytes.empty()) throw std::runtime_error("it is empty");
+  const auto format = formatOfBytes(bytes);
+  if (!format)
+    throw std::runtime_error("it is no PNG, JPEG, WebP, AVIF, KTX2, OpenEXR, Radiance HDR or PFM picture");
+  switch (*format) {
+    case ImageFormat::Png:
+      return pngHeader(bytes);
+    case ImageFormat::Jpeg:
+      return jpegHeader(bytes);
+    case ImageFormat::WebP:
+      return webpHeader(bytes);
+    case ImageFormat::Hdr:
+      return hdrHeader(bytes);
+    case ImageFormat::Avif:
+      return avifHeader(bytes);
+    case ImageFormat::OpenExr:
+      return readExrHeader(bytes);
+    case ImageFormat::Ktx2:
+      return readKtx2Header(bytes);
+    case ImageFormat::Pfm: {
+      const PfmHeader pfm = readPfmHeader(bytes);
+      return {ImageFormat::Pfm, pfm.width, pfm.height, pfm.channelCount};
+    }
+  }
+  refuseTruncated();
 }
 
 }  // namespace fragtrace

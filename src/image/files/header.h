@@ -51,17 +51,6 @@ inline uint64_t decodedValues(const ImageHeader& header) {
 /// justify.
 ImageHeader readImageHeader(std::span<const uint8_t> bytes);
 
-/// Does the same for an OpenEXR file, whose libraries in the distribution believe its header before they read
-/// on: those of all parts. Refuses a file without an attribute that is needed or with a wrong one, one whose
-/// data windows are outside of the display window, one that is shorter than its tables of blocks, and deep
-/// pictures.
-ImageHeader readExrHeader(std::span<const uint8_t> bytes);
-
-/// Does the same for a KTX2 file, of which it reads header, format and metadata: what KHR_texture_basisu
-/// allows. Refuses a truncated file, one that is no picture of two dimensions, one that is neither ETC1S nor
-/// UASTC, one that is turned or swizzled, and colours that are multiplied by alpha.
-ImageHeader readKtx2Header(std::span<const uint8_t> bytes);
-
 /// True when a PNG's chunks reach the end chunk. libpng sees a truncation too, but writes a line of its own
 /// to stderr.
 bool isCompletePng(std::span<const uint8_t> bytes);

@@ -10,7 +10,6 @@
 
 #include "base/text.h"
 #include "image/channels.h"
-#include "image/image.h"
 
 namespace fragtrace {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "image/files/picture_files.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,6 +27,8 @@
 namespace fragtrace {
 
 namespace {
+
+// Applies to the values of a picture what its header says about them.
 
 /// Puts each pixel of scan lines where the header says.
 Image asTurned(Image stored, const ImageHeader& header) {
@@ -137,25 +137,6 @@ void convertToRec709(Image& image) {
   values.assign(kRec709.begin(), kRec709.end());
 }
 
-}  // namespace
-
-Image asShown(Image stored, const ImageHeader& header) {
-  Image image = namedParts(asTurned(std::move(stored), header));
-  takeExposureBack(image, header.hdr.exposure);
-  if (header.hdr.hasVainExposure)
-    image.notes.emplace_back("has an EXPOSURE or COLORCORR that is no number above 0, and is ignored");
-  if (header.format == ImageFormat::Hdr && !header.hdr.namesFormat)
-    image.notes.emplace_back("has no FORMAT in its header, and is read as 32-bit_rle_rgbe");
-  convertToRec709(image);
-  if (header.overscan != glm::ivec2(0))
-    image.notes.push_back(
-        formatted("has %d x %d pixels, some of them outside of its display window of %d x %d, which are cut",
-                  header.overscan.x, header.overscan.y, header.width, header.height));
-  return image;
-}
-
-namespace {
-
 /// The channels of a part, as a range of those of the file.
 struct ExrPart {
   std::string name;
@@ -189,8 +170,11 @@ int rankOfPart(const ExrPart& part) {
   return isBeauty(part.name) ? 0 : 1;
 }
 
-}  // namespace
-
+/// Names the channels of an .exr of several parts, which the worker calls by both names with a line end
+/// between: PART\nCHANNEL. The part of the colours comes first, and its channels keep their names: the first
+/// that is called as a beauty pass is, else the first that has R, G and B, else the first. Of the others, a
+/// channel without a layer gets the name of its part in front, such as "depth.Z", and so does one whose name
+/// is taken.
 Image namedParts(Image stored) {
   const auto isOfPart = [](const std::string& name) { return name.find('\n') != std::string::npos; };
   if (!std::ranges::all_of(stored.channels, isOfPart)) return stored;
@@ -219,6 +203,26 @@ Image namedParts(Image stored) {
   }
   return stored;
 }
+
+/// Makes of stored values the radiance of the picture, in linear Rec. 709, with the first row on top: turns
+/// the scan lines of an .hdr and takes its exposure back, and converts colours of an .exr with other
+/// primaries. Each conversion that changes colours or cuts pixels is one of the picture's notes.
+Image asShown(Image stored, const ImageHeader& header) {
+  Image image = namedParts(asTurned(std::move(stored), header));
+  takeExposureBack(image, header.hdr.exposure);
+  if (header.hdr.hasVainExposure)
+    image.notes.emplace_back("has an EXPOSURE or COLORCORR that is no number above 0, and is ignored");
+  if (header.format == ImageFormat::Hdr && !header.hdr.namesFormat)
+    image.notes.emplace_back("has no FORMAT in its header, and is read as 32-bit_rle_rgbe");
+  convertToRec709(image);
+  if (header.overscan != glm::ivec2(0))
+    image.notes.push_back(
+        formatted("has %d x %d pixels, some of them outside of its display window of %d x %d, which are cut",
+                  header.overscan.x, header.overscan.y, header.width, header.height));
+  return image;
+}
+
+}  // namespace
 
 // readImage, readDisplayImage, readLinearImage and decodeTexels: the format is chosen by the first bytes, the
 // file's name only stands in messages.
@@ -285,11 +289,13 @@ Image readImage(const std::filesystem::path& path, uint64_t memoryLimit) {
   return decodeImage(readWholeFile(path, memoryLimit), path, memoryLimit);
 }
 
-Image readDisplayImage(const std::filesystem::path& path) {
+Image readDisplayImage(const std::filesystem::path& path, const OcioView& view) {
   const uint64_t memoryLimit = defaultMemoryLimit();
   const std::vector<uint8_t> bytes = readWholeFile(path, memoryLimit);
   Image image = decodeImage(bytes, path, memoryLimit);
-  return isLinear(bytes) ? toDefaultDisplay(image) : image;
+  if (!isLinear(bytes)) return image;
+  return view.view.empty() ? toDefaultDisplay(image)
+                           : asRead(shownByView(exposedColors(image, 0), view), image);
 }
 
 LinearImage readLinearImage(const std::filesystem::path& path, uint64_t memoryLimit) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <condition_variable>
+#include <cstdlib>
 #include <mutex>
 #include <stdexcept>
 #include <utility>
@@ -12,7 +13,7 @@
 #include "base/message.h"
 #include "base/parallel.h"
 #include "base/worker.h"
-#include "image/files/header.h"
+#include "image/channels.h"
 #include "image/worker/message.h"
 
 namespace fragtrace {
@@ -95,7 +96,7 @@ Image decodeByProcess(Bytes bytes, const ImageHeader& asShown) {
   if (header.format == ImageFormat::Hdr) bytes = plain = withPlainHeader(bytes, header.hdr);
   if (header.hdr.columns) std::swap(header.width, header.height);
   const uint64_t pixels = uint64_t(header.width) * uint64_t(header.height);
-  constexpr uint64_t kRoomForTexts = 1 << 16;  // beside those that stand in the file
+  constexpr uint64_t kRoomForTexts = 1 << 16;  // besides those that stand in the file
   const WorkResult result =
       decode(PictureTask::DecodeFloats, bytes, header,
              pixels * uint64_t(header.channelCount) * sizeof(float) + bytes.size() + kRoomForTexts);
@@ -142,6 +143,35 @@ std::vector<uint8_t> encodeFloatsByProcess(const Image& image, ImageFormat forma
                 textsOf(image, bits));
 }
 
+Image shownByView(Image exposed, const OcioView& view) {
+  static constexpr WorkerKind kViews{kPictureModule, "the image library", kPictureAdvice,
+                                     "; --tone-map needs none", true};
+  static Worker views(kViews);
+  try {
+    const char* usual = std::getenv("OCIO");
+    if (view.config.empty() && (usual == nullptr || *usual == 0))
+      throw std::runtime_error("no configuration is named (--ocio-config FILE, or $OCIO)");
+    // Without alpha, which some configurations change a little.
+    Image colors = onlyChannels(exposed, {"R", "G", "B"});
+    colors.attributes = {{"config", view.config},
+                         {"display", view.display},
+                         {"view", view.view},
+                         {"look", view.look},
+                         {"input", view.input}};
+    const PictureMessage request = messageOf(colors, PictureTask::ShowByView, ImageFormat::Pfm, 0);
+    const std::vector<uint8_t> texts = textsOf(colors, 0);
+    const Bytes values = asBytes(colors.values);
+    const WorkResult result = views.perform({asMessage(request), values, texts}, values.size(), {});
+    if (result.output.size() != values.size()) refuseAnswer();
+    const auto* shown = reinterpret_cast<const float*>(result.output.data());
+    for (size_t first = 0; first < exposed.values.size(); first += exposed.channelCount(), shown += 3)
+      std::copy_n(shown, 3, exposed.values.begin() + std::ptrdiff_t(first));
+  } catch (const std::runtime_error& error) {
+    throw InputError(std::string("--ocio-view: ") + error.what());
+  }
+  return exposed;
+}
+
 void startImageProcess() noexcept {
   try {
     worker().start();
@@ -150,12 +180,14 @@ void startImageProcess() noexcept {
   }
 }
 
+namespace {
+
+/// Each thread that decodes has a process of its own, which waits for more work. Ends those that wait, except
+/// for one of each kind.
 void endSpareImageProcesses() {
   worker().endSpare();
   ktx2Worker().endSpare();
 }
-
-namespace {
 
 struct Job {
   size_t index;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "image/display/tone_map.h"
 #include "image/files/header.h"
 #include "image/image.h"
 
@@ -36,13 +37,14 @@ std::vector<uint8_t> encodeBytesByProcess(int width, int height, int channelCoun
 /// become 16-bit floats, which must be able to hold the values.
 std::vector<uint8_t> encodeFloatsByProcess(const Image& image, ImageFormat format, bool half = false);
 
+/// Turns R, G, B of exposedColors() into what the view shows, and keeps A. A process of its own does so,
+/// which reads the configuration's files before it is confined. Throws InputError, which lists the names
+/// there are.
+Image shownByView(Image exposed, const OcioView& view);
+
 /// Starts the process ahead of its first use, which takes a millisecond here and 0.1 s there. A failure is
 /// left for the first use to report.
 void startImageProcess() noexcept;
-
-/// Each thread that decodes has a process of its own, which waits for more work. Ends those that wait, except
-/// for one of each kind.
-void endSpareImageProcesses();
 
 // Many pictures at once.
 

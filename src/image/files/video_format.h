@@ -32,6 +32,7 @@ struct VideoFormat {
   PixelForm pixels;            ///< form of the pixels that the encoder gets
   bool evenSize;               ///< width and height are even: chroma has half of each
   bool yuv;                    ///< the file holds luma and chroma
+  bool playsCut;               ///< players show a file that was cut off
   std::string_view encoding;   ///< arguments of ffmpeg, with spaces between
   std::string_view container;  ///< ffmpeg's arguments for the file's container
 };

@@ -10,12 +10,15 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cstdlib>
+#include <fstream>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 
 #include "base/errors.h"
+#include "base/text.h"
 
 namespace fragtrace {
 
@@ -111,16 +114,49 @@ void renamePart(const std::filesystem::path& path, int code) {
   throw cannotWrite(path, code);
 }
 
+/// The beginning of the names of a file's parts, next to what symbolic links lead to: .NAME.
+std::filesystem::path beginningOfParts(const std::filesystem::path& path) {
+  // A name may be as long as the file system allows (255 bytes); its part must then be cut.
+  constexpr size_t kMaximumNameLength = 220;
+  const std::filesystem::path target = behindLinks(path);
+  return target.parent_path() / ("." + target.filename().string().substr(0, kMaximumNameLength) + ".");
+}
+
+/// -MACHINE.part, by which parts of processes with one number differ where machines or containers share a
+/// folder.
+const std::string& endOfParts() {
+  static const std::string theOne = [] {
+    std::string machine(256, '\0');
+    ::gethostname(machine.data(), machine.size());
+    std::string boot;
+    std::getline(std::ifstream("/proc/sys/kernel/random/boot_id"), boot);
+    std::error_code unknown;
+    machine += boot + std::filesystem::read_symlink("/proc/self/ns/pid", unknown).string();
+    return formatted("-%08x.part", uint32_t(std::hash<std::string>()(machine)));
+  }();
+  return theOne;
+}
+
 }  // namespace
 
 std::filesystem::path partOf(const std::filesystem::path& path) {
-  // A name may be as long as the file system allows (255 bytes); its part must then be cut.
-  constexpr size_t kMaximumNameLength = 240;
-  const std::filesystem::path target = behindLinks(path);
-  std::string name(".");
-  name += target.filename().string().substr(0, kMaximumNameLength);
-  name += ".part";
-  return target.parent_path() / name;
+  return beginningOfParts(path) += std::to_string(::getpid()) + endOfParts();
+}
+
+void removeParts(const std::filesystem::path& path, PartsOf whose) {
+  const std::filesystem::path beginning = beginningOfParts(path);
+  const std::string first = beginning.filename().string();
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folderOf(beginning), error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(first) || !name.ends_with(".part")) continue;
+    const std::string behind =
+        name.substr(std::min(name.size(), name.find_first_not_of("0123456789", first.size())));
+    const int process = std::atoi(name.c_str() + first.size());
+    const bool hasEnded = behind == endOfParts() && process > 0 && ::kill(process, 0) != 0 && errno == ESRCH;
+    if (hasEnded || whose == PartsOf::All) ::unlink(entry->path().c_str());
+  }
 }
 
 void takePart(const std::filesystem::path& path) {
@@ -139,7 +175,7 @@ std::vector<uint8_t> readOpenFile(int file, const MemoryBudget& memory, const Be
   } const closing{file};
   struct stat status {};
   if (::fstat(file, &status) != 0) throw std::runtime_error("cannot be read: " + systemReason(errno));
-  if (S_ISDIR(status.st_mode)) throw std::runtime_error("is a directory");
+  if (S_ISDIR(status.st_mode)) throw std::runtime_error("is a folder, not a file");
   if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode))
     throw std::runtime_error("is a device, neither a file nor a pipe");
 
@@ -234,6 +270,9 @@ void replaceFile(const std::filesystem::path& path, std::span<const uint8_t> byt
     if (code != 0) throw cannotWrite(path, code);
     return;
   }
+  // Looking through the folder takes time, which a status file has once.
+  static std::atomic<bool> hasLooked{false};
+  if (kept == Kept::OnDisk || !hasLooked.exchange(true)) removeParts(path);
   const std::filesystem::path part = partOf(path);
   const NamedPart named(part);
   const int file = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <functional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "image/image.h"
@@ -47,14 +46,21 @@ std::vector<uint8_t> readWholeFile(const std::filesystem::path& path, uint64_t l
 /// Files that are replaced many times a second need not outlive a power cut.
 enum class Kept { OnDisk, Briefly };
 
-/// Makes the file hold exactly these bytes: they are written to .NAME.part beside it, which is then renamed,
+/// Makes the file hold exactly these bytes: they are written to its part (partOf), which is then renamed,
 /// so that anybody sees the old file or the new one, also after a power cut (Kept::OnDisk). On failure the
 /// old file is untouched and the part removed. A symbolic link stays, the file that it leads to is replaced;
 /// a device or a pipe is written to. Throws RenderError naming the path and the system's reason.
 void replaceFile(const std::filesystem::path& path, std::span<const uint8_t> bytes, Kept kept = Kept::OnDisk);
 
-/// The part of that file: .NAME.part beside what symbolic links lead to, for a program that writes it.
+/// This process's part of that file, for a program that writes it: .NAME.PROCESS-MACHINE.part next to what
+/// symbolic links lead to. No two processes have one name, so that several may write the same file.
 std::filesystem::path partOf(const std::filesystem::path& path);
+
+enum class PartsOf { EndedProcesses, All };
+
+/// Removes parts of that file that were left: those of this machine's processes that have ended, as
+/// replaceFile() does, or all of a file that no other process writes.
+void removeParts(const std::filesystem::path& path, PartsOf whose = PartsOf::EndedProcesses);
 
 /// Puts the part in the file's place once the disk has it, or removes it and throws RenderError naming the
 /// path and the reason.

@@ -29,6 +29,10 @@ std::vector<uint8_t> encodeBytes(int width, int height, int channelCount, int bi
 std::vector<uint8_t> encodeFloats(const Image& image, std::span<const float> values,
                                   const std::vector<bool>& halves, ImageFormat format);
 
+/// Turns the channels R, G, B (linear Rec. 709) into what a view of an OpenColorIO configuration shows. The
+/// attributes say which: the members of OcioView.
+void showByView(Image& image);
+
 /// Everything that the first use of the library would spend its time on.
 void openImageLibrary();
 

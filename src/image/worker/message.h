@@ -11,7 +11,7 @@
 
 namespace fragtrace {
 
-enum class PictureTask : uint32_t { DecodeFloats, DecodeTexels, EncodeBytes, EncodeFloats };
+enum class PictureTask : uint32_t { DecodeFloats, DecodeTexels, EncodeBytes, EncodeFloats, ShowByView };
 
 /// Begins the input. The bytes of a file to decode or the values to encode follow. It also begins the output
 /// of DecodeFloats, where it describes the picture. The texts of a picture follow its floats.

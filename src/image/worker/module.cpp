@@ -35,6 +35,13 @@ std::vector<uint8_t> encodedFloats(const PictureMessage& request, Bytes input) {
   return encodeFloats(sent.image, sent.values, sent.halves, request.format);
 }
 
+void showInto(WorkOutput& output, const PictureMessage& request, Bytes input) {
+  SentImage sent = takeImage(request, input);
+  sent.image.values.assign(sent.values.begin(), sent.values.end());
+  showByView(sent.image);
+  output.append(asBytes(sent.image.values));
+}
+
 }  // namespace
 
 extern "C" void fragtraceWork(Bytes input, WorkOutput& output) {
@@ -50,6 +57,8 @@ extern "C" void fragtraceWork(Bytes input, WorkOutput& output) {
                                        input, request.format));
     case PictureTask::EncodeFloats:
       return output.append(encodedFloats(request, input));
+    case PictureTask::ShowByView:
+      return showInto(output, request, input);
   }
 }
 

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
-#include "image/worker/openimageio.h"
-
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <regex>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include <OpenImageIO/color.h>
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
 #include "image/image.h"
@@ -21,7 +24,8 @@ namespace fragtrace {
 
 namespace {
 
-// libheif's interface, whose headers are in a package that nothing else here needs.
+// AVIF by libheif, which OpenImageIO links: it reads such pictures from files alone, and this process opens
+// none. Its interface, whose headers are in a package that nothing else here needs.
 
 struct HeifError {
   int code;
@@ -63,8 +67,9 @@ void check(const HeifError& error) {
   throw std::runtime_error(text);
 }
 
-}  // namespace
-
+/// Fills `rgba`, which holds width x height texels of 8 bits. Throws std::runtime_error where the picture has
+/// another size, and where there is no libheif, or none with a decoder of AV1: then the reason names the
+/// package.
 void decodeAvif(std::span<const uint8_t> bytes, int width, int height, std::span<uint8_t> rgba) {
   const auto context = owned(found<HeifContext*()>("heif_context_alloc")(), "heif_context_free");
   check(found<HeifError(HeifContext*, const void*, size_t, const void*)>(
@@ -89,6 +94,8 @@ void decodeAvif(std::span<const uint8_t> bytes, int width, int height, std::span
   for (int y = 0; y < height; ++y)
     std::copy_n(plane + ptrdiff_t(y) * stride, row, rgba.begin() + ptrdiff_t(y) * ptrdiff_t(row));
 }
+
+}  // namespace
 
 // The only file that sees OpenImageIO; formats are chosen by name.
 
@@ -227,7 +234,7 @@ Region around(const Region& a, const Region& b) {
 }
 
 /// Reads all parts of an .exr as one picture, whose channels have the names PART\nCHANNEL where there are
-/// several (image/files/picture_files.h). Pixels outside of the display window are left out.
+/// several (image/files/picture_files.cpp). Pixels outside of the display window are left out.
 Image readParts(OpenPicture& picture) {
   std::vector<OIIO::ImageSpec> specs;
   for (int i = 0; picture.input->seek_subimage(i, 0); ++i) specs.push_back(picture.input->spec());
@@ -369,6 +376,98 @@ std::vector<uint8_t> encodeFloats(const Image& image, std::span<const float> val
   spec.attribute("compression", "zip");
   spec.attribute("DateTime", "");  // else the time of writing, and the same picture gave different files
   return encode(spec, format, values.data());
+}
+
+// OpenColorIO
+
+namespace {
+
+using Names = std::vector<std::string>;
+using Attributes = std::map<std::string, std::string>;
+
+/// The names of linear Rec. 709 in configurations: those of ACES and of Blender, and older ones.
+constexpr const char* kLinearNames[] = {"lin_rec709",
+                                        "lin_rec709_scene",
+                                        "lin_srgb",
+                                        "Linear Rec.709 (sRGB)",
+                                        "Linear Rec.709",
+                                        "Utility - Linear - sRGB",
+                                        "Utility - Linear - Rec.709"};
+
+/// Throws std::runtime_error that lists the names there are.
+void require(const std::string& kind, const std::string& name, const Names& known) {
+  if (std::ranges::find(known, name) != known.end()) return;
+  std::string text = "the configuration has no " + kind + " '" + name + "'; it has: ";
+  for (const std::string& other : known) text += (&other == known.data() ? "" : ", ") + other;
+  throw std::runtime_error(text);
+}
+
+/// Requires each of "a, +b, -c".
+void requireLooks(const std::string& looks, const Names& known) {
+  for (size_t at = 0; at < looks.size();) {
+    const size_t end = std::min(looks.find_first_of(",:", at), looks.size());
+    const size_t first = looks.find_first_not_of(" +-", at);
+    const size_t last = looks.find_last_not_of(' ', end - 1);
+    if (first < end) require("look", looks.substr(first, last - first + 1), known);
+    at = end + 1;
+  }
+}
+
+/// Pictures go through these in turn: the look, if one is asked for, and the view.
+using Processors = std::vector<OIIO::ColorProcessorHandle>;
+
+/// Empty: an error of the configuration says why.
+Processors processorsOf(const OIIO::ColorConfig& config, const std::string& display, const Attributes& view,
+                        const std::string& input) {
+  const OIIO::ustring space(input), look(view.at("look")), none;
+  Processors all;
+  if (!look.empty()) all.push_back(config.createLookTransform(look, space, space, false, none, none));
+#if OIIO_VERSION >= 20500
+  all.push_back(config.createDisplayTransform(OIIO::ustring(display), OIIO::ustring(view.at("view")), space,
+                                              none, false, none, none));
+#else
+  all.push_back(config.createDisplayTransform(OIIO::ustring(display), OIIO::ustring(view.at("view")), space));
+#endif
+  return std::ranges::all_of(all, [](const auto& one) { return one != nullptr; }) ? all : Processors();
+}
+
+/// Reads the configuration and the files that the view needs.
+Processors openView(const Attributes& view) {
+  OIIO::ColorConfig config(view.at("config"));
+  if (config.has_error()) throw std::runtime_error(oneLine(config.geterror()));
+  std::string display = view.at("display");
+  if (display.empty()) display = config.getDefaultDisplayName();
+  require("display", display, config.getDisplayNames());
+  require("view of the display '" + display + "' called", view.at("view"), config.getViewNames(display));
+  requireLooks(view.at("look"), config.getLookNames());
+  Names inputs(std::begin(kLinearNames), std::end(kLinearNames));
+  if (!view.at("input").empty()) inputs = {view.at("input")};
+  const auto input = std::ranges::find_if(inputs, [&](const std::string& name) {
+    return config.getColorSpaceFamilyByName(name) != nullptr;  // else there is none of that name
+  });
+  if (input == inputs.end() && !view.at("input").empty())
+    require("colour space", view.at("input"), config.getColorSpaceNames());
+  if (input == inputs.end())
+    throw std::runtime_error(
+        "the configuration has none of the usual names of linear Rec. 709 (--ocio-input)");
+  Processors all = processorsOf(config, display, view, *input);
+  if (all.empty()) throw std::runtime_error(oneLine(config.geterror()));
+  return all;
+}
+
+}  // namespace
+
+void showByView(Image& image) {
+  static Attributes shown;
+  static Processors processors;
+  if (processors.empty() || shown != image.attributes) processors = openView(image.attributes);
+  shown = image.attributes;
+  const OIIO::ImageSpec spec(image.width, image.height, int(image.channelCount()), OIIO::TypeFloat);
+  OIIO::ImageBuf pixels(spec, image.values.data());
+  for (const OIIO::ColorProcessorHandle& processor : processors) {
+    if (!OIIO::ImageBufAlgo::colorconvert(pixels, pixels, processor.get(), false))
+      throw std::runtime_error(oneLine(pixels.geterror()));
+  }
 }
 
 void openImageLibrary() {

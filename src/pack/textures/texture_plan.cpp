@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "pack/textures/texture_plan.h"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -64,8 +62,6 @@ std::vector<Shown> shownByMaterial(const Scene& scene) {
   return shown;
 }
 
-}  // namespace
-
 TexelDensities texelDensities(const Scene& scene) {
   std::vector<double> areas(scene.images.size(), 0.0), texels(scene.images.size(), 0.0);
   const std::vector<Shown> shown = shownByMaterial(scene);
@@ -92,8 +88,6 @@ TexelDensities texelDensities(const Scene& scene) {
   return result;
 }
 
-namespace {
-
 /// Returns true if a cell has an alpha above `most` within the cells from `low` to `high` of level 0.
 bool cellExceeds(const AlphaPyramid& pyramid, size_t level, glm::ivec2 cell, glm::ivec2 low, glm::ivec2 high,
                  int most) {
@@ -108,29 +102,6 @@ bool cellExceeds(const AlphaPyramid& pyramid, size_t level, glm::ivec2 cell, glm
     if (cellExceeds(pyramid, level - 1, 2 * cell + corner, low, high, most)) return true;
   return false;
 }
-
-}  // namespace
-
-bool AlphaPyramid::exceeds(glm::ivec2 low, glm::ivec2 high, int most) const {
-  return levels.empty() ||
-         cellExceeds(*this, levels.size() - 1, {0, 0}, low >> kCellBits, high >> kCellBits, most);
-}
-
-std::vector<uint8_t> coarser(std::span<const uint8_t> cells) {
-  size_t side = 1;
-  while (4 * side * side < cells.size()) ++side;
-  std::vector<uint8_t> result(side * side);
-  for (size_t y = 0; y < side; ++y) {
-    for (size_t x = 0; x < side; ++x) {
-      const uint8_t* top = &cells[4 * y * side + 2 * x];
-      const uint8_t* bottom = top + 2 * side;
-      result[y * side + x] = std::max({top[0], top[1], bottom[0], bottom[1]});
-    }
-  }
-  return result;
-}
-
-namespace {
 
 constexpr int kLeastLayerSide = 1024;
 
@@ -222,6 +193,22 @@ bool placeWithin(const std::vector<TexturePlace>& whole, const std::function<dou
   return fits && plan.bytes() <= room.bytes;
 }
 
+/// Calls for each use of a picture by a slot or a mean that a variant of these traits reads.
+void forEachPicture(const Scene& scene, const TraitSet& traits,
+                    const std::function<void(uint32_t image, TransferCurve curve)>& use) {
+  const auto useTexture = [&](const TextureRef& ref, TransferCurve curve) {
+    if (!ref.present() || scene.textures[ref.texture].image == kMissIndex) return;
+    use(scene.textures[ref.texture].image, curve);
+  };
+  for (const Material& m : scene.materials) {
+    for (uint32_t slot = 0; slot < layout::kSlotCount; ++slot)
+      if (readsTexture(slot, m, traits)) useTexture(m.*kTextureRefs[slot].ref, kTextureRefs[slot].curve);
+    if (!m.scattersInside() || !has(traits, Trait::Scattering)) continue;
+    useTexture(m.scatterStrengthTexture, TransferCurve::Linear);
+    useTexture(m.multiscatterColorTexture, TransferCurve::Srgb);
+  }
+}
+
 /// The pictures that are read, whole, without their places.
 std::vector<TexturePlace> readPictures(const Scene& scene, const TraitSet& traits) {
   std::vector<TexturePlace> pictures(scene.images.size());
@@ -241,6 +228,25 @@ std::vector<TexturePlace> readPictures(const Scene& scene, const TraitSet& trait
 }
 
 }  // namespace
+
+std::vector<uint8_t> coarser(std::span<const uint8_t> cells) {
+  size_t side = 1;
+  while (4 * side * side < cells.size()) ++side;
+  std::vector<uint8_t> result(side * side);
+  for (size_t y = 0; y < side; ++y) {
+    for (size_t x = 0; x < side; ++x) {
+      const uint8_t* top = &cells[4 * y * side + 2 * x];
+      const uint8_t* bottom = top + 2 * side;
+      result[y * side + x] = std::max({top[0], top[1], bottom[0], bottom[1]});
+    }
+  }
+  return result;
+}
+
+bool AlphaPyramid::exceeds(glm::ivec2 low, glm::ivec2 high, int most) const {
+  return levels.empty() ||
+         cellExceeds(*this, levels.size() - 1, {0, 0}, low >> kCellBits, high >> kCellBits, most);
+}
 
 int levelsOf(glm::ivec2 size) { return std::bit_width(uint32_t(std::min(size.x, size.y))); }
 
@@ -274,21 +280,6 @@ bool readsTexture(uint32_t slot, const Material& material, const TraitSet& trait
   static_assert(kTextureRefs.size() == layout::kSlotCount + 1);  // occlusion has no slot
   const Trait trait = slotTrait(slot);
   return has(traits, trait) && traitRows()[size_t(trait)].ofMaterial(material, Coordinates{});
-}
-
-void forEachPicture(const Scene& scene, const TraitSet& traits,
-                    const std::function<void(uint32_t image, TransferCurve curve)>& use) {
-  const auto useTexture = [&](const TextureRef& ref, TransferCurve curve) {
-    if (!ref.present() || scene.textures[ref.texture].image == kMissIndex) return;
-    use(scene.textures[ref.texture].image, curve);
-  };
-  for (const Material& m : scene.materials) {
-    for (uint32_t slot = 0; slot < layout::kSlotCount; ++slot)
-      if (readsTexture(slot, m, traits)) useTexture(m.*kTextureRefs[slot].ref, kTextureRefs[slot].curve);
-    if (!m.scattersInside() || !has(traits, Trait::Scattering)) continue;
-    useTexture(m.scatterStrengthTexture, TransferCurve::Linear);
-    useTexture(m.multiscatterColorTexture, TransferCurve::Srgb);
-  }
 }
 
 TexturePlan planTextures(const Scene& scene, const TraitSet& traits, const TextureRoom& room) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -24,7 +23,6 @@ struct TexelDensities {
   std::vector<double> ofImage;
   double largest = 1.0;  ///< of those that surfaces show
 };
-TexelDensities texelDensities(const Scene& scene);
 
 // The greatest alpha of a picture's parts.
 
@@ -147,10 +145,6 @@ using DecodeProgress = std::function<void(size_t decoded, size_t count)>;
 
 /// Returns true if a variant of these traits reads the texture of a material in that slot.
 bool readsTexture(uint32_t slot, const Material& material, const TraitSet& traits);
-
-/// Calls for each use of a picture by a slot or a mean that a variant of these traits reads.
-void forEachPicture(const Scene& scene, const TraitSet& traits,
-                    const std::function<void(uint32_t image, TransferCurve curve)>& use);
 
 /// Places all pictures that a variant of these traits reads. Where they do not fit, those with most texels on
 /// a length of surface shrink, down to one number of texels per length: the others are seen larger, and stay.

@@ -36,7 +36,7 @@ class Picture(np.ndarray):
     statistics.
 
     layers: all layers that the file would hold, as Layers, this picture among them; statistics: what `--stats` writes, as a dict;
-    messages: what the command prints on stderr; attributes and numbers: what an .exr keeps beside pixels, as strings and as lists (worldToCamera, worldToNDC, chromaticities)."""
+    messages: what the command prints on stderr; attributes and numbers: what an .exr keeps besides pixels, as strings and as lists (worldToCamera, worldToNDC, chromaticities)."""
 
     FACTS = ("statistics", "messages", "attributes", "numbers")
 

@@ -18,6 +18,7 @@ class Keywords(TypedDict, total=False):
     camera_view_up: str | Sequence[float] | None
     camera_type: Literal["perspective", "orthographic", "panorama", "fisheye"] | None
     camera_view_angle: float | None
+    focal_length: str | Sequence[float] | None
     camera_parallel_scale: float | None
     lens_shift: str | Sequence[float] | None
     f_stop: float | None
@@ -107,6 +108,11 @@ class Keywords(TypedDict, total=False):
     aov: str | float | str | Sequence[str] | None
     debug_view: Literal["none", "geometric-normal", "normal", "albedo", "roughness", "texcoords", "depth", "visits", "samples", "variance"] | None
     tree_level: int | None
+    ocio_view: str | float | None
+    ocio_config: str | PathLike[str] | None
+    ocio_display: str | float | None
+    ocio_look: str | float | None
+    ocio_input: str | float | None
     region: str | Sequence[int] | None
     shader_text: str | PathLike[str] | None
     trace_file: str | PathLike[str] | None

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "base/words.h"
-#include "image/image.h"
 
 namespace fragtrace {
 

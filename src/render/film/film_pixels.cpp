@@ -7,7 +7,6 @@
 
 #include "image/display/heatmap.h"
 #include "image/display/tone_map.h"
-#include "image/image.h"
 #include "shader/layout.h"
 
 namespace fragtrace {

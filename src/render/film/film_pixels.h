@@ -64,7 +64,7 @@ FilmTotals totalsOf(const FilmPixels& film);
 /// The samples of both (of one size), as if drawn on one film (Chan, Golub and LeVeque, 1979, for m2).
 FilmPixels pooled(const FilmPixels& a, const FilmPixels& b);
 
-/// Channels that a picture can have beside R, G and B.
+/// Channels that a picture can have besides R, G and B.
 struct Layers {
   bool alpha = false;     ///< A
   bool samples = false;   ///< samples.Y

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The number of light paths beside that of camera paths.
+// The number of light paths compared with that of camera paths.
 #pragma once
 
 #include <cstdint>

@@ -18,6 +18,41 @@ glm::dquat orientationOf(const Camera& camera) {
       glm::quat_cast(glm::dmat3(right, glm::cross(right, camera.forward), -camera.forward)));
 }
 
+template <typename T>
+void append(std::vector<T>& to, const std::vector<T>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+/// The array once for each pose.
+template <typename T>
+void repeat(std::vector<T>& array, size_t poses) {
+  const size_t count = array.size();
+  array.reserve(count * poses);
+  for (size_t i = count; i < count * poses; ++i) array.push_back(array[i - count]);
+}
+
+/// Takes the larger inset for each of the six codes: code k > 0 stands for 2^-k.
+uint32_t largerInsets(uint32_t a, uint32_t b) {
+  uint32_t result = 0;
+  for (int shift = 0; shift < 30; shift += 5) {
+    const uint32_t x = a >> shift & 31u;
+    const uint32_t y = b >> shift & 31u;
+    result |= (x == 0 ? y : y == 0 ? x : std::min(x, y)) << shift;
+  }
+  return result;
+}
+
+std::vector<uint32_t> insetsOfSegments(std::span<const Pose> poses, size_t triangles) {
+  std::vector<uint32_t> insets;
+  if (std::ranges::all_of(poses, [](const Pose& p) { return p.insets.empty(); })) return insets;
+  const auto insetOf = [](const Pose& p, size_t i) { return p.insets.empty() ? 0u : p.insets[i]; };
+  for (size_t segment = 0; segment + 1 < poses.size(); ++segment) {
+    for (size_t i = 0; i < triangles; ++i)
+      insets.push_back(largerInsets(insetOf(poses[segment], i), insetOf(poses[segment + 1], i)));
+  }
+  return insets;
+}
+
 }  // namespace
 
 CameraMotion motionBetween(const Camera& first, const Camera& last) {
@@ -76,45 +111,6 @@ Camera cameraAt(std::span<const CameraSegment> segments, double time) {
   const size_t i = std::min(size_t(place), segments.size() - 1);
   return movedBy(segments[i].motion, place - double(i) - 0.5, segments[i].middle);
 }
-
-namespace {
-
-template <typename T>
-void append(std::vector<T>& to, const std::vector<T>& from) {
-  to.insert(to.end(), from.begin(), from.end());
-}
-
-/// The array once for each pose.
-template <typename T>
-void repeat(std::vector<T>& array, size_t poses) {
-  const size_t count = array.size();
-  array.reserve(count * poses);
-  for (size_t i = count; i < count * poses; ++i) array.push_back(array[i - count]);
-}
-
-/// Takes the larger inset for each of the six codes: code k > 0 stands for 2^-k.
-uint32_t largerInsets(uint32_t a, uint32_t b) {
-  uint32_t result = 0;
-  for (int shift = 0; shift < 30; shift += 5) {
-    const uint32_t x = a >> shift & 31u;
-    const uint32_t y = b >> shift & 31u;
-    result |= (x == 0 ? y : y == 0 ? x : std::min(x, y)) << shift;
-  }
-  return result;
-}
-
-std::vector<uint32_t> insetsOfSegments(std::span<const Pose> poses, size_t triangles) {
-  std::vector<uint32_t> insets;
-  if (std::ranges::all_of(poses, [](const Pose& p) { return p.insets.empty(); })) return insets;
-  const auto insetOf = [](const Pose& p, size_t i) { return p.insets.empty() ? 0u : p.insets[i]; };
-  for (size_t segment = 0; segment + 1 < poses.size(); ++segment) {
-    for (size_t i = 0; i < triangles; ++i)
-      insets.push_back(largerInsets(insetOf(poses[segment], i), insetOf(poses[segment + 1], i)));
-  }
-  return insets;
-}
-
-}  // namespace
 
 Pose poseOf(Scene&& posed, const LocalSpace& space) {
   Pose pose;

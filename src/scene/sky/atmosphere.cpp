@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scene/sky/atmosphere.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/parallel.h"
@@ -50,6 +49,19 @@ double lengthToTop() {
 double horizonOf(double radius) {
   const double sine = kGroundRadius / radius;
   return -std::sqrt(std::max(0.0, 1.0 - sine * sine));
+}
+
+/// The columns of AirTable, integrated in `steps` steps.
+AirColumns integrateColumns(double radius, double cosine, int steps) {
+  AirColumns columns{};
+  const double whole = distanceToTop(radius, cosine);
+  for (int i = 0; i < steps; ++i) {
+    // Steps grow with the square, as the air near the start is the densest.
+    const double s = (i + 0.5) / steps;
+    const AirColumns density = densityAt(alongRay(radius, cosine, whole * s * s).radius - kGroundRadius);
+    for (size_t k = 0; k < columns.size(); ++k) columns[k] += density[k] * whole * 2.0 * s / steps;
+  }
+  return columns;
 }
 
 }  // namespace
@@ -107,18 +119,6 @@ double sunShare(double radius, double sunCosine) {
   const double edge = std::asin(sunCosine) - std::asin(horizonOf(radius));
   const double x = std::clamp(edge / (kSunRadiusDegrees * glm::pi<double>() / 180.0), -1.0, 1.0);
   return 0.5 + (x * std::sqrt(1.0 - x * x) + std::asin(x)) / glm::pi<double>();
-}
-
-AirColumns integrateColumns(double radius, double cosine, int steps) {
-  AirColumns columns{};
-  const double whole = distanceToTop(radius, cosine);
-  for (int i = 0; i < steps; ++i) {
-    // Steps grow with the square, as the air near the start is the densest.
-    const double s = (i + 0.5) / steps;
-    const AirColumns density = densityAt(alongRay(radius, cosine, whole * s * s).radius - kGroundRadius);
-    for (size_t k = 0; k < columns.size(); ++k) columns[k] += density[k] * whole * 2.0 * s / steps;
-  }
-  return columns;
 }
 
 Spectrum transmittanceOf(const Atmosphere& air, const AirColumns& columns) {

@@ -73,9 +73,6 @@ class AirTable {
   std::vector<AirColumns> values_;
 };
 
-/// Returns the same as AirTable, integrated in `steps` steps.
-AirColumns integrateColumns(double radius, double cosine, int steps);
-
 /// The part of the light that columns let pass.
 Spectrum transmittanceOf(const Atmosphere& air, const AirColumns& columns);
 

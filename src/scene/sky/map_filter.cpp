@@ -2,7 +2,6 @@
 #include "scene/sky/map_filter.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -45,38 +44,13 @@ double addRow(const MapRows::Row& source, double from, double to, const Lobe& lo
   return weights;
 }
 
-}  // namespace
-
-MapRows::MapRows(int columns, int rowCount) : width(columns), rows(size_t(rowCount)) {
-  for (Row& row : rows) row.fill(std::vector<double>(size_t(columns), 0.0));
-}
-
-MapRows averagedMap(const MapRows& map, const std::vector<double>& polar, const Lobe& lobe, double least,
-                    double reach) {
-  const std::vector<double> middles = middlesOfRows(map.height());
-  MapRows result(map.width, int(polar.size()));
-  forEachIndex(polar.size(), [&](size_t y) {
-    MapRows::Row& row = result.rows[y];
-    double weights = 0.0;
-    for (size_t other = 0; other < middles.size(); ++other) {
-      if (std::abs(middles[other] - polar[y]) > reach) continue;
-      weights += addRow(map.rows[other], middles[other], polar[y], lobe, least, row);
-    }
-    for (std::vector<double>& channel : row) {
-      for (double& value : channel) value /= weights;
-    }
-  });
-  return result;
-}
-
+/// Angles of the middles of rows from +Y.
 std::vector<double> middlesOfRows(int rows) {
   std::vector<double> middles;
   middles.reserve(size_t(rows));
   for (int y = 0; y < rows; ++y) middles.push_back(glm::pi<double>() * (y + 0.5) / rows);
   return middles;
 }
-
-namespace {
 
 constexpr double kTexelsASigma = 3.0;
 constexpr double kBlurReach = 4.0;  // sigmas, beyond which weights do not count
@@ -116,31 +90,6 @@ MapRows scaled(const Image& map, int width, int height) {
   return result;
 }
 
-}  // namespace
-
-Image blurredMap(const Image& map, double sigma) {
-  const double radians = glm::radians(sigma);
-  const int height = std::max(16, int(std::ceil(180.0 / sigma * kTexelsASigma)));
-  const int width = 2 * height;
-  const auto gaussian = [&](double cosine) {
-    const double angle = std::acos(cosine) / radians;
-    return std::exp(-0.5 * angle * angle);
-  };
-  const MapRows blurred = averagedMap(scaled(map, width, height), middlesOfRows(height), gaussian,
-                                      std::exp(-0.5 * kBlurReach * kBlurReach), (kBlurReach + 1.0) * radians);
-  Image result{width, height, {"R", "G", "B"}, {}, {}};
-  result.values.resize(size_t(width) * size_t(height) * 3);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      for (int c = 0; c < 3; ++c)
-        result.pixel(x, y)[c] = float(blurred.rows[size_t(y)][size_t(c)][size_t(x)]);
-    }
-  }
-  return result;
-}
-
-namespace {
-
 /// Wider lamps are found as well by camera paths (src/scene/casters.cpp).
 constexpr double kWidest = 0.03;  // sr
 constexpr double kLeastShare = 0.2;
@@ -178,6 +127,49 @@ Bins binsOf(const Image& map) {
 }
 
 }  // namespace
+
+MapRows::MapRows(int columns, int rowCount) : width(columns), rows(size_t(rowCount)) {
+  for (Row& row : rows) row.fill(std::vector<double>(size_t(columns), 0.0));
+}
+
+MapRows averagedMap(const MapRows& map, const std::vector<double>& polar, const Lobe& lobe, double least,
+                    double reach) {
+  const std::vector<double> middles = middlesOfRows(map.height());
+  MapRows result(map.width, int(polar.size()));
+  forEachIndex(polar.size(), [&](size_t y) {
+    MapRows::Row& row = result.rows[y];
+    double weights = 0.0;
+    for (size_t other = 0; other < middles.size(); ++other) {
+      if (std::abs(middles[other] - polar[y]) > reach) continue;
+      weights += addRow(map.rows[other], middles[other], polar[y], lobe, least, row);
+    }
+    for (std::vector<double>& channel : row) {
+      for (double& value : channel) value /= weights;
+    }
+  });
+  return result;
+}
+
+Image blurredMap(const Image& map, double sigma) {
+  const double radians = glm::radians(sigma);
+  const int height = std::max(16, int(std::ceil(180.0 / sigma * kTexelsASigma)));
+  const int width = 2 * height;
+  const auto gaussian = [&](double cosine) {
+    const double angle = std::acos(cosine) / radians;
+    return std::exp(-0.5 * angle * angle);
+  };
+  const MapRows blurred = averagedMap(scaled(map, width, height), middlesOfRows(height), gaussian,
+                                      std::exp(-0.5 * kBlurReach * kBlurReach), (kBlurReach + 1.0) * radians);
+  Image result{width, height, {"R", "G", "B"}, {}, {}};
+  result.values.resize(size_t(width) * size_t(height) * 3);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (int c = 0; c < 3; ++c)
+        result.pixel(x, y)[c] = float(blurred.rows[size_t(y)][size_t(c)][size_t(x)]);
+    }
+  }
+  return result;
+}
 
 std::optional<MapSun> sunOfMap(const Image& map) {
   const Bins bins = binsOf(map);

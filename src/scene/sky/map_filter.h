@@ -32,9 +32,6 @@ using Lobe = std::function<double(double cosine)>;
 MapRows averagedMap(const MapRows& map, const std::vector<double>& polar, const Lobe& lobe, double least,
                     double reach);
 
-/// Angles of the middles of rows from +Y.
-std::vector<double> middlesOfRows(int rows);
-
 /// The least blur that shows in a map of the size that it gets, degrees.
 inline constexpr double kLeastBlur = 0.5;
 

@@ -61,43 +61,6 @@ double refractionAt(double elevation) {
   return seconds / 3600.0;
 }
 
-}  // namespace
-
-std::optional<double> daysOf(const std::string& time) {
-  static const std::regex form(
-      R"((\d{4})-(\d\d)-(\d\d)[Tt ](\d\d):(\d\d)(?::(\d\d(?:\.\d+)?))?(?:[Zz]|([+-])(\d\d):?(\d\d)?))");
-  std::smatch part;
-  if (!std::regex_match(time, part, form)) return std::nullopt;
-  const auto number = [&](size_t i) { return part[i].matched ? std::stod(part[i].str()) : 0.0; };
-  const std::chrono::year_month_day date{std::chrono::year(int(number(1))),
-                                         std::chrono::month(unsigned(number(2))),
-                                         std::chrono::day(unsigned(number(3)))};
-  if (!date.ok() || number(4) > 23.0 || number(5) > 59.0 || number(6) >= 61.0 || number(8) > 23.0 ||
-      number(9) > 59.0)
-    return std::nullopt;
-  using namespace std::chrono_literals;
-  const auto day = (std::chrono::sys_days(date) - std::chrono::sys_days(2000y / 1 / 1)).count();
-  const double offset = (number(8) + number(9) / 60.0) * (part[7].str() == "-" ? -1.0 : 1.0);
-  return double(day) - 0.5 + (number(4) + number(5) / 60.0 + number(6) / 3600.0 - offset) / 24.0;
-}
-
-SunPlace sunPlaceAt(double days, const glm::dvec2& latitudeLongitude) {
-  const Season season = seasonAt(days / 36525.0);
-  const double latitude = latitudeLongitude.x;
-  const double minutes = 1440.0 * (days + 0.5 - std::floor(days + 0.5));
-  const double hourAngle = (minutes + season.equationOfTime + 4.0 * latitudeLongitude.y) / 4.0 - 180.0;
-  const double height = sine(latitude) * sine(season.declination) +
-                        cosine(latitude) * cosine(season.declination) * cosine(hourAngle);
-  const double elevation = glm::degrees(std::asin(glm::clamp(height, -1.0, 1.0)));
-  // The azimuth is measured from south, westwards.
-  const double east = sine(hourAngle) * cosine(season.declination);
-  const double south = cosine(hourAngle) * sine(latitude) * cosine(season.declination) -
-                       sine(season.declination) * cosine(latitude);
-  return {elevation + refractionAt(elevation), wholeTurns(glm::degrees(std::atan2(east, south)) + 180.0)};
-}
-
-namespace {
-
 constexpr double kBin = 10.0;  // nm
 
 /// Irradiance outside the atmosphere in W/m^2/nm, means over bins of 10 nm from 360 nm on (ASTM G-173, column
@@ -127,20 +90,12 @@ std::array<glm::dvec3, kWavelengths> makeColors() {
   return colors;
 }
 
-}  // namespace
-
+/// Linear Rec.709 of sunlight of irradiance 1 (outside the atmosphere) at each wavelength. The sum over
+/// wavelengths, times the part that arrives, is the radiance of a picture where that part is in 1/sr.
 const std::array<glm::dvec3, kWavelengths>& daylightColors() {
   static const std::array<glm::dvec3, kWavelengths> colors = makeColors();
   return colors;
 }
-
-glm::dvec3 colorOf(const Spectrum& part) {
-  glm::dvec3 sum(0.0);
-  for (size_t i = 0; i < kWavelengths; ++i) sum += daylightColors()[i] * part[i];
-  return sum;
-}
-
-namespace {
 
 constexpr int kSkyWidth = 256;
 constexpr int kSkyHeight = 512;  // finer, as the light changes fast above the horizon
@@ -236,6 +191,45 @@ SunDisc discAt(const SkyAir& sky, double elevation) {
 
 }  // namespace
 
+std::optional<double> daysOf(const std::string& time) {
+  static const std::regex form(
+      R"((\d{4})-(\d\d)-(\d\d)[Tt ](\d\d):(\d\d)(?::(\d\d(?:\.\d+)?))?(?:[Zz]|([+-])(\d\d):?(\d\d)?))");
+  std::smatch part;
+  if (!std::regex_match(time, part, form)) return std::nullopt;
+  const auto number = [&](size_t i) { return part[i].matched ? std::stod(part[i].str()) : 0.0; };
+  const std::chrono::year_month_day date{std::chrono::year(int(number(1))),
+                                         std::chrono::month(unsigned(number(2))),
+                                         std::chrono::day(unsigned(number(3)))};
+  if (!date.ok() || number(4) > 23.0 || number(5) > 59.0 || number(6) >= 61.0 || number(8) > 23.0 ||
+      number(9) > 59.0)
+    return std::nullopt;
+  using namespace std::chrono_literals;
+  const auto day = (std::chrono::sys_days(date) - std::chrono::sys_days(2000y / 1 / 1)).count();
+  const double offset = (number(8) + number(9) / 60.0) * (part[7].str() == "-" ? -1.0 : 1.0);
+  return double(day) - 0.5 + (number(4) + number(5) / 60.0 + number(6) / 3600.0 - offset) / 24.0;
+}
+
+SunPlace sunPlaceAt(double days, const glm::dvec2& latitudeLongitude) {
+  const Season season = seasonAt(days / 36525.0);
+  const double latitude = latitudeLongitude.x;
+  const double minutes = 1440.0 * (days + 0.5 - std::floor(days + 0.5));
+  const double hourAngle = (minutes + season.equationOfTime + 4.0 * latitudeLongitude.y) / 4.0 - 180.0;
+  const double height = sine(latitude) * sine(season.declination) +
+                        cosine(latitude) * cosine(season.declination) * cosine(hourAngle);
+  const double elevation = glm::degrees(std::asin(glm::clamp(height, -1.0, 1.0)));
+  // The azimuth is measured from south, westwards.
+  const double east = sine(hourAngle) * cosine(season.declination);
+  const double south = cosine(hourAngle) * sine(latitude) * cosine(season.declination) -
+                       sine(season.declination) * cosine(latitude);
+  return {elevation + refractionAt(elevation), wholeTurns(glm::degrees(std::atan2(east, south)) + 180.0)};
+}
+
+glm::dvec3 colorOf(const Spectrum& part) {
+  glm::dvec3 sum(0.0);
+  for (size_t i = 0; i < kWavelengths; ++i) sum += daylightColors()[i] * part[i];
+  return sum;
+}
+
 SkyAir::SkyAir(double turbidity, double groundAlbedo)
     : air(atmosphereOf(turbidity)), often(air, table, groundAlbedo), albedo(groundAlbedo) {}
 
@@ -267,7 +261,7 @@ SkyMap makeSky(const SkyAir& sky, double sunElevation) {
     sums[y] *= std::cos(polar) * std::sin(polar) * (glm::pi<double>() / kSkyHeight) *
                (2.0 * glm::pi<double>() / kSkyWidth);
   });
-  // The ground beside the eye takes all this light, and that of the sun.
+  // The ground next to the eye takes all this light, and that of the sun.
   glm::dvec3 falls = map.sun.irradiance * std::max(0.0, sunCosine);
   for (const glm::dvec3& sum : sums) falls += sum;
   const glm::vec3 ground(falls * sky.albedo / glm::pi<double>());

@@ -34,21 +34,10 @@ double planck(double wavelength, double temperature) {
   return kFirst / (std::pow(wavelength, 5.0) * std::expm1(kSecond / (wavelength * temperature)));
 }
 
-}  // namespace
-
-glm::dvec3 observer(double w) {
-  return {0.362 * lobe(w, 442.0, 0.0624, 0.0374) + 1.056 * lobe(w, 599.8, 0.0264, 0.0323) -
-              0.065 * lobe(w, 501.1, 0.0490, 0.0382),
-          0.821 * lobe(w, 568.8, 0.0213, 0.0247) + 0.286 * lobe(w, 530.9, 0.0613, 0.0322),
-          1.217 * lobe(w, 437.0, 0.0845, 0.0278) + 0.681 * lobe(w, 459.0, 0.0385, 0.0725)};
-}
-
-glm::dvec3 srgbOf(const glm::dvec3& xyz) {
-  const glm::dmat3 toSrgb(3.2404542, -0.9692660, 0.0556434, -1.5371385, 1.8760108, -0.2040259, -0.4985314,
-                          0.0415560, 1.0572252);
-  return toSrgb * xyz;
-}
-
+/// Radiance of a black body (Planck) as linear sRGB whose luminance is in cd/m^2; colours outside of sRGB are
+/// clamped. By the fit of the CIE's 1931 observer of Wyman, Sloan and Shirley (Simple Analytic Approximations
+/// to the CIE XYZ Color Matching Functions, JCGT 2(2), 2013). 0 for a temperature (kelvin) that is not above
+/// 0.
 glm::dvec3 blackBodyRadiance(double temperature) {
   if (!(temperature > 0.0)) return glm::dvec3(0.0);
   constexpr double kLumens = 683.002;  // a watt at 555 nm
@@ -61,8 +50,6 @@ glm::dvec3 blackBodyRadiance(double temperature) {
   }
   return glm::max(srgbOf(xyz), glm::dvec3(0.0));
 }
-
-namespace {
 
 const WorkerKind kVolumeCodecs{"libfragtrace_volumes.so", "the library that reads .nvdb files", kVolumeAdvice,
                                ""};
@@ -209,6 +196,19 @@ void heat(VolumeGrid& grid, const VolumeGrid& temperature) {
 }
 
 }  // namespace
+
+glm::dvec3 observer(double w) {
+  return {0.362 * lobe(w, 442.0, 0.0624, 0.0374) + 1.056 * lobe(w, 599.8, 0.0264, 0.0323) -
+              0.065 * lobe(w, 501.1, 0.0490, 0.0382),
+          0.821 * lobe(w, 568.8, 0.0213, 0.0247) + 0.286 * lobe(w, 530.9, 0.0613, 0.0322),
+          1.217 * lobe(w, 437.0, 0.0845, 0.0278) + 0.681 * lobe(w, 459.0, 0.0385, 0.0725)};
+}
+
+glm::dvec3 srgbOf(const glm::dvec3& xyz) {
+  const glm::dmat3 toSrgb(3.2404542, -0.9692660, 0.0556434, -1.5371385, 1.8760108, -0.2040259, -0.4985314,
+                          0.0415560, 1.0572252);
+  return toSrgb * xyz;
+}
 
 VolumeGrid gridOfAnswer(std::span<const uint8_t> bytes) {
   const auto header = takeMessage<GridHeader>(bytes);

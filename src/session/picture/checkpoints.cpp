@@ -101,7 +101,7 @@ bool hasMoreSamples(const Checkpoint& checkpoint, const std::string& asked) {
   return more && !adaptive && there == wanted;
 }
 
-/// Returns why such a checkpoint cannot go on to more samples; nothing where it can.
+/// Returns why such a checkpoint cannot continue to more samples; nothing where it can.
 std::string whyNotMore(const Checkpoint& checkpoint) {
   if (checkpoint.part > 0) return "parts of the picture are finished";
   return checkpoint.looks.empty() ? "" : "what --denoise reads was kept at a quarter of the samples";
@@ -126,7 +126,7 @@ void restoreMeasured(const std::string& text, Statistics& stats) {
     stats.times.drawMs = json.at("draw_ms");
     if (json.contains("adaptive")) {
       const nlohmann::json& a = json["adaptive"];
-      stats.adaptive = {a.at(0), a.at(1), a.at(2), a.at(3), a.at(4), a.at(5), a.at(6)};
+      stats.adaptive = {{a.at(2), a.at(3), a.at(4), a.at(5), a.at(6)}, a.at(0), a.at(1)};
     }
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error(std::string("its statistics are broken: ") + error.what());
@@ -166,7 +166,7 @@ std::optional<Checkpoint> readCheckpoint(const PictureJob& job, const DrawingPla
   const std::string text = jobText(job, plan);
   const bool grows = checkpoint->job != text && hasMoreSamples(*checkpoint, text);
   if (const std::string why = whyNotMore(*checkpoint); grows && !why.empty())
-    throw UsageError("--resume: " + path.string() + " cannot go on to more samples (" +
+    throw UsageError("--resume: " + path.string() + " cannot continue to more samples (" +
                      differenceOf(checkpoint->job, text) + "): " + why);
   if (checkpoint->job != text && !grows)
     throw UsageError(
@@ -211,16 +211,15 @@ void CheckpointKeeper::write(const Checkpoint& checkpoint) {
   try {
     replaceFile(path_, encodeCheckpoint(checkpoint));
   } catch (const RenderError& error) {
-    if (!failed_) say(options_, std::string("warning: ") + error.what() + "; the render goes on");
+    if (!failed_) say(options_, std::string("warning: ") + error.what() + "; the render continues");
     failed_ = true;
   }
 }
 
 void CheckpointKeeper::remove() const {
   if (!kept_) return;
+  removeParts(path_, PartsOf::All);  // of renders that were killed while they wrote one
   std::error_code error;
-  // A render that was killed while it wrote one has left a part, which this one need not have replaced.
-  std::filesystem::remove(partOf(path_), error);
   std::filesystem::remove(path_, error);
   if (error) throw RenderError("cannot remove " + path_.string() + ": " + error.message());
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The checkpoint beside a picture in progress. It is written now and then, read by the render that continues,
-// and removed when the picture is there.
+// The checkpoint next to a picture in progress. It is written now and then, read by the render that
+// continues, and removed when the picture is there.
 #pragma once
 
 #include <optional>
@@ -25,7 +25,7 @@ void restoreMeasured(const std::string& text, Statistics& stats);
 /// it is broken.
 std::optional<Checkpoint> readCheckpoint(const PictureJob& job, const DrawingPlan& plan);
 
-/// Returns true if --resume finds nothing to do: the output is there, whole, and no checkpoint beside it;
+/// Returns true if --resume finds nothing to do: the output is there, whole, and no checkpoint next to it;
 /// says so. It also says when there is a checkpoint that is not asked for. Throws UsageError when the picture
 /// that is there has other samples.
 bool isFinished(const RenderOptions& options);

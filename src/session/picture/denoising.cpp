@@ -12,8 +12,6 @@
 #include "gl/context.h"
 #include "gl/program.h"
 #include "image/channels.h"
-#include "image/denoise/oidn.h"
-#include "image/image.h"
 #include "options/check_render.h"
 #include "render/denoise.h"
 #include "session/interrupt.h"
@@ -118,7 +116,7 @@ void startFilter(const RenderOptions& options, Device& device) {
 }
 
 PictureFilter makeFilter(const RenderOptions& options, const std::optional<OidnLibrary>& oidn,
-                         FilterThread* thread) {
+                         FilterThread* thread, SequenceProgress* sequence) {
   const double start = steadyMilliseconds();
   if (!oidn && thread != nullptr) {
     try {
@@ -136,10 +134,10 @@ PictureFilter makeFilter(const RenderOptions& options, const std::optional<OidnL
     return {std::string(kVarianceFilter), steadyMilliseconds() - start,
             [filter, passes](const Image& picture) { return filter->filtered(picture, *passes); }};
   }
-  const auto apply = [library = *oidn, memory = options.limits.memoryBytes,
+  const auto apply = [library = *oidn, sequence, memory = options.limits.memoryBytes,
                       quiet = options.output.quiet ||
                               options.output.progress == ProgressForm::None](const Image& picture) {
-    ProgressBar bar("denoising", quiet);
+    ProgressBar bar("denoising", quiet, std::nullopt, sequence);
     const int before = interrupts();
     std::optional<Image> result = denoisedByOidn(picture, library, memory, [&](double fraction) {
       bar.show(fraction);
@@ -153,8 +151,8 @@ PictureFilter makeFilter(const RenderOptions& options, const std::optional<OidnL
 
 std::optional<Image> filtered(const Image& picture, const RenderOptions& options,
                               const std::optional<OidnLibrary>& oidn, DenoiseStatistics& stats,
-                              FilterThread* thread) {
-  const PictureFilter filter = makeFilter(options, oidn, thread);
+                              FilterThread* thread, SequenceProgress* sequence) {
+  const PictureFilter filter = makeFilter(options, oidn, thread, sequence);
   const double start = steadyMilliseconds();
   std::optional<Image> result =
       isOverWhite(picture) ? filter.apply(laidOverWhite(picture)) : filter.apply(picture);
@@ -180,6 +178,9 @@ std::optional<Image> filtered(const Image& picture, const RenderOptions& options
   return result;
 }
 
+namespace {
+
+/// Adds to the .exr of a filtered picture: the noisy colours, and the filter's name.
 void keepNoisy(Image& picture, const Image& noisy, const std::string& filter) {
   const Image seen = seenChannels(noisy);
   std::vector<std::string> names;
@@ -188,7 +189,34 @@ void keepNoisy(Image& picture, const Image& noisy, const std::string& filter) {
   picture.attributes[kFilterAttribute] = filter;
 }
 
-void denoise(Image& picture, const RenderOptions& options, Device& device, Statistics& stats) {
+/// Throws InputError unless the picture has all layers that the variance filter reads.
+void checkVarianceLayers(const Image& layers, const std::filesystem::path& name) {
+  constexpr std::array<std::pair<const char*, const char*>, 5> kNeeded{{{kGuideChannels[0], "albedo"},
+                                                                        {kGuideChannels[4], "normal"},
+                                                                        {kGuideChannels[7], "depth"},
+                                                                        {"samples.Y", "samples"},
+                                                                        {"variance.Y", "variance"}}};
+  std::string missing;
+  for (const auto& [channel, layer] : kNeeded) {
+    if (!findChannel(layers, channel)) missing += (missing.empty() ? "" : ", ") + std::string(layer);
+  }
+  if (missing.empty()) return;
+  throw InputError(name.string() + ": lacks what the variance filter needs: " + missing +
+                   " (render with --aov denoising; --denoise oidn needs less: pip install pyoidn)");
+}
+
+/// Filters with a context of its own, since a command for files has no other use for one.
+std::optional<Image> byVariance(const Image& layers, const std::filesystem::path& name,
+                                const RenderOptions& options, DenoiseStatistics& stats) {
+  checkVarianceLayers(layers, name);
+  const auto context = makeContext(options.device);
+  return filtered(layers, options, std::nullopt, stats);
+}
+
+}  // namespace
+
+void denoise(Image& picture, const RenderOptions& options, Device& device, Statistics& stats,
+             SequenceProgress* sequence) {
   if (options.output.denoise == Denoise::None) return;
   stats.denoise.emplace().skipped = whyNotDenoised(options);
   if (!stats.denoise->skipped.empty()) {
@@ -198,7 +226,8 @@ void denoise(Image& picture, const RenderOptions& options, Device& device, Stati
   // A user who has interrupted the samples does not wait for more seconds.
   const bool waits = !device.oidn || stats.complete;
   const std::optional<Image> denoised =
-      waits ? filtered(picture, options, device.oidn, *stats.denoise, device.filter.get()) : std::nullopt;
+      waits ? filtered(picture, options, device.oidn, *stats.denoise, device.filter.get(), sequence)
+            : std::nullopt;
   if (!denoised) {
     stats.complete = false;
     stats.denoise->skipped = "interrupted";
@@ -228,34 +257,6 @@ Image asDrawn(const Image& picture) {
   drawn.attributes.erase(kFilterAttribute);
   return drawn;
 }
-
-namespace {
-
-/// Throws InputError unless the picture has all layers that the variance filter reads.
-void checkVarianceLayers(const Image& layers, const std::filesystem::path& name) {
-  constexpr std::array<std::pair<const char*, const char*>, 5> kNeeded{{{kGuideChannels[0], "albedo"},
-                                                                        {kGuideChannels[4], "normal"},
-                                                                        {kGuideChannels[7], "depth"},
-                                                                        {"samples.Y", "samples"},
-                                                                        {"variance.Y", "variance"}}};
-  std::string missing;
-  for (const auto& [channel, layer] : kNeeded) {
-    if (!findChannel(layers, channel)) missing += (missing.empty() ? "" : ", ") + std::string(layer);
-  }
-  if (missing.empty()) return;
-  throw InputError(name.string() + ": lacks what the variance filter needs: " + missing +
-                   " (render with --aov denoising; --denoise oidn needs less: pip install pyoidn)");
-}
-
-/// Filters with a context of its own, since a command for files has no other use for one.
-std::optional<Image> byVariance(const Image& layers, const std::filesystem::path& name,
-                                const RenderOptions& options, DenoiseStatistics& stats) {
-  checkVarianceLayers(layers, name);
-  const auto context = makeContext(options.device);
-  return filtered(layers, options, std::nullopt, stats);
-}
-
-}  // namespace
 
 Image denoisedFile(const Image& drawn, const std::filesystem::path& name, const RenderOptions& options,
                    const std::optional<OidnLibrary>& oidn, DenoiseStatistics& stats) {

@@ -26,7 +26,7 @@ std::string whyNotDenoised(const RenderOptions& options);
 /// before anything is drawn: it throws UsageError if the library was asked for and cannot be opened.
 std::optional<OidnLibrary> openDenoiser(RenderOptions& options);
 
-/// The options with all layers that the filter needs beside those asked for.
+/// The options with all layers that the filter needs besides those asked for.
 RenderOptions withGuides(const RenderOptions& options);
 
 /// A filter that is ready, with its programs in the current context.
@@ -40,7 +40,7 @@ struct PictureFilter {
 /// Makes the filter from options that openDenoiser() has settled; `oidn` is its result. Where `thread` is
 /// ready, the variance filter is its.
 PictureFilter makeFilter(const RenderOptions& options, const std::optional<OidnLibrary>& oidn,
-                         FilterThread* thread = nullptr);
+                         FilterThread* thread = nullptr, SequenceProgress* sequence = nullptr);
 
 /// Begins to make the programs of the variance filter, if these options need them.
 void startFilter(const RenderOptions& options, Device& device);
@@ -48,16 +48,14 @@ void startFilter(const RenderOptions& options, Device& device);
 /// Replaces the noisy colours by the denoised ones. An .exr keeps the noisy ones as noisy.R, noisy.G and
 /// noisy.B. Layers that were not asked for are removed. `picture` was drawn with withGuides(options). It
 /// stays noisy if Open Image Denoise is interrupted, which the statistics then say.
-void denoise(Image& picture, const RenderOptions& options, Device& device, Statistics& stats);
+void denoise(Image& picture, const RenderOptions& options, Device& device, Statistics& stats,
+             SequenceProgress* sequence);
 
 /// The filter's colours for a picture with all layers that it needs; nothing if it was interrupted. Throws
 /// RenderError.
 std::optional<Image> filtered(const Image& picture, const RenderOptions& options,
                               const std::optional<OidnLibrary>& oidn, DenoiseStatistics& stats,
-                              FilterThread* thread = nullptr);
-
-/// Adds to the .exr of a filtered picture: the noisy colours, and the filter's name.
-void keepNoisy(Image& picture, const Image& noisy, const std::string& filter);
+                              FilterThread* thread = nullptr, SequenceProgress* sequence = nullptr);
 
 /// A picture as it was before denoise(), with its noisy colours in their place. Unchanged if it has none.
 Image asDrawn(const Image& picture);

@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <iterator>
-#include <vector>
+#include <utility>
 
 #include "base/errors.h"
 #include "base/text.h"
 #include "base/worker.h"
 #include "gl/driver_choice.h"
 #include "image/channels.h"
-#include "image/image.h"
 #include "options/option_text.h"
 #include "render/adaptive.h"
 #include "render/denoise.h"
@@ -106,13 +105,6 @@ LayerDraw drawLayer(glm::ivec2 size, Renderer& renderer, const ShaderVariant& va
   return layer;
 }
 
-LayerDraw addLayer(Image& picture, Renderer& renderer, const ShaderVariant& variant, const View& view,
-                   int samples, const Renderer::Progress& progress) {
-  LayerDraw layer = drawLayer({picture.width, picture.height}, renderer, variant, view, samples, progress);
-  appendChannels(picture, layer.image, layer.image.channels);
-  return layer;
-}
-
 namespace {
 
 /// Says that light is missing from the picture because --bounces ended paths.
@@ -200,8 +192,10 @@ std::optional<Image> drawSamples(const PictureJob& job, DrawingPlan& plan, Devic
   sayDriverLog(options, device);
   if (interrupts() > most) return std::nullopt;
   sayWhatWentWrong(options, stats.film);
-  if (const std::string why = whyNothingIsSeen({options, job.loaded, picture, stats}); !why.empty())
-    say(options, "warning: " + why);
+  const std::string why = whyNothingIsSeen({options, job.loaded, picture, stats});
+  if (!why.empty() && !(job.sequence && std::exchange(job.sequence->saidWhyUnseen, true)))
+    say(options, "warning: " + pictureIn(job.sequence) + why +
+                     (job.sequence ? " (nothing is said of later ones)" : ""));
   checkSamples(options, stats);
   return picture;
 }
@@ -210,14 +204,14 @@ bool finishPicture(Image& picture, const PictureJob& job, const DrawingPlan& pla
                    Statistics& stats) {
   RenderOptions options = job.options;
   if (!isUniform(stats)) options.output.aovSamples = true;  // merge needs them
-  addAovs(picture, {options, job.loaded, job.tracer, job.showsProgress, job.told}, plan, stats);
+  addAovs(picture, {options, job.loaded, job.tracer, job.showsProgress, job.told, job.sequence}, plan, stats);
   stats.programs = job.tracer.renderer->programs().count();
   stats.shaderCharacters = job.tracer.renderer->programs().characters();
   const ShaderVariant& variant = job.tracer.variant;
   if (findChannel(picture, "A") &&
       (has(variant.traits, Trait::Alpha) || variant.shadowCatcher || variant.transparentGlass))
     picture.attributes[kNoisyAlphaAttribute] = "1";
-  denoise(picture, options, device, stats);
+  denoise(picture, options, device, stats, job.sequence);
   sayDriverLog(options, device);
   if (interrupts() > most) return false;
   setProvenanceOf(picture, options, job.loaded, job.tracer, stats);

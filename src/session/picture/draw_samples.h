@@ -66,10 +66,6 @@ double useOrCompile(Renderer& renderer, const ShaderVariant& variant, Film& film
 LayerDraw drawLayer(glm::ivec2 size, Renderer& renderer, const ShaderVariant& variant, const View& view,
                     int samples, const Renderer::Progress& progress = Renderer::toTheEnd);
 
-/// Does the same, appended to a picture of that size.
-LayerDraw addLayer(Image& picture, Renderer& renderer, const ShaderVariant& variant, const View& view,
-                   int samples, const Renderer::Progress& progress = Renderer::toTheEnd);
-
 // Turns a scene on the device into a picture with all content of its file. All front ends that finish
 // pictures share this.
 

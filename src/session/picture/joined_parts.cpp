@@ -16,7 +16,6 @@
 #include "base/text.h"
 #include "base/vectors.h"
 #include "image/channels.h"
-#include "image/image.h"
 #include "options/option_row.h"
 #include "session/picture/denoising.h"
 #include "session/shutter.h"
@@ -62,6 +61,23 @@ std::vector<SampleRange> rangesIn(const std::string& text, const std::filesystem
 }
 
 nlohmann::ordered_json numbers(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+/// The features in a variant's name that another variant lacks.
+std::string featuresOfOneAlone(const std::string& variant, const std::string& other) {
+  const std::string all = "+" + other + "+";
+  std::string text;
+  for (const std::string_view part : splitText(variant, '+')) {
+    const std::string feature(part);
+    if (all.find("+" + feature + "+") == std::string::npos) text += (text.empty() ? "" : "+") + feature;
+  }
+  return text.empty() ? "none" : text;
+}
+
+/// The two values of one setting; for shader variants, the features that they do not share.
+std::string bothValues(const std::string& key, const nlohmann::json& a, const nlohmann::json& b) {
+  if (key != "variant" || !a.is_string() || !b.is_string()) return a.dump() + " and " + b.dump();
+  return featuresOfOneAlone(a, b) + " and " + featuresOfOneAlone(b, a);
+}
 
 }  // namespace
 
@@ -120,27 +136,6 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-namespace {
-
-/// The features in a variant's name that another variant lacks.
-std::string featuresOfOneAlone(const std::string& variant, const std::string& other) {
-  const std::string all = "+" + other + "+";
-  std::string text;
-  for (const std::string_view part : splitText(variant, '+')) {
-    const std::string feature(part);
-    if (all.find("+" + feature + "+") == std::string::npos) text += (text.empty() ? "" : "+") + feature;
-  }
-  return text.empty() ? "none" : text;
-}
-
-/// The two values of one setting; for shader variants, the features that they do not share.
-std::string bothValues(const std::string& key, const nlohmann::json& a, const nlohmann::json& b) {
-  if (key != "variant" || !a.is_string() || !b.is_string()) return a.dump() + " and " + b.dump();
-  return featuresOfOneAlone(a, b) + " and " + featuresOfOneAlone(b, a);
-}
-
-}  // namespace
-
 std::string differenceOf(const std::string& settings, const std::string& others) {
   const auto a = nlohmann::json::parse(settings, nullptr, false);
   const auto b = nlohmann::json::parse(others, nullptr, false);
@@ -180,55 +175,13 @@ std::optional<double> exposureOf(const Image& image) {
   return stops && std::isfinite(*stops) ? stops : std::nullopt;
 }
 
-void setProvenance(Image& image, const Provenance& provenance) {
-  image.attributes[kSettingsAttribute] = provenance.settings;
-  image.attributes[kSeed] = std::to_string(provenance.seed);
-  image.attributes[kSampleOffset] = std::to_string(provenance.sampleOffset);
-  image.attributes[kSamples] = std::to_string(provenance.samples);
-  image.attributes[kUniform] = std::to_string(int(provenance.uniform));
-  image.attributes.erase(kRanges);
-  Provenance plain = provenance;
-  plain.ranges.clear();
-  if (provenance.ranges.empty() || provenance.ranges == rangesOf(plain)) return;
-  auto json = nlohmann::json::array();
-  for (const SampleRange& range : provenance.ranges) json.push_back({range.seed, range.first, range.count});
-  image.attributes[kRanges] = json.dump();
-}
+namespace {
 
+/// The ranges, or, if they are empty, those that follow from the other members.
 std::vector<SampleRange> rangesOf(const Provenance& provenance) {
   if (!provenance.ranges.empty()) return provenance.ranges;
   return {{provenance.seed, provenance.sampleOffset, provenance.samples}};
 }
-
-std::vector<SampleRange> joinedRanges(std::vector<SampleRange> ranges) {
-  std::sort(ranges.begin(), ranges.end());
-  std::vector<SampleRange> joined;
-  for (const SampleRange& range : ranges) {
-    if (joined.empty() || joined.back().seed != range.seed ||
-        joined.back().first + joined.back().count < range.first) {
-      joined.push_back(range);
-      continue;
-    }
-    if (joined.back().first + joined.back().count > range.first)
-      throw std::invalid_argument("sample " + std::to_string(range.first) + " of seed " +
-                                  std::to_string(range.seed) + " twice");
-    joined.back().count += range.count;
-  }
-  return joined;
-}
-
-Provenance provenanceOf(const Image& image, const std::filesystem::path& path) {
-  Provenance p;
-  p.settings = textOf(image, kSettingsAttribute, path);
-  p.seed = uint32_t(numberOf(image, kSeed, path));
-  p.sampleOffset = numberOf(image, kSampleOffset, path);
-  p.samples = numberOf(image, kSamples, path);
-  p.uniform = numberOf(image, kUniform, path) != 0;
-  if (image.attributes.contains(kRanges)) p.ranges = rangesIn(textOf(image, kRanges, path), path);
-  return p;
-}
-
-namespace {
 
 constexpr const char* kSamplesChannel = "samples.Y";
 
@@ -385,6 +338,49 @@ Spread spreadOf(const Part& part) {
 }
 
 }  // namespace
+
+void setProvenance(Image& image, const Provenance& provenance) {
+  image.attributes[kSettingsAttribute] = provenance.settings;
+  image.attributes[kSeed] = std::to_string(provenance.seed);
+  image.attributes[kSampleOffset] = std::to_string(provenance.sampleOffset);
+  image.attributes[kSamples] = std::to_string(provenance.samples);
+  image.attributes[kUniform] = std::to_string(int(provenance.uniform));
+  image.attributes.erase(kRanges);
+  Provenance plain = provenance;
+  plain.ranges.clear();
+  if (provenance.ranges.empty() || provenance.ranges == rangesOf(plain)) return;
+  auto json = nlohmann::json::array();
+  for (const SampleRange& range : provenance.ranges) json.push_back({range.seed, range.first, range.count});
+  image.attributes[kRanges] = json.dump();
+}
+
+std::vector<SampleRange> joinedRanges(std::vector<SampleRange> ranges) {
+  std::sort(ranges.begin(), ranges.end());
+  std::vector<SampleRange> joined;
+  for (const SampleRange& range : ranges) {
+    if (joined.empty() || joined.back().seed != range.seed ||
+        joined.back().first + joined.back().count < range.first) {
+      joined.push_back(range);
+      continue;
+    }
+    if (joined.back().first + joined.back().count > range.first)
+      throw std::invalid_argument("sample " + std::to_string(range.first) + " of seed " +
+                                  std::to_string(range.seed) + " twice");
+    joined.back().count += range.count;
+  }
+  return joined;
+}
+
+Provenance provenanceOf(const Image& image, const std::filesystem::path& path) {
+  Provenance p;
+  p.settings = textOf(image, kSettingsAttribute, path);
+  p.seed = uint32_t(numberOf(image, kSeed, path));
+  p.sampleOffset = numberOf(image, kSampleOffset, path);
+  p.samples = numberOf(image, kSamples, path);
+  p.uniform = numberOf(image, kUniform, path) != 0;
+  if (image.attributes.contains(kRanges)) p.ranges = rangesIn(textOf(image, kRanges, path), path);
+  return p;
+}
 
 Part readPart(const std::filesystem::path& path) {
   Part part{path, asDrawn(readStoredImage(path)), {}};

@@ -40,9 +40,6 @@ inline constexpr const char* kExposureAttribute = "fragtrace:exposure";
 /// The attribute of an .exr whose render was interrupted: "1".
 inline constexpr const char* kInterruptedAttribute = "fragtrace:interrupted";
 
-/// The ranges, or, if they are empty, those that follow from the other members.
-std::vector<SampleRange> rangesOf(const Provenance& provenance);
-
 /// Returns the same samples in as few ranges as possible. Throws std::invalid_argument if two of them
 /// overlap.
 std::vector<SampleRange> joinedRanges(std::vector<SampleRange> ranges);

@@ -12,6 +12,7 @@
 #include "image/channels.h"
 #include "image/display/heatmap.h"
 #include "image/display/tone_map.h"
+#include "image/files/process.h"
 #include "image/files/video_format.h"
 #include "image/format.h"
 #include "render/film/film_pixels.h"
@@ -35,6 +36,39 @@ std::vector<float> matrixOf(const std::array<glm::dvec4, 4>& columns) {
 
 /// The coordinate of a point (x, y, z, 1) along an axis from an origin.
 glm::dvec4 along(const glm::dvec3& axis, const glm::dvec3& origin) { return {axis, -glm::dot(axis, origin)}; }
+
+/// Draws lines over the displayed picture, which lies at that place.
+void drawLines(Image& display, std::span<const PictureLine> lines, const Placement& placement) {
+  const glm::vec3 orange(1.0f, 0.55f, 0.1f);
+  const glm::dvec2 half = 0.5 * glm::dvec2(placement.whole) * glm::dvec2(1.0, -1.0);
+  const glm::dvec2 middle = 0.5 * glm::dvec2(placement.whole) - glm::dvec2(placement.corner);
+  for (const PictureLine& line : lines)
+    drawLine(display, middle + line.from * half, middle + line.to * half, orange);
+}
+
+/// A name next to the output that does not exist yet.
+std::filesystem::path rescuePath(std::filesystem::path output) {
+  const std::string stem = output.stem().string();
+  output.replace_extension(".pfm");
+  std::error_code error;
+  for (int i = 2; std::filesystem::exists(std::filesystem::symlink_status(output, error)); ++i)
+    output.replace_filename(stem + "-" + std::to_string(i) + ".pfm");
+  return output;
+}
+
+/// Names what a picture loses in a .pfm: "the layers albedo, A and what merge needs".
+std::string lostInPfm(const RenderOptions& options, const Image& linear) {
+  std::set<std::string> layers;
+  for (const std::string& channel : linear.channels) {
+    if (channel != "R" && channel != "G" && channel != "B")
+      layers.insert(channel == "A" ? "alpha" : channel.substr(0, channel.find('.')));
+  }
+  std::string lost = joined(layers);
+  const auto add = [&](const char* more) { lost += (lost.empty() ? "" : " and ") + std::string(more); };
+  if (holdsDisplay(options.output.file)) add("what only a display has (exposure, tone curve, boxes)");
+  if (!linear.attributes.empty()) add("what merge needs");
+  return lost;
+}
 
 }  // namespace
 
@@ -61,43 +95,6 @@ void setChromaticities(Image& image) {
   image.numbers["chromaticities"] = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
 }
 
-namespace {
-
-/// Draws lines over the displayed picture, which lies at that place.
-void drawLines(Image& display, std::span<const PictureLine> lines, const Placement& placement) {
-  const glm::vec3 orange(1.0f, 0.55f, 0.1f);
-  const glm::dvec2 half = 0.5 * glm::dvec2(placement.whole) * glm::dvec2(1.0, -1.0);
-  const glm::dvec2 middle = 0.5 * glm::dvec2(placement.whole) - glm::dvec2(placement.corner);
-  for (const PictureLine& line : lines)
-    drawLine(display, middle + line.from * half, middle + line.to * half, orange);
-}
-
-/// A name beside the output that does not exist yet.
-std::filesystem::path rescuePath(std::filesystem::path output) {
-  const std::string stem = output.stem().string();
-  output.replace_extension(".pfm");
-  std::error_code error;
-  for (int i = 2; std::filesystem::exists(std::filesystem::symlink_status(output, error)); ++i)
-    output.replace_filename(stem + "-" + std::to_string(i) + ".pfm");
-  return output;
-}
-
-/// Names what a picture loses in a .pfm: "the layers albedo, A and what merge needs".
-std::string lostInPfm(const RenderOptions& options, const Image& linear) {
-  std::set<std::string> layers;
-  for (const std::string& channel : linear.channels) {
-    if (channel != "R" && channel != "G" && channel != "B")
-      layers.insert(channel == "A" ? "alpha" : channel.substr(0, channel.find('.')));
-  }
-  std::string lost = joined(layers);
-  const auto add = [&](const char* more) { lost += (lost.empty() ? "" : " and ") + std::string(more); };
-  if (holdsDisplay(options.output.file)) add("what only a display has (exposure, tone curve, boxes)");
-  if (!linear.attributes.empty()) add("what merge needs");
-  return lost;
-}
-
-}  // namespace
-
 bool showsColors(const RenderOptions& options) { return options.output.debugView != DebugView::None; }
 
 Image shownPicture(const RenderOptions& options, const FilmPixels& pixels, const Layers& layers,
@@ -119,6 +116,8 @@ std::vector<PictureLine> treeLines(const RenderOptions& options, const LoadedSce
 }
 
 void checkPictureWritable(const RenderOptions& options, glm::ivec2 size) {
+  if (holdsDisplay(options.output.file) && !options.output.ocio.view.empty())
+    shownByView({1, 1, {"R", "G", "B"}, {0.0f, 0.0f, 0.0f}, {}}, options.output.ocio);
   if (videoFormatOf(options.output.file) != nullptr) return;  // checkVideo() has tried
   checkImageWritable(options.output.file, size.x, size.y, channelsOf(options), options.output.encoding,
                      !options.output.toStandardOutput, options.output.place);
@@ -169,31 +168,6 @@ bool blendsValues(const RenderOptions& options) {
   if (options.output.alpha != AlphaOf::Auto) return options.output.alpha == AlphaOf::Display;
   return (options.light.shadowCatcher || options.light.transparentGlass) && !showsColors(options);
 }
-
-}  // namespace
-
-Image displayedPicture(const RenderOptions& options, const Image& linear,
-                       std::span<const PictureLine> lines) {
-  const bool colors = showsColors(options);
-  const double exposure = colors ? 0.0 : options.output.exposure.value_or(0.0);
-  const ToneMap curve = colors ? ToneMap::Linear : options.output.toneMap;
-  const std::optional<glm::vec3> page = pageOf(options);
-  Image display = page && findChannel(linear, "A")         ? toDisplayOver(*page, linear, exposure, curve)
-                  : holdsDisplayAlpha(options.output.file) ? toDisplay(linear, exposure, curve)
-                                                           : toDisplay(withoutAlpha(linear), exposure, curve);
-  if (blendsValues(options)) display = forBlendedValues(std::move(display));
-  const Placement place = linear.placement.value_or(Placement{{0, 0}, {linear.width, linear.height}});
-  if (options.output.dither && bitsOf(options.output) == 8 && !colors) dither(display, place.corner);
-  drawLines(display, lines, place);
-  return display;
-}
-
-void writePicture(const RenderOptions& options, const Image& linear, std::span<const PictureLine> lines) {
-  if (!holdsDisplay(options.output.file)) return writeOut(options, linear);
-  writeOut(options, displayedPicture(options, linear, lines));
-}
-
-namespace {
 
 constexpr double kNearlyAll = 0.99;
 constexpr double kFewestPaths = 0.001;  // share: fewer is none
@@ -320,6 +294,32 @@ std::string whyBlack(const DrawnView& view) {
 }
 
 }  // namespace
+
+Image displayedPicture(const RenderOptions& options, const Image& linear,
+                       std::span<const PictureLine> lines) {
+  const bool colors = showsColors(options);
+  const double exposure = colors ? 0.0 : options.output.exposure.value_or(0.0);
+  const ToneMap curve = colors ? ToneMap::Linear : options.output.toneMap;
+  const std::optional<glm::vec3> page = pageOf(options);
+  const auto shown = [&](const Image& picture) {
+    return colors || options.output.ocio.view.empty()
+               ? toDisplay(picture, exposure, curve)
+               : shownByView(exposedColors(picture, exposure), options.output.ocio);
+  };
+  Image display = page && findChannel(linear, "A")         ? toDisplayOver(*page, linear, exposure, curve)
+                  : holdsDisplayAlpha(options.output.file) ? shown(linear)
+                                                           : shown(withoutAlpha(linear));
+  if (blendsValues(options)) display = forBlendedValues(std::move(display));
+  const Placement place = linear.placement.value_or(Placement{{0, 0}, {linear.width, linear.height}});
+  if (options.output.dither && bitsOf(options.output) == 8 && !colors) dither(display, place.corner);
+  drawLines(display, lines, place);
+  return display;
+}
+
+void writePicture(const RenderOptions& options, const Image& linear, std::span<const PictureLine> lines) {
+  if (!holdsDisplay(options.output.file)) return writeOut(options, linear);
+  writeOut(options, displayedPicture(options, linear, lines));
+}
 
 std::string whyNothingIsSeen(const DrawnView& view) {
   const Statistics& stats = view.stats;

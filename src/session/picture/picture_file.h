@@ -47,7 +47,7 @@ Image displayedPicture(const RenderOptions& options, const Image& linear, std::s
 void checkPictureWritable(const RenderOptions& options, glm::ivec2 size);
 
 /// Rescues a finished picture whose output cannot be written for that reason: writes its colours alone to
-/// NAME.pfm beside it, or to a name that does not exist yet. Returns the message: the reason, where the
+/// NAME.pfm next to it, or to a name that does not exist yet. Returns the message: the reason, where the
 /// picture is and what it lacks. Nothing replaces a .pfm or standard output.
 std::string rescuePicture(const RenderOptions& options, const Image& linear, const std::string& reason);
 

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <glm/gtc/constants.hpp>
@@ -21,7 +22,6 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "base/worker.h"
-#include "image/files/video_format.h"
 #include "image/files/whole_file.h"
 #include "options/option_text.h"
 #include "scene/motion/moving_scene.h"
@@ -73,7 +73,25 @@ void drop(Video& video) {
 
 bool isGivenUp() { return interrupts() > 1; }
 
+/// Puts what was encoded in the place of that file.
+void keepAs(Video& video, const std::filesystem::path& file) {
+  const std::filesystem::path part = std::exchange(video.part, {});
+  if (partOf(file) != part) std::filesystem::rename(part, partOf(file));
+  takePart(file);
+  video.kept = file;
+}
+
+std::filesystem::path partialName(const Video& video) {
+  const std::string name = video.file.stem().string() + ".partial" + video.file.extension().string();
+  return video.part.parent_path() / name;
+}
+
 [[noreturn]] void fail(Video& video, const std::string& reason) {
+  std::error_code unknown;
+  const bool hasBytes =
+      !video.part.empty() && std::filesystem::file_size(video.part, unknown) > 0 && !unknown;
+  if (hasBytes && video.format->playsCut && video.count > 0 && !isGivenUp())
+    keepAs(video, partialName(video));
   drop(video);
   throw RenderError("cannot write " + video.file.string() + ": " + reason);
 }
@@ -121,6 +139,7 @@ std::unique_ptr<Video> start(const std::filesystem::path& file, glm::ivec2 size,
   video->file = file;
   video->format = videoFormatOf(file);
   video->size = size;
+  if (!isTrial) removeParts(file);
   if (!isTrial) video->part = partOf(file);
   const PixelForm& pixels = video->format->pixels;
   std::vector<std::string> words = {kEncoder,
@@ -162,6 +181,39 @@ std::unique_ptr<Video> start(const std::filesystem::path& file, glm::ivec2 size,
   return video;
 }
 
+/// The pattern with the result of `wordFor(width)` instead of its last run of #.
+template <typename WordFor>
+std::filesystem::path filled(const std::filesystem::path& pattern, const WordFor& wordFor) {
+  std::string name = pattern.filename().string();
+  const size_t last = name.rfind('#');
+  if (last == std::string::npos) return pattern;
+  size_t first = last;
+  while (first > 0 && name[first - 1] == '#') --first;
+  const size_t width = last - first + 1;
+  name.replace(first, width, wordFor(width));
+  return std::filesystem::path(pattern).replace_filename(name);
+}
+
+/// The name with the number instead of its last run of #, with at least as many digits.
+std::filesystem::path numberedName(const std::filesystem::path& pattern, int number) {
+  return filled(pattern, [&](size_t width) {
+    const std::string digits = std::to_string(number);
+    return std::string(width - std::min(width, digits.size()), '0') + digits;
+  });
+}
+
+/// The seed of a picture of a sequence with that seed: picture 0 has the seed itself, and no two pictures
+/// have the same. None is the seed of an adaptive picture's second half (seedOfOtherHalf), which is even
+/// where the picture's seed is odd, and odd where it is even.
+uint32_t seedOfPicture(uint32_t seed, int number) {
+  // Each step is a permutation of 31 bits that leaves 0 alone. The lowest bit stays the seed's.
+  constexpr uint32_t kBits = 0x7fffffffu;
+  uint32_t bits = uint32_t(number);
+  bits = (bits ^ bits >> 15) * 0x2c1b3c6du & kBits;
+  bits = (bits ^ bits >> 12) * 0x297a2d39u & kBits;
+  return seed ^ (bits ^ bits >> 15) << 1;
+}
+
 }  // namespace
 
 Video::~Video() { drop(*this); }
@@ -190,34 +242,9 @@ void addFrame(Video& video, const Image& display) {
   writeFrame(video, pixelsOf(display, video.format->pixels));
 }
 
-void finishVideo(Video& video) {
+void finishVideo(Video& video, int frames) {
   awaitEncoder(video);
-  video.part.clear();
-  takePart(video.file);
-}
-
-namespace {
-
-/// The pattern with the result of `wordFor(width)` in place of its last run of #.
-template <typename WordFor>
-std::filesystem::path filled(const std::filesystem::path& pattern, const WordFor& wordFor) {
-  std::string name = pattern.filename().string();
-  const size_t last = name.rfind('#');
-  if (last == std::string::npos) return pattern;
-  size_t first = last;
-  while (first > 0 && name[first - 1] == '#') --first;
-  const size_t width = last - first + 1;
-  name.replace(first, width, wordFor(width));
-  return std::filesystem::path(pattern).replace_filename(name);
-}
-
-}  // namespace
-
-std::filesystem::path numberedName(const std::filesystem::path& pattern, int number) {
-  return filled(pattern, [&](size_t width) {
-    const std::string digits = std::to_string(number);
-    return std::string(width - std::min(width, digits.size()), '0') + digits;
-  });
+  keepAs(video, video.count < frames ? partialName(video) : video.file);
 }
 
 std::filesystem::path namedFile(const std::filesystem::path& pattern, const std::string& word, int number) {
@@ -227,7 +254,7 @@ std::filesystem::path namedFile(const std::filesystem::path& pattern, const std:
 }
 
 FrameRange rangeOf(const SequenceOptions& sequence) {
-  return sequence.turntable > 0 ? FrameRange{0, sequence.turntable - 1, 1} : sequence.frames.value();
+  return sequence.frames ? *sequence.frames : FrameRange{0, sequence.turntable - 1, 1};
 }
 
 double picturesPerSecond(const SequenceOptions& sequence) { return sequence.fps / rangeOf(sequence).step; }
@@ -239,15 +266,6 @@ bool isStream(const OutputOptions& output) {
 int frameCount(const SequenceOptions& sequence) {
   const FrameRange range = rangeOf(sequence);
   return (range.last - range.first) / range.step + 1;
-}
-
-uint32_t seedOfPicture(uint32_t seed, int number) {
-  // Each step is a permutation of 31 bits that leaves 0 alone. The lowest bit stays the seed's.
-  constexpr uint32_t kBits = 0x7fffffffu;
-  uint32_t bits = uint32_t(number);
-  bits = (bits ^ bits >> 15) * 0x2c1b3c6du & kBits;
-  bits = (bits ^ bits >> 12) * 0x297a2d39u & kBits;
-  return seed ^ (bits ^ bits >> 15) << 1;
 }
 
 SequenceFrame frameOf(const RenderOptions& options, int index) {
@@ -272,6 +290,10 @@ SequenceFrame frameOf(const RenderOptions& options, int index) {
   return frame;
 }
 
+namespace {
+
+/// The camera turned by an angle (radians, to the right as seen through it) about the vertical axis, +Y,
+/// through its focal point.
 Camera turnedCamera(Camera camera, const glm::dvec3& focalPoint, double angle) {
   const auto turned = [&](const glm::dvec3& v) { return glm::rotateY(v, angle); };
   camera.position = focalPoint + turned(camera.position - focalPoint);
@@ -280,6 +302,7 @@ Camera turnedCamera(Camera camera, const glm::dvec3& focalPoint, double angle) {
   return camera;
 }
 
+/// Turns the scene's punctual lights in the same way, so that they stay before such a camera.
 void turnLights(Scene& scene, const glm::dvec3& focalPoint, double angle) {
   const glm::dvec3 middle = scene.space.localOf(focalPoint);
   for (Light& light : scene.lights) {
@@ -288,17 +311,17 @@ void turnLights(Scene& scene, const glm::dvec3& focalPoint, double angle) {
   }
 }
 
-namespace {
-
 /// Pictures after the end of an animation are all the same.
 void warnBeyondEnd(const RenderOptions& options, const SequenceOptions& sequence, const Scene& scene) {
   const std::optional<double> length = animationLength(scene, options.selection);
   const int last = rangeOf(sequence).last;
-  if (!length || last <= std::ceil(*length * sequence.fps)) return;
-  say(options,
-      formatted(
-          "warning: --frames: the animation ends after %.4g s, at picture %d; those after it show its end",
-          *length, int(std::ceil(*length * sequence.fps))));
+  if (!length) return;
+  const int end = int(std::ceil(*length * sequence.fps - kKeyTimeRounding));
+  if (last > end)
+    say(options,
+        formatted(
+            "warning: --frames: the animation ends after %.4g s, at picture %d; those after it show its end",
+            *length, end));
 }
 
 }  // namespace

@@ -28,6 +28,7 @@ struct Video {
   int frames = -1;             ///< the pipe that it reads them from
   int said = -1;               ///< file in memory with its messages
   std::filesystem::path part;  ///< the file that is being written; empty: there is none
+  std::filesystem::path kept;  ///< the file that holds what was encoded; empty: there is none
   Video() = default;
   ~Video();
   Video(const Video&) = delete;
@@ -42,11 +43,13 @@ void checkVideo(const std::filesystem::path& file);
 std::unique_ptr<Video> startVideo(const std::filesystem::path& file, glm::ivec2 size, double framesPerSecond);
 
 /// Appends a picture as a display shows it, of that size. Throws RenderError, with the encoder's last words,
-/// also where the interrupted user waits no longer; the video is dropped then.
+/// also where the interrupted user waits no longer. The video is dropped then, or kept as one of fewer frames
+/// where the encoder failed and players show a file that is cut off.
 void addFrame(Video& video, const Image& display);
 
-/// Ends the encoder and puts the video in its place. Throws as addFrame() does.
-void finishVideo(Video& video);
+/// Ends the encoder and puts the video in its place; one of fewer than `frames` frames goes to
+/// NAME.partial.EXTENSION instead, so that an older file stays. Throws as addFrame() does.
+void finishVideo(Video& video, int frames);
 
 // The pictures of a sequence: their numbers, names, times and views.
 
@@ -58,10 +61,7 @@ struct SequenceFrame {
   double sweep = 0.0;     ///< the part of the turn for which the shutter is open, radians
 };
 
-/// The name with the number in place of its last run of #, with at least as many digits.
-std::filesystem::path numberedName(const std::filesystem::path& pattern, int number);
-
-/// The name with that word in place of its last run of #. The number takes its place if the word is empty or
+/// The name with that word instead of its last run of #. The number takes its place if the word is empty or
 /// unsuitable for the name of a file.
 std::filesystem::path namedFile(const std::filesystem::path& pattern, const std::string& word, int number);
 
@@ -76,21 +76,9 @@ bool isStream(const OutputOptions& output);
 
 int frameCount(const SequenceOptions& sequence);
 
-/// The seed of a picture of a sequence with that seed: picture 0 has the seed itself, and no two pictures
-/// have the same. None is the seed of an adaptive picture's second half (seedOfOtherHalf), which is even
-/// where the picture's seed is odd, and odd where it is even.
-uint32_t seedOfPicture(uint32_t seed, int number);
-
 /// The picture of that index, from 0; the options are of a sequence. Small scenes do not become shader text
 /// in it, so that one program draws all pictures.
 SequenceFrame frameOf(const RenderOptions& options, int index);
-
-/// The camera turned by an angle (radians, to the right as seen through it) about the vertical axis, +Y,
-/// through its focal point.
-Camera turnedCamera(Camera camera, const glm::dvec3& focalPoint, double angle);
-
-/// Turns the scene's punctual lights in the same way, so that they stay before such a camera.
-void turnLights(Scene& scene, const glm::dvec3& focalPoint, double angle);
 
 /// Makes the session's scene and tracer those of the picture; a turntable has another scene in each picture
 /// where it has lamps that stay, and the rest turns. Says once where the animation ends early. Throws as

@@ -7,8 +7,6 @@
 #include <utility>
 
 #include "gl/program.h"
-#include "image/denoise/oidn.h"
-#include "render/denoise.h"
 #include "session/picture/draw_samples.h"
 
 namespace fragtrace {

@@ -51,7 +51,7 @@ class ViewPrograms {
   /// Returns the same as of(), but null if the program compiles in the background. That begins now unless
   /// another one does.
   std::shared_ptr<ViewProgram> soon(const RenderOptions& options);
-  /// Begins to make what a moving picture of the program needs to read textures by ray cones, beside other
+  /// Begins to make what a moving picture of the program needs to read textures by ray cones, next to other
   /// drawing. Does nothing while another program compiles.
   void addCones(const std::shared_ptr<ViewProgram>& program);
   /// Returns true if a program that was compiled aside has come since the last call.

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Begins to draw a side of the viewer: filter, program, camera, and a preview until the program is there.
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "base/summary.h"
 #include "base/timeline.h"
-#include "gl/gl.h"
 #include "image/channels.h"
+#include "image/display/tone_map.h"
 #include "image/format.h"
-#include "options/option_row.h"
 #include "render/film/noise.h"
-#include "session/picture/denoising.h"
+#include "session/environment.h"
 #include "session/picture/joined_parts.h"
 #include "session/picture/picture_file.h"
-#include "view/live/view_loader.h"
 #include "view/live/view_tracer.h"
 #include "view/pictures.h"
 
@@ -43,6 +43,12 @@ constexpr int kFewestForOidn = 4;
 constexpr int kLeastForError = 32;
 constexpr double kErrorStep = 1.2;  ///< samples grow by this factor between estimates of the error
 constexpr double kCountMs = 200.0;  ///< time between looks at the film's counts
+
+/// Returns true if they draw different samples, and would draw the same with the same camera.
+bool differInCameraAlone(const RenderOptions& a, const RenderOptions& b) {
+  const auto fixed = [](const RenderOptions& o) { return withoutEffects(o, {Effect::View}); };
+  return !drawsTheSame(a, b) && drawsTheSame(fixed(a), fixed(b));
+}
 
 /// The bytes per pixel of films, and of pictures on their way to the window.
 size_t bytesPerPixel(const SideMemory& memory) {
@@ -214,8 +220,6 @@ void ViewTracer::fitFilm(Side& side) {
   side.errorAt = 0;
 }
 
-bool ViewTracer::drawsCones(const Side& side) { return side.byCones && side.program->hasCones; }
-
 bool ViewTracer::resting(const Side& side) const {
   if (!side.program) return true;
   if (side.stale || side.samples == 0) return false;
@@ -239,7 +243,7 @@ bool ViewTracer::draw(Side& side) {
   const double before = side.times.renderMs;
   clock_.restart();
   const Tracer& tracer = side.program->tracer;
-  renderer.use(drawsCones(side) ? tracer.cones.front() : tracer.variant);
+  renderer.use(side.drawsCones() ? tracer.cones.front() : tracer.variant);
   // A frame of a moving picture is short, and worth its end: else nothing would be seen before the hand
   // rests. Its first sample says how many more it may have, which are drawn at once.
   int added = 0;
@@ -254,7 +258,7 @@ bool ViewTracer::draw(Side& side) {
     count = std::min(samplesThatFit(resolution_, elapsedMs, added), side.options.sampling.spp - side.samples);
   } while (request_.moving && count > 0);
   clock_.end(Pass::Trace);
-  const double filterMs = denoises(side) && !isStill() ? filterMsPerPixel_ * size.x * size.y : 0.0;
+  const double filterMs = side.denoises() && !isStill() ? filterMsPerPixel_ * size.x * size.y : 0.0;
   frameTaken(resolution_, request_.size, size,
              ((side.times.renderMs - before) / added + filterMs) * double(sides_.size()));
   std::vector<double>& frames = side.times.frameMs;
@@ -267,7 +271,7 @@ bool ViewTracer::worthShowing(const Side& side) const {
   const double shownFor = steadyMilliseconds() - side.published;
   if (side.shownAt == 0) return side.samples >= kSmoothSamples || shownFor > kSmoothMs;
   if (denoisesByOidn(side)) return side.samples >= 2 * side.shownAt;
-  const double pause = (denoises(side) ? kFilteredShare : kPublishShare) * publishMs_;
+  const double pause = (side.denoises() ? kFilteredShare : kPublishShare) * publishMs_;
   return shownFor > std::max(kPublishMs, pause) * double(sides_.size());
 }
 
@@ -294,7 +298,7 @@ bool ViewTracer::work() {
   for (Side& side : sides_) {
     if (!resting(side)) next.push_back(&side);
   }
-  // A film of the next finer step may hold its frame already: one more turn then goes on to the step after.
+  // A film of the next finer step may hold its frame already: one more turn then goes to the step after.
   if (next.empty()) return !request_.moving && resolution_.step > 0;
   if (!request_.moving) next = {*std::ranges::min_element(next, {}, &Side::samples)};
   // They are handed over at once, so that all show the same moment.
@@ -319,10 +323,8 @@ void ViewTracer::estimate(Side& side) {
   side.errorAt = side.samples;
 }
 
-bool ViewTracer::denoises(const Side& side) { return whyNotDenoised(side.options).empty(); }
-
 bool ViewTracer::denoisesByOidn(const Side& side) const {
-  return denoises(side) && oidn_ && side.options.output.denoise == Denoise::Oidn && isStill() &&
+  return side.denoises() && oidn_ && side.options.output.denoise == Denoise::Oidn && isStill() &&
          side.samples >= kFewestForOidn;
 }
 
@@ -353,11 +355,11 @@ bool ViewTracer::show(Side& side, bool past, const std::function<bool()>& goOn) 
   }
   const double start = steadyMilliseconds();
   Tracer& tracer = side.program->tracer;
-  const bool filtered = denoises(side);
+  const bool filtered = side.denoises();
   const double pixels = double(side.film->size().x) * side.film->size().y;
   const bool byOidn = denoisesByOidn(side);
   const double expectedMs = filtered && !byOidn ? filterMsPerPixel_ * pixels : 0.0;
-  const Showing showing{filtered, byOidn, side.samples, past, drawsCones(side), expectedMs};
+  const Showing showing{filtered, byOidn, side.samples, past, side.drawsCones(), expectedMs};
   bool complete = false;
   try {
     complete = maker_->show(*side.film, showing, side.options, tracer, side.view, side.memory, into, goOn);
@@ -420,12 +422,12 @@ std::optional<TracedPicture> ViewTracer::pictureOf(Side& side) {
   s.megaRaysPerSecond = side.megaRaysPerSecond;
   if (side.times.renderMs > 0.0)
     s.megaPathsPerSecond = double(side.samples) * size.x * size.y / side.times.renderMs / 1000.0;
-  if (denoises(side)) {
+  if (side.denoises()) {
     s.filtered = filteredShare(side.samples);
     s.filterMs = side.filterMs;
   }
   s.resting = isStill() && !side.awaited && resting(side);
-  s.variant = drawsCones(side) ? variantName(side.program->tracer.cones.front()) : side.program->variant;
+  s.variant = side.drawsCones() ? variantName(side.program->tracer.cones.front()) : side.program->variant;
   s.deviceBytes = side.program->bytes + size_t(size.x) * size_t(size.y) * bytesPerPixel(side.memory);
   s.copied = !shares_;
   s.passes = clock_.take();
@@ -445,7 +447,7 @@ void ViewTracer::publish(Side& side) {
 /// Returns a side's picture as the window shows it, but without reused samples of earlier views.
 Image ViewTracer::seenOf(Side& side) {
   const bool hasPast = side.samples < kNoPastFrom && side.memory.past.size.x > 0;
-  const bool seen = denoises(side) && !hasPast && side.shownIn >= 0 &&
+  const bool seen = side.denoises() && !hasPast && side.shownIn >= 0 &&
                     shownOf(side, side.shownIn).size == side.film->size();
   if (!seen) show(side, false, [] { return true; });
   const Image picture = imageOf(shownOf(side, side.shownIn));
@@ -462,7 +464,7 @@ void ViewTracer::saveAll(const SaveRequest& request) {
     sides.push_back({seenOf(side), showsColors(shown), pageOf(shown)});
   }
   if (sides.size() == 1 && !reference_) return exchange_.deliver("not written: there is one side alone");
-  if (sides.size() == 1) sides.push_back({*reference_, false});
+  if (sides.size() == 1) sides.push_back({reference_->image, reference_->wasEncoded});
   RenderOptions options = sides_[0].options;
   options.output.file = request.path;
   options.output.exposure = 0.0;
@@ -507,13 +509,33 @@ void ViewTracer::takeReference(const std::filesystem::path& path) {
     TracedPicture picture;
     picture.side = 1;
     picture.file = path;
-    picture.image = readReference(path, start_.render.limits.memoryBytes);
+    reference_ = readReference(path, start_.render.limits.memoryBytes);
+    picture.image = reference_->image;
+    picture.asItIs = reference_->wasEncoded;
     picture.size = {picture.image.width, picture.image.height};
-    reference_ = picture.image;
     exchange_.deliver(std::move(picture));
   } catch (const std::exception& error) {
     exchange_.deliver(error.what());
   }
+}
+
+LinearImage readReference(const std::filesystem::path& path, uint64_t memoryLimit) {
+  LinearImage read = readLinearImage(path, memoryLimit);
+  const Image whole = wholeOf(std::move(read.image));
+  const auto color = findColorChannels(whole);
+  if (!color) throw InputError(path.string() + ": has no colour");
+  std::vector<std::string> names;
+  for (const size_t channel : *color) names.push_back(whole.channels[channel]);
+  const bool alpha = findChannel(whole, "A").has_value();
+  if (alpha) names.emplace_back("A");
+  read.image = onlyChannels(whole, names);
+  std::copy_n(std::array{"R", "G", "B"}.begin(), 3, read.image.channels.begin());
+  for (size_t first = 0; alpha && read.wasEncoded && first < read.image.values.size(); first += 4) {
+    float* pixel = &read.image.values[first];
+    pixel[3] = float(encodeSrgb(double(pixel[3])));  // alpha is no light
+    for (int c = 0; c < 3; ++c) pixel[c] *= pixel[3];
+  }
+  return read;
 }
 
 }  // namespace fragtrace

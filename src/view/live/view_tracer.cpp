@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "view/live/view_tracer.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "base/timeline.h"
@@ -10,6 +9,7 @@
 #include "gl/driver_choice.h"
 #include "gltf/edit/changed_file.h"
 #include "gltf/edit/factors.h"
+#include "scene/studio.h"
 #include "session/environment.h"
 #include "session/outputs.h"
 #include "session/picture/picture_file.h"
@@ -24,20 +24,17 @@ constexpr double kLongWait = 3600.0;  ///< seconds
 constexpr double kWatchSeconds = 0.25;
 constexpr int kMostLosses = 3;  ///< losses of the context in a row, without a picture between them
 
-/// A command that cannot be carried out ends the program; another file may be shown.
-void endIfHopeless(const std::exception_ptr& error, const std::filesystem::path& scene) {
+/// Why a load failed. The first one throws it: a command that cannot be carried out ends the program, except
+/// that another file may be shown instead of one that cannot be read.
+std::string whatFailed(const std::exception_ptr& error, bool isFirst, const std::filesystem::path& scene) {
   std::error_code none;
   try {
     std::rethrow_exception(error);
-  } catch (const InputError&) {
-    if (!std::filesystem::exists(scene, none)) throw;
-  }
-}
-
-std::string whatFailed(const std::exception_ptr& error) {
-  try {
-    std::rethrow_exception(error);
+  } catch (const InputError& e) {
+    if (isFirst && !std::filesystem::exists(scene, none)) throw;
+    return e.what();
   } catch (const std::exception& e) {
+    if (isFirst) throw;
     return e.what();
   }
 }
@@ -74,6 +71,90 @@ std::vector<std::string> pickLines(const Scene& scene, const Pick& pick) {
   return lines;
 }
 
+struct Cancelled {};
+
+/// What the window knows of a scene.
+ViewedScene viewedOf(const LoadedScene& loaded, const Statistics& stats, const RenderOptions& options) {
+  ViewedScene viewed;
+  viewed.options = options;
+  // From now on the camera is named by its index, like cameras that are chosen in the window.
+  viewed.options.camera.index = loaded.cameraIndex;
+  viewed.options.selection.camera.clear();
+  // A camera that was placed by the scene's vertices is also kept by its numbers.
+  if (loaded.overrides.fit) {
+    if (loaded.view.shadowFade != glm::dvec2(0.0)) viewed.options.light.shadowFade = loaded.view.shadowFade;
+    viewed.options.camera.overrides = overridesOf(poseOf(loaded.camera, loaded.framed));
+  }
+  viewed.camera = loaded.camera;
+  viewed.cameras = loaded.scene.cameras;
+  viewed.bounds = loaded.scene.bounds;
+  viewed.present = traitsOf(loaded.scene, loaded.environment);
+  viewed.description = stats.scene;
+  viewed.light = loaded.light;
+  const double exposure = exposureOf(viewed.options, loaded.light);
+  if (exposure != 0.0) viewed.exposure = exposure;
+  viewed.refersToFiles = loaded.scene.refersToFiles;
+  viewed.surroundings = loaded.environment.kind;
+  viewed.environments = environmentsNear(options);
+  viewed.nodes = loaded.scene.nodes;
+  viewed.materials = loaded.scene.materials;
+  viewed.lights = loaded.scene.lightSources;
+  viewed.sceneNames = loaded.scene.sceneNames;
+  viewed.materialVariants = loaded.scene.materialVariants;
+  viewed.animationNames = loaded.scene.animationNames;
+  viewed.animationSeconds = loaded.scene.animationSeconds;
+  return viewed;
+}
+
+/// Loads a scene, and reports its progress.
+LoadResult loadViewed(const RenderOptions& options, Exchange& exchange, const BackgroundJob& job) {
+  LoadResult result;
+  result.viewed.options = options;
+  const auto progress = [&](const std::string& step, double fraction) {
+    const LoadStatus status{true, options.scene.filename().string(), step, fraction};
+    if (!job.report([&] { exchange.set(&TraceStatus::load, status); })) throw Cancelled();
+  };
+  try {
+    SceneBefore before;
+    before.document = &result.document;
+    // Numbers that the user sets are set later: the window shows the file's, too.
+    RenderOptions plain = options;
+    plain.selection.set.clear();
+    if (!options.selection.set.empty()) checkChange(options.scene, options.selection.set);
+    for (const std::string& warning : warningsOf(options.selection.set)) say(options, "warning: " + warning);
+    Statistics stats;
+    auto loaded = std::make_unique<LoadedScene>(loadScene(plain, stats, progress, FilmOf::Picture, before));
+    RenderOptions unlit = plain;
+    unlit.light.studio = unlit.light.sky.on = false;
+    unlit.light.hdriFile.clear();
+    const FileLight light =
+        hasMap(options) ? fileLightOf(unlit, loaded->scene, nullptr, &result.document) : loaded->light;
+    result.viewed = viewedOf(*loaded, stats, options);
+    result.viewed.defaultLight = light.own != OwnLight::Enough;
+    progress("packing", 0.9);
+    result.scene = std::move(loaded);
+  } catch (const Cancelled&) {
+  } catch (...) {
+    result.error = std::current_exception();
+  }
+  return result;
+}
+
+/// Delivers a small picture of each environment (empty: the studio).
+void makeThumbnails(const std::vector<std::filesystem::path>& files, uint64_t memoryLimit, Exchange& exchange,
+                    const BackgroundJob& job) {
+  for (const std::filesystem::path& file : files) {
+    if (job.cancelled()) return;
+    EnvironmentThumbnail thumbnail{file, {}};
+    try {
+      thumbnail.image = thumbnailOf(file.empty() ? studioLight() : readLinearImage(file, memoryLimit).image);
+    } catch (const std::exception&) {
+      // A file that cannot be read is reported when it is chosen.
+    }
+    job.report([&] { exchange.deliver(std::move(thumbnail)); });
+  }
+}
+
 }  // namespace
 
 ViewTracer::ViewTracer(const ViewOptions& start, std::optional<OidnLibrary> oidn, Exchange& exchange)
@@ -101,10 +182,10 @@ void ViewTracer::run(const SharedContexts& shared) {
       }
       exchange_.set(&TraceStatus::request, request_.number);
       exchange_.set(&TraceStatus::resting, !working && !request_.moving && !awaitsProgram());
-      reportDriver();
+      for (const std::string& message : driverLog_->take()) exchange_.deliver("driver: " + message);
     }
   } catch (...) {
-    exchange_.deliver(std::current_exception());
+    exchange_.fail(std::current_exception());
   }
   loading_.cancel();
   for (Background<bool>& one : thumbnails_) one.cancel();
@@ -113,17 +194,16 @@ void ViewTracer::run(const SharedContexts& shared) {
 
 void ViewTracer::enterContext(const SharedContexts& shared) {
   const DeviceOptions& device = start_.render.device;
-  shares_ = shared.draws && device.backend == Backend::Auto && device.device.empty();
-  context_ = shares_ ? makeContext(*shared.draws) : makeContext(device);
+  const auto open = [&](bool shares) {
+    context_.reset();
+    shares_ = shares;
+    context_ = shares ? makeContext(*shared.draws) : makeContext(device);
+  };
+  open(shared.draws && device.backend == Backend::Auto && device.device.empty());
   // A window may be drawn by software though there is a GPU, as over a network.
   if (shares_ && context_->software && mayHaveGpu()) {
-    context_.reset();
-    context_ = makeContext(device);
-    shares_ = context_->software;
-    if (shares_) {
-      context_.reset();
-      context_ = makeContext(*shared.draws);
-    }
+    open(false);
+    if (context_->software) open(true);
   }
   compiles_ = shares_ && keepsCompiled(*context_) ? shared.compiles : std::nullopt;
   if (start_.render.output.verbose)
@@ -172,14 +252,10 @@ void ViewTracer::leaveContext() {
   context_.reset();
 }
 
-void ViewTracer::reportDriver() {
-  for (const std::string& message : driverLog_->take()) exchange_.deliver("driver: " + message);
-}
-
 void ViewTracer::carryOut(Requests requests) {
-  if (requests.load && requests.load->options) {
+  if (requests.load && *requests.load) {
     loadError_.clear();
-    load(*requests.load->options);
+    load(**requests.load);
   } else if (requests.load) {
     loading_.cancel();
     exchange_.set(&TraceStatus::load, {});
@@ -214,8 +290,7 @@ void ViewTracer::takeLoaded() {
   if (!result) return;
   exchange_.set(&TraceStatus::load, {});
   if (result->error) {
-    if (!loaded_) endIfHopeless(result->error, result->viewed.options.scene);
-    loadError_ = whatFailed(result->error);
+    loadError_ = whatFailed(result->error, !loaded_, result->viewed.options.scene);
     exchange_.set(&TraceStatus::error, loadError_);
     return;
   }

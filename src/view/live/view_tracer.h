@@ -1,26 +1,46 @@
 // SPDX-License-Identifier: MIT
-// The viewer's tracing thread: a context and renderers of its own, requests in, finished pictures out.
+// The viewer's tracing thread: a context and renderers of its own, requests in, finished pictures out; and
+// the files that it reads: scenes and thumbnails, in the background, and the picture to compare with.
 #pragma once
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <deque>
+#include <exception>
+#include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "base/errors.h"
 #include "bvh/outlines.h"
 #include "gl/gl.h"
+#include "image/image.h"
 #include "options/option_row.h"
 #include "options/view_options.h"
+#include "session/picture/denoising.h"
 #include "session/session.h"
+#include "session/setup.h"
+#include "view/background.h"
 #include "view/exchange.h"
 #include "view/files.h"
-#include "view/live/view_loader.h"
 #include "view/live/view_picture.h"
 #include "view/live/view_programs.h"
 #include "view/resolution_controller.h"
 
 namespace fragtrace {
+
+/// A load that has ended: the scene, or why there is none.
+struct LoadResult {
+  ViewedScene viewed;  ///< with the options of the load; only these without a scene
+  std::unique_ptr<LoadedScene> scene;
+  std::shared_ptr<KeptDocument> document;  ///< the document for poses, if it is animated
+  std::exception_ptr error;
+};
+
+/// A picture that the viewer compares with: linear R, G, B, and A where it has that. Throws InputError for
+/// what has no colour or is too large.
+LinearImage readReference(const std::filesystem::path& path, uint64_t memoryLimit);
 
 /// Nodes of the scene that is shown; none: nothing is selected.
 struct Selected {
@@ -74,6 +94,9 @@ class ViewTracer {
     int shownIn = -1;         ///< slot of that picture; negative: it is not there any more
     double filterMs = 0.0;    ///< time of the filter
     uint64_t movedBytes = 0;  ///< the thread's count at the side's picture before
+
+    bool drawsCones() const { return byCones && program->hasCones; }
+    bool denoises() const { return whyNotDenoised(options).empty(); }
   };
 
   void enterContext(const SharedContexts& shared);
@@ -85,7 +108,7 @@ class ViewTracer {
   void watchFiles();
   void rebuildPrograms();
   void setRequest(const TraceRequest& request);
-  /// The options, with front-to-back in place of an automatic traversal if the scene is posed again.
+  /// The options, with front-to-back instead of an automatic traversal if the scene is posed again.
   RenderOptions asPosed(RenderOptions options) const;
   /// Renews what the request needs otherwise of the scene: its sky, its pose, numbers of surfaces and lights.
   void renew(const TraceRequest& request);
@@ -101,7 +124,7 @@ class ViewTracer {
   void setSide(Side& side, const RenderOptions& options);
   void preview(Side& side, const RenderOptions& wanted);
   View viewOf(const RenderOptions& options);
-  /// Null while the program is compiled beside other drawing.
+  /// Null while the program is compiled next to other drawing.
   std::shared_ptr<ViewProgram> programFor(const RenderOptions& options, bool aside);
   /// Sides draw what was compiled aside.
   void takeCompiled();
@@ -112,8 +135,6 @@ class ViewTracer {
   void noteAnswered();
   /// A film of the size that is drawn at now; empty, if it was of another.
   void fitFilm(Side& side);
-  /// Returns true if the side's film reads textures by ray cones.
-  static bool drawsCones(const Side& side);
   bool resting(const Side& side) const;
   /// Returns true if nothing moves and the resolution is the full one.
   bool isStill() const;
@@ -126,8 +147,6 @@ class ViewTracer {
   bool worthShowing(const Side& side) const;
   void estimate(Side& side);
   void count(Side& side);
-  /// Returns true if the side's picture is filtered.
-  static bool denoises(const Side& side);
   /// Returns true if Open Image Denoise filters now. It takes seconds, so it runs when the samples have
   /// doubled.
   bool denoisesByOidn(const Side& side) const;
@@ -148,7 +167,6 @@ class ViewTracer {
   void select(Selected selected);
   /// Boxes of the tree, and the outline of what is selected.
   std::vector<PictureLine> linesOver(const Side& side);
-  void reportDriver();
   /// Tells the window what keeps the thread from drawing.
   void reportWork(const std::string& what);
 
@@ -184,10 +202,10 @@ class ViewTracer {
   std::atomic<bool> saving_ = false;
   std::string loadError_;  ///< why the latest load failed; empty: it did not
   std::vector<SaveRequest> saves_;
-  std::optional<Image> reference_;  ///< the picture that the window shows as side B
-  int losses_ = 0;                  ///< contexts lost since the latest publication
-  double publishMs_ = 0.0;          ///< time of the latest publication
-  double filterMsPerPixel_ = 0.0;   ///< time of layers and filter for a pixel
+  std::optional<LinearImage> reference_;  ///< the picture that the window shows as side B
+  int losses_ = 0;                        ///< contexts lost since the latest publication
+  double publishMs_ = 0.0;                ///< time of the latest publication
+  double filterMsPerPixel_ = 0.0;         ///< time of layers and filter for a pixel
   FileWatch sceneFiles_;
   FileWatch shaderFiles_;
   double watched_ = 0.0;  ///< when they were looked at, by steadyMilliseconds()

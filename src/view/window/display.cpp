@@ -228,9 +228,11 @@ void Display::draw(const ViewState& state, glm::ivec2 picture, glm::ivec2 window
 void Display::drawCell(const ViewState& state, size_t left, size_t right, glm::ivec2 corner,
                        glm::ivec2 size) {
   const bool difference = state.showsDifference() && left != right;
+  // Radiance cannot be compared with colours of a display.
+  const bool asShown = sides_[left].asItIs != sides_[right].asItIs;
   for (const size_t unit : {0u, 1u}) {
     const Side& side = sides_[unit == 0 ? left : right];
-    const GLuint shown = difference ? side.traced : side.displayed.name();
+    const GLuint shown = difference && !asShown ? side.traced : side.displayed.name();
     // Pixels of a picture that fits, or is enlarged, are shown as they are.
     const GLint filter = side.size == size || state.magnifier.steps > 0 ? GL_NEAREST : GL_LINEAR;
     glTextureParameteri(shown, GL_TEXTURE_MIN_FILTER, filter);

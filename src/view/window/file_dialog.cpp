@@ -9,9 +9,8 @@
 #include <memory>
 #include <string_view>
 
+#include "base/dynamic_library.h"
 #include "base/errors.h"
-#include "gl/dynamic_library.h"
-#include "view/files.h"
 
 namespace fragtrace {
 
@@ -39,92 +38,70 @@ constexpr uint64_t kPatience =
 constexpr uint64_t kLook = 50000;   // microseconds between two looks at whether the question is cancelled
 constexpr uint32_t kCancelled = 1;  // a response of the portal; 0: chosen
 
-struct BusLibrary {
-  int (*openUser)(Bus* bus) = nullptr;
-  Bus (*flushCloseUnref)(Bus bus) = nullptr;
-  int (*setTimeout)(Bus bus, uint64_t microseconds) = nullptr;
-  int (*process)(Bus bus, BusMessage* message) = nullptr;
-  int (*wait)(Bus bus, uint64_t microseconds) = nullptr;
+struct BusLibrary : LibraryFunctions {
+  using LibraryFunctions::LibraryFunctions;
+  int (*openUser)(Bus* bus) = find("sd_bus_open_user");
+  Bus (*flushCloseUnref)(Bus bus) = find("sd_bus_flush_close_unref");
+  int (*setTimeout)(Bus bus, uint64_t microseconds) = find("sd_bus_set_method_call_timeout");
+  int (*process)(Bus bus, BusMessage* message) = find("sd_bus_process");
+  int (*wait)(Bus bus, uint64_t microseconds) = find("sd_bus_wait");
   int (*call)(Bus bus, BusMessage message, uint64_t microseconds, BusError* error,
-              BusMessage* reply) = nullptr;
+              BusMessage* reply) = find("sd_bus_call");
   int (*callMethod)(Bus bus, const char* destination, const char* path, const char* interface,
-                    const char* member, BusError* error, BusMessage* reply, const char* types, ...) = nullptr;
-  void (*freeError)(BusError* error) = nullptr;
+                    const char* member, BusError* error, BusMessage* reply, const char* types,
+                    ...) = find("sd_bus_call_method");
+  void (*freeError)(BusError* error) = find("sd_bus_error_free");
   int (*newCall)(Bus bus, BusMessage* message, const char* destination, const char* path,
-                 const char* interface, const char* member) = nullptr;
-  BusMessage (*unref)(BusMessage message) = nullptr;
-  int (*append)(BusMessage message, const char* types, ...) = nullptr;
-  int (*appendArray)(BusMessage message, char type, const void* data, size_t bytes) = nullptr;
-  int (*open)(BusMessage message, char type, const char* contents) = nullptr;
-  int (*close)(BusMessage message) = nullptr;
-  int (*isSignal)(BusMessage message, const char* interface, const char* member) = nullptr;
-  const char* (*pathOf)(BusMessage message) = nullptr;
-  int (*read)(BusMessage message, const char* types, ...) = nullptr;
-  int (*enter)(BusMessage message, char type, const char* contents) = nullptr;
-  int (*exit)(BusMessage message) = nullptr;
-  int (*skip)(BusMessage message, const char* types) = nullptr;
-
-  bool load(const DynamicLibrary& library) {
-    return library.find("sd_bus_open_user", openUser) &&
-           library.find("sd_bus_flush_close_unref", flushCloseUnref) &&
-           library.find("sd_bus_set_method_call_timeout", setTimeout) &&
-           library.find("sd_bus_process", process) && library.find("sd_bus_wait", wait) &&
-           library.find("sd_bus_call", call) && library.find("sd_bus_call_method", callMethod) &&
-           library.find("sd_bus_error_free", freeError) &&
-           library.find("sd_bus_message_new_method_call", newCall) &&
-           library.find("sd_bus_message_unref", unref) && library.find("sd_bus_message_append", append) &&
-           library.find("sd_bus_message_append_array", appendArray) &&
-           library.find("sd_bus_message_open_container", open) &&
-           library.find("sd_bus_message_close_container", close) &&
-           library.find("sd_bus_message_is_signal", isSignal) &&
-           library.find("sd_bus_message_get_path", pathOf) && library.find("sd_bus_message_read", read) &&
-           library.find("sd_bus_message_enter_container", enter) &&
-           library.find("sd_bus_message_exit_container", exit) && library.find("sd_bus_message_skip", skip);
-  }
+                 const char* interface, const char* member) = find("sd_bus_message_new_method_call");
+  BusMessage (*unref)(BusMessage message) = find("sd_bus_message_unref");
+  int (*append)(BusMessage message, const char* types, ...) = find("sd_bus_message_append");
+  int (*appendArray)(BusMessage message, char type, const void* data,
+                     size_t bytes) = find("sd_bus_message_append_array");
+  int (*open)(BusMessage message, char type, const char* contents) = find("sd_bus_message_open_container");
+  int (*close)(BusMessage message) = find("sd_bus_message_close_container");
+  int (*isSignal)(BusMessage message, const char* interface,
+                  const char* member) = find("sd_bus_message_is_signal");
+  const char* (*pathOf)(BusMessage message) = find("sd_bus_message_get_path");
+  int (*read)(BusMessage message, const char* types, ...) = find("sd_bus_message_read");
+  int (*enter)(BusMessage message, char type, const char* contents) = find("sd_bus_message_enter_container");
+  int (*exit)(BusMessage message) = find("sd_bus_message_exit_container");
+  int (*skip)(BusMessage message, const char* types) = find("sd_bus_message_skip");
 };
 
-/// Null where the library, or a function of it, is missing.
-const BusLibrary* busLibrary() {
-  static const std::unique_ptr<BusLibrary> loaded = [] {
-    static const DynamicLibrary library({"libsystemd.so.0", "libelogind.so.0"});
-    auto functions = std::make_unique<BusLibrary>();
-    if (!library.loaded() || !functions->load(library)) functions.reset();
-    return functions;
-  }();
-  return loaded.get();
+const BusLibrary& sdBus() {
+  static const DynamicLibrary library({"libsystemd.so.0", "libelogind.so.0"});
+  static const BusLibrary functions(library);
+  return functions;
 }
 
-/// A connection to the session's bus, and the functions for it. The destructor closes the connection; then
-/// the portal closes the dialog, too.
+/// A connection to the session's bus. The destructor closes it; then the portal closes the dialog, too.
 struct Connection {
-  const BusLibrary& library;
   Bus bus = nullptr;
 
-  explicit Connection(const BusLibrary& functions) : library(functions) {
-    if (library.openUser(&bus) < 0) bus = nullptr;
+  Connection() {
+    if (sdBus().openUser(&bus) < 0) bus = nullptr;
   }
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
   ~Connection() {
-    if (bus) library.flushCloseUnref(bus);
+    if (bus) sdBus().flushCloseUnref(bus);
   }
 };
 
 /// A message, let go when it goes.
 struct Held {
-  const BusLibrary& library;
   BusMessage message = nullptr;
 
-  explicit Held(const BusLibrary& functions) : library(functions) {}
+  Held() = default;
   Held(const Held&) = delete;
   Held& operator=(const Held&) = delete;
   ~Held() {
-    if (message) library.unref(message);
+    if (message) sdBus().unref(message);
   }
 };
 
 /// Why a call failed; empty where nobody was there to answer it.
-std::string reasonOf(const BusLibrary& library, int result, BusError& error) {
+std::string reasonOf(int result, BusError& error) {
   std::string reason = systemReason(-result);
   if (error.name != nullptr) {
     const std::string_view name = error.name;
@@ -134,7 +111,7 @@ std::string reasonOf(const BusLibrary& library, int result, BusError& error) {
                         name == "org.freedesktop.DBus.Error.UnknownInterface";
     reason = nobody ? "" : error.message != nullptr ? error.message : error.name;
   }
-  library.freeError(&error);
+  sdBus().freeError(&error);
   return reason;
 }
 
@@ -152,146 +129,142 @@ std::string patternOf(const std::string& extension) {
 }
 
 /// The option "filters", of type a(sa(us)).
-void appendFilters(const BusLibrary& library, BusMessage message, const std::vector<FileFilter>& filters) {
-  library.open(message, 'e', "sv");
-  library.append(message, "s", "filters");
-  library.open(message, 'v', "a(sa(us))");
-  library.open(message, 'a', "(sa(us))");
+void appendFilters(BusMessage message, const std::vector<FileFilter>& filters) {
+  sdBus().open(message, 'e', "sv");
+  sdBus().append(message, "s", "filters");
+  sdBus().open(message, 'v', "a(sa(us))");
+  sdBus().open(message, 'a', "(sa(us))");
   for (const FileFilter& filter : filters) {
-    library.open(message, 'r', "sa(us)");
-    library.append(message, "s", filter.name.c_str());
-    library.open(message, 'a', "(us)");
+    sdBus().open(message, 'r', "sa(us)");
+    sdBus().append(message, "s", filter.name.c_str());
+    sdBus().open(message, 'a', "(us)");
     for (const std::string& extension : filter.extensions)
-      library.append(message, "(us)", uint32_t(0), patternOf(extension).c_str());
-    library.close(message);
-    library.close(message);
+      sdBus().append(message, "(us)", uint32_t(0), patternOf(extension).c_str());
+    sdBus().close(message);
+    sdBus().close(message);
   }
-  library.close(message);
-  library.close(message);
-  library.close(message);
+  sdBus().close(message);
+  sdBus().close(message);
+  sdBus().close(message);
 }
 
 /// The option "current_folder": bytes that end with a 0.
-void appendFolder(const BusLibrary& library, BusMessage message, const std::string& folder) {
-  library.open(message, 'e', "sv");
-  library.append(message, "s", "current_folder");
-  library.open(message, 'v', "ay");
-  library.appendArray(message, 'y', folder.c_str(), folder.size() + 1);
-  library.close(message);
-  library.close(message);
+void appendFolder(BusMessage message, const std::string& folder) {
+  sdBus().open(message, 'e', "sv");
+  sdBus().append(message, "s", "current_folder");
+  sdBus().open(message, 'v', "ay");
+  sdBus().appendArray(message, 'y', folder.c_str(), folder.size() + 1);
+  sdBus().close(message);
+  sdBus().close(message);
 }
 
-/// Asks for the dialog. Returns the path of the request, or an empty one and why.
-std::string request(const Connection& to, const FileQuestion& question, const std::string& window,
-                    std::string& why) {
-  const BusLibrary& library = to.library;
+/// The desktop has shown no dialog, and why; empty: there is no portal.
+struct NoDialog {
+  std::string why{};
+};
+
+/// Asks for the dialog. Returns the path of the request. Throws NoDialog.
+std::string request(const Connection& to, const FileQuestion& question, const std::string& window) {
   BusError error;
-  Held call(library);
-  Held reply(library);
-  int result = library.newCall(to.bus, &call.message, kPortal, kPortalPath, kChooser,
+  Held call;
+  Held reply;
+  int result = sdBus().newCall(to.bus, &call.message, kPortal, kPortalPath, kChooser,
                                question.save ? "SaveFile" : "OpenFile");
   if (result >= 0) {
-    library.append(call.message, "ss", window.c_str(), question.title.c_str());
-    library.open(call.message, 'a', "{sv}");
-    appendFilters(library, call.message, question.filters);
-    appendFolder(library, call.message, question.folder.string());
-    if (question.save) library.append(call.message, "{sv}", "current_name", "s", question.name.c_str());
+    sdBus().append(call.message, "ss", window.c_str(), question.title.c_str());
+    sdBus().open(call.message, 'a', "{sv}");
+    appendFilters(call.message, question.filters);
+    appendFolder(call.message, question.folder.string());
+    if (question.save) sdBus().append(call.message, "{sv}", "current_name", "s", question.name.c_str());
     // An append that failed before fails here.
-    result = library.close(call.message);
+    result = sdBus().close(call.message);
   }
-  if (result >= 0) result = library.call(to.bus, call.message, kPatience, &error, &reply.message);
+  if (result >= 0) result = sdBus().call(to.bus, call.message, kPatience, &error, &reply.message);
   const char* path = "";
-  if (result >= 0) result = library.read(reply.message, "o", &path);
-  if (result < 0) why = reasonOf(library, result, error);
-  return result < 0 ? "" : path;
+  if (result >= 0) result = sdBus().read(reply.message, "o", &path);
+  if (result < 0) throw NoDialog{reasonOf(result, error)};
+  return path;
 }
 
 /// The first of the URIs in a response.
-std::string readUri(const BusLibrary& library, BusMessage response) {
+std::string readUri(BusMessage response) {
   const char* uri = "";
-  if (library.enter(response, 'a', "{sv}") < 0) return "";
-  while (library.enter(response, 'e', "sv") > 0) {
+  if (sdBus().enter(response, 'a', "{sv}") < 0) return "";
+  while (sdBus().enter(response, 'e', "sv") > 0) {
     const char* key = "";
-    if (library.read(response, "s", &key) < 0) return "";
+    if (sdBus().read(response, "s", &key) < 0) return "";
     if (std::string_view(key) == "uris") {
-      if (library.enter(response, 'v', "as") < 0 || library.enter(response, 'a', "s") < 0 ||
-          library.read(response, "s", &uri) < 0)
+      if (sdBus().enter(response, 'v', "as") < 0 || sdBus().enter(response, 'a', "s") < 0 ||
+          sdBus().read(response, "s", &uri) < 0)
         return "";
       return uri;
     }
-    if (library.skip(response, "v") < 0 || library.exit(response) < 0) return "";
+    if (sdBus().skip(response, "v") < 0 || sdBus().exit(response) < 0) return "";
   }
   return "";
 }
 
-PortalAnswer readResponse(const BusLibrary& library, BusMessage response) {
-  uint32_t code = 0;
-  if (library.read(response, "u", &code) < 0)
-    return {.there = false, .why = "it answers with nonsense", .uri = {}};
-  if (code > kCancelled) return {.there = false, .why = "its dialog has ended", .uri = {}};
-  return {.there = true, .why = {}, .uri = code == 0 ? readUri(library, response) : ""};
-}
-
 constexpr double kPatienceSeconds = 1.5;  // before the user is told what is waited for
 
-}  // namespace
-
-PortalAnswer askPortal(const FileQuestion& question, const std::string& window, const BackgroundJob& job) {
-  const BusLibrary* library = busLibrary();
-  if (!library) return {};
-  const Connection to(*library);
-  if (!to.bus) return {};
-  library->setTimeout(to.bus, kPatience);
+/// Shows the dialog and waits until the user has answered, or the job is cancelled: then the dialog is
+/// closed. Returns the URI of the choice; empty: none. Throws NoDialog.
+std::string chosenUri(const FileQuestion& question, const std::string& window, const BackgroundJob& job) {
+  if (!sdBus().complete()) throw NoDialog();
+  const Connection to;
+  if (!to.bus) throw NoDialog();
+  sdBus().setTimeout(to.bus, kPatience);
   BusError error;
-  const int result =
-      library->callMethod(to.bus, "org.freedesktop.DBus", "/org/freedesktop/DBus", "org.freedesktop.DBus",
-                          "AddMatch", &error, nullptr, "s", kResponses);
-  if (result < 0) return {.there = false, .why = reasonOf(*library, result, error), .uri = {}};
-  std::string why;
-  const std::string path = request(to, question, window, why);
-  if (path.empty()) return {.there = false, .why = why, .uri = {}};
+  const int result = sdBus().callMethod(to.bus, "org.freedesktop.DBus", "/org/freedesktop/DBus",
+                                        "org.freedesktop.DBus", "AddMatch", &error, nullptr, "s", kResponses);
+  if (result < 0) throw NoDialog{reasonOf(result, error)};
+  const std::string path = request(to, question, window);
   while (!job.cancelled()) {
-    Held message(*library);
-    const int processed = library->process(to.bus, &message.message);
-    if (processed < 0) return {.there = false, .why = "the bus has ended", .uri = {}};
-    if (processed == 0) library->wait(to.bus, kLook);
-    if (!message.message || library->isSignal(message.message, kRequest, "Response") <= 0) continue;
-    if (library->pathOf(message.message) == path) return readResponse(*library, message.message);
+    Held message;
+    const int processed = sdBus().process(to.bus, &message.message);
+    if (processed < 0) throw NoDialog{"the bus has ended"};
+    if (processed == 0) sdBus().wait(to.bus, kLook);
+    if (!message.message || sdBus().isSignal(message.message, kRequest, "Response") <= 0) continue;
+    if (sdBus().pathOf(message.message) != path) continue;
+    uint32_t code = 0;
+    if (sdBus().read(message.message, "u", &code) < 0) throw NoDialog{"it answers with nonsense"};
+    if (code > kCancelled) throw NoDialog{"its dialog has ended"};
+    return code == 0 ? readUri(message.message) : "";
   }
-  library->callMethod(to.bus, kPortal, path.c_str(), kRequest, "Close", &error, nullptr, "");
-  library->freeError(&error);
-  return {.there = true, .why = {}, .uri = {}};
+  sdBus().callMethod(to.bus, kPortal, path.c_str(), kRequest, "Close", &error, nullptr, "");
+  sdBus().freeError(&error);
+  return "";
 }
+
+FileDialog::Answer answerOf(const FileQuestion& question, const std::string& window,
+                            const BackgroundJob& job) {
+  try {
+    const std::string uri = chosenUri(question, window, job);
+    const std::optional<std::filesystem::path> file = fileOfUri(uri);
+    if (file || uri.empty()) return {file.value_or(std::filesystem::path()), {}};
+    return {{}, uri + " is not a file of this computer"};
+  } catch (const NoDialog& none) {
+    const std::string why =
+        "the desktop shows no dialog for files" + (none.why.empty() ? "" : ": " + none.why);
+    if (question.save) return {question.folder / question.name, why + "; the file gets a free name"};
+    return {{}, why + "; drop a file here, start with its name, or install xdg-desktop-portal-gtk"};
+  }
+}
+
+}  // namespace
 
 void FileDialog::ask(FileQuestion question, const std::string& window, double now) {
   question_ = std::move(question);
   asked_ = now;
   desktop_.start("portal", [question = question_, window](const BackgroundJob& job) {
-    return askPortal(question, window, job);
+    return answerOf(question, window, job);
   });
 }
 
 FileDialog::Answer FileDialog::take(double now) {
-  Answer answer;
-  if (desktop_.busy() && now > asked_ + kPatienceSeconds) {
-    asked_ = std::numeric_limits<double>::infinity();
-    answer.message = "waiting for the desktop's dialog; press the key again for another one";
-  }
-  const std::optional<PortalAnswer> portal = desktop_.take();
-  if (!portal) return answer;
-  if (!portal->there) {
-    answer.message =
-        "the desktop shows no dialog for files" + (portal->why.empty() ? "" : ": " + portal->why);
-    answer.message += question_.save
-                          ? "; the file gets a free name"
-                          : "; drop a file here, start with its name, or install xdg-desktop-portal-gtk";
-    if (question_.save) answer.file = question_.folder / question_.name;
-  } else if (!portal->uri.empty()) {
-    const std::optional<std::filesystem::path> file = fileOfUri(portal->uri);
-    if (!file) answer.message = portal->uri + " is not a file of this computer";
-    answer.file = file.value_or(std::filesystem::path());
-  }
-  return answer;
+  if (std::optional<Answer> answer = desktop_.take()) return *answer;
+  if (!desktop_.busy() || now <= asked_ + kPatienceSeconds) return {};
+  asked_ = std::numeric_limits<double>::infinity();
+  return {{}, "waiting for the desktop's dialog; press the key again for another one"};
 }
 
 }  // namespace fragtrace

@@ -9,21 +9,12 @@
 
 namespace fragtrace {
 
-struct PortalAnswer {
-  bool there = false;  ///< the desktop has shown a dialog
-  std::string why;     ///< the reason why it has not; empty: there is no portal
-  std::string uri;     ///< the choice; empty: none
-};
-
-/// Shows the dialog over a window ("x11:" and its number in hexadecimal; empty: over none) and waits until
-/// the user has answered, or the job is cancelled: then the dialog is closed. Does not throw.
-PortalAnswer askPortal(const FileQuestion& question, const std::string& window, const BackgroundJob& job);
-
 // Asks the user for a file by the desktop's dialog.
 
 class FileDialog {
  public:
-  /// Asks, over a window named as askPortal() takes it. A dialog that is open is closed: it may not be seen.
+  /// Asks, over a window ("x11:" and its number in hexadecimal; empty: over none). A dialog that is open is
+  /// closed: it may not be seen.
   void ask(FileQuestion question, const std::string& window, double now);
   bool open() const { return desktop_.busy(); }
   /// The latest question.
@@ -39,7 +30,7 @@ class FileDialog {
 
  private:
   FileQuestion question_;
-  Background<PortalAnswer> desktop_;
+  Background<Answer> desktop_;
   double asked_ = 0.0;  ///< the time at which the desktop was asked, in seconds; infinite: the user knows
 };
 

@@ -6,21 +6,34 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+#include <imgui_internal.h>
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
 #include <cstdarg>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <deque>
+#include <functional>
+#include <glm/common.hpp>
 #include <mutex>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
 #include "advice.h"
+#include "base/dynamic_library.h"
 #include "base/report.h"
 #include "base/text.h"
-#include "gl/dynamic_library.h"
 #include "gl/gl.h"
-#include "view/window/status.h"
+#include "view/letters/fonts.h"
+#include "view/window/input.h"
+#include "view/window/overlay.h"
+#include "view/window/widgets.h"
 
 namespace fragtrace {
 
@@ -46,27 +59,19 @@ struct RegistryEvents {
 };
 constexpr uint32_t kGetRegistry = 1;  // the request of wl_display
 
-struct WaylandLibrary {
-  Proxy (*connect)(const char* name) = nullptr;
-  void (*disconnect)(Proxy display) = nullptr;
-  int (*roundtrip)(Proxy display) = nullptr;
-  int (*flush)(Proxy display) = nullptr;
-  int (*descriptor)(Proxy display) = nullptr;
-  Proxy (*construct)(Proxy parent, uint32_t request, const void* interface, ...) = nullptr;
-  void (*destroy)(Proxy proxy) = nullptr;
-  int (*listen)(Proxy proxy, const RegistryEvents* events, void* seen) = nullptr;
-  void (*handleLog)(void (*handler)(const char* format, va_list)) = nullptr;
-  const void* registry = nullptr;  ///< wl_registry_interface
-
-  bool load(const DynamicLibrary& library) {
-    return library.find("wl_display_connect", connect) && library.find("wl_display_disconnect", disconnect) &&
-           library.find("wl_display_roundtrip", roundtrip) && library.find("wl_display_flush", flush) &&
-           library.find("wl_display_get_fd", descriptor) &&
-           library.find("wl_proxy_marshal_constructor", construct) &&
-           library.find("wl_proxy_destroy", destroy) && library.find("wl_proxy_add_listener", listen) &&
-           library.find("wl_log_set_handler_client", handleLog) &&
-           library.find("wl_registry_interface", registry);
-  }
+struct WaylandLibrary : LibraryFunctions {
+  using LibraryFunctions::LibraryFunctions;
+  Proxy (*connect)(const char* name) = find("wl_display_connect");
+  void (*disconnect)(Proxy display) = find("wl_display_disconnect");
+  int (*roundtrip)(Proxy display) = find("wl_display_roundtrip");
+  int (*flush)(Proxy display) = find("wl_display_flush");
+  int (*descriptor)(Proxy display) = find("wl_display_get_fd");
+  Proxy (*construct)(Proxy parent, uint32_t request, const void* interface,
+                     ...) = find("wl_proxy_marshal_constructor");
+  void (*destroy)(Proxy proxy) = find("wl_proxy_destroy");
+  int (*listen)(Proxy proxy, const RegistryEvents* events, void* seen) = find("wl_proxy_add_listener");
+  void (*handleLog)(void (*handler)(const char* format, va_list)) = find("wl_log_set_handler_client");
+  const void* registry = find("wl_registry_interface");
 };
 
 /// Waits a few seconds for the compositor to send something.
@@ -222,8 +227,8 @@ std::string whyNoWayland() {
   if (!name.starts_with('/') && environment("XDG_RUNTIME_DIR").empty()) return "XDG_RUNTIME_DIR is not set";
   static const DynamicLibrary library({"libwayland-client.so.0"});
   if (!library.loaded()) return library.error();
-  WaylandLibrary wayland;
-  if (!wayland.load(library)) return "libwayland-client lacks a function";
+  const WaylandLibrary wayland(library);
+  if (!wayland.complete()) return "libwayland-client lacks a function";
   wayland.handleLog([](const char*, va_list) {});  // the return value reports errors instead
   Proxy display = wayland.connect(nullptr);
   if (display == nullptr) return "there is no compositor '" + name + "' (WAYLAND_DISPLAY)";
@@ -231,6 +236,170 @@ std::string whyNoWayland() {
   wayland.disconnect(display);
   if (seat == Seat::NoAnswer) return "the compositor '" + name + "' (WAYLAND_DISPLAY) does not answer";
   return seat == Seat::There ? "" : "the compositor '" + name + "' has no seat: neither keyboard nor pointer";
+}
+
+namespace {
+
+constexpr float kFontSize = 15.0f;  // pixels at 96 dots an inch
+
+void loadFont(float scale) {
+  ImFontGlyphRangesBuilder characters;
+  for (const std::string& character : shownCharacters()) characters.AddText(character.c_str());
+  buildFont(*ImGui::GetIO().Fonts, std::round(kFontSize * scale), std::move(characters), {});
+}
+
+#if IMGUI_VERSION_NUM < 18700
+/// A key or a character that waits for a frame of Dear ImGui, which has no queue of its own. It does not see
+/// a key that goes down and up within a frame, nor how a frame's keys and characters follow each other. So a
+/// key that types no character goes down in a frame of its own.
+struct TypedEvent {
+  bool alone = false;
+  std::function<void()> pass;
+};
+
+/// There is one window, as for Dear ImGui's own callbacks.
+std::deque<TypedEvent>& typedEvents() {
+  static std::deque<TypedEvent> events;
+  return events;
+}
+
+void queueKeys(GLFWwindow* window) {
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int code, int scanCode, int action, int modifiers) {
+    const bool types = code < GLFW_KEY_ESCAPE && (modifiers & GLFW_MOD_CONTROL) == 0;
+    typedEvents().push_back({action == GLFW_PRESS && !types, [=] {
+                               ImGui_ImplGlfw_KeyCallback(w, code, scanCode, action, modifiers);
+                               const int label = labelOf(code, scanCode);
+                               if (label == code || action == GLFW_REPEAT) return;
+                               ImGui::GetIO().KeysDown[code] = false;
+                               ImGui::GetIO().KeysDown[label] = action == GLFW_PRESS;
+                             }});
+  });
+  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned character) {
+    typedEvents().push_back({false, [=] { ImGui_ImplGlfw_CharCallback(w, character); }});
+  });
+}
+
+void passKeys() {
+  std::deque<TypedEvent>& events = typedEvents();
+  bool alone = false;
+  for (bool first = true; !events.empty() && !alone && (first || !events.front().alone); first = false) {
+    alone = events.front().alone;
+    events.front().pass();
+    events.pop_front();
+  }
+}
+#endif
+
+/// Pixels for one of GLFW's units, in which it gives the cursor: more than one on Wayland.
+glm::dvec2 pixelsOfUnit(GLFWwindow* window) {
+  glm::ivec2 units(1);
+  glm::ivec2 pixels(1);
+  glfwGetWindowSize(window, &units.x, &units.y);
+  glfwGetFramebufferSize(window, &pixels.x, &pixels.y);
+  return glm::dvec2(pixels) / glm::dvec2(glm::max(units, 1));
+}
+
+/// Gives the cursor in pixels to Dear ImGui's callback, and to ours, which that one calls.
+void scaleCursor(GLFWwindow* window) {
+  static GLFWcursorposfun next = nullptr;
+  next = glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+    const glm::dvec2 cursor = pixelsOfUnit(w) * glm::dvec2(x, y);
+    next(w, cursor.x, cursor.y);
+  });
+}
+
+/// Puts the frame that GLFW's backend has begun into pixels.
+void scaleFrame(GLFWwindow* window) {
+  const glm::vec2 unit(pixelsOfUnit(window));
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = {io.DisplaySize.x * unit.x, io.DisplaySize.y * unit.y};
+  io.DisplayFramebufferScale = {1.0f, 1.0f};
+#if IMGUI_VERSION_NUM >= 18700
+  // The backend asks for the cursor outside of the window, too. On Wayland, it is then where it left it, in
+  // units.
+  if (onWayland() && glfwGetWindowAttrib(window, GLFW_HOVERED) == 0) io.AddMousePosEvent(-FLT_MAX, -FLT_MAX);
+#else
+  if (ImGui::IsMousePosValid(&io.MousePos)) io.MousePos = {io.MousePos.x * unit.x, io.MousePos.y * unit.y};
+#endif
+}
+
+}  // namespace
+
+float displayScale(const glm::vec2& contentScale) {
+  return std::clamp(std::max(contentScale.x, contentScale.y), 0.5f, 8.0f);
+}
+
+Interface::Interface(GLFWwindow* window) : window_(window) {
+  ImGui::CreateContext();
+  // Nothing is remembered behind the user's back.
+  ImGui::GetIO().IniFilename = nullptr;
+  ImGui_ImplGlfw_InitForOpenGL(window, true);
+#if IMGUI_VERSION_NUM < 18700
+  queueKeys(window);
+#endif
+  scaleCursor(window);
+  ImGui_ImplOpenGL3_Init("#version 450 core");
+  fit();
+}
+
+Interface::~Interface() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+}
+
+void Interface::fit() {
+  glm::vec2 content(1.0f);
+  glfwGetWindowContentScale(window_, &content.x, &content.y);
+  const float scale = displayScale(content);
+  if (scale == scale_ && !lacksCharacters()) return;
+  const bool replaces = std::exchange(scale_, scale) > 0.0f;
+  characters_ = shownCharacters().size();
+  loadFont(scale);
+  if (replaces) {
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+  }
+  ImGuiStyle style = themeStyle();
+  style.ScaleAllSizes(scale);
+  ImGui::GetStyle() = style;
+}
+
+void Interface::begin() {
+  ImGui_ImplOpenGL3_NewFrame();
+  fit();
+#if IMGUI_VERSION_NUM < 18700
+  passKeys();
+#endif
+  ImGui_ImplGlfw_NewFrame();
+  scaleFrame(window_);
+  ImGui::NewFrame();
+}
+
+void Interface::end() {
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+bool Interface::waiting() const {
+  if (lacksCharacters()) return true;
+#if IMGUI_VERSION_NUM >= 18700
+  return ImGui::GetCurrentContext()->InputEventsQueue.Size > 0;
+#else
+  return !typedEvents().empty();
+#endif
+}
+
+const char* Interface::focus() {
+  if (ImGui::GetIO().WantTextInput) return "text";
+  return hasPopup() ? "popup" : "picture";
+}
+
+bool Interface::hasPopup() { return ImGui::GetCurrentContext()->OpenPopupStack.Size > 0; }
+
+void Interface::closePopup() {
+  // Dear ImGui does so itself only where it takes the keys that we have.
+  ImGui::ClosePopupToLevel(ImGui::GetCurrentContext()->OpenPopupStack.Size - 1, true);
 }
 
 }  // namespace fragtrace

@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "gl/context.h"
+#include "view/shown_text.h"
 
 struct GLFWwindow;
 
@@ -55,5 +57,44 @@ std::string takeGlfwErrors();
 /// Why GLFW must not try Wayland; empty where it may. GLFW 3.4 crashes on a compositor without a seat, and
 /// the library of Wayland prints messages of its own where there is no compositor.
 std::string whyNoWayland();
+
+// Dear ImGui on a GLFW window: its life, its font, its size on displays of many dots an inch. All its lengths
+// are pixels of the framebuffer, also on Wayland, where GLFW's units are larger.
+
+/// The pixels that stand for one at 96 dots an inch, by the desktop's scale of a display.
+float displayScale(const glm::vec2& contentScale);
+
+class Interface {
+ public:
+  /// Needs the window's context, current, and its callbacks, which it passes events on to.
+  explicit Interface(GLFWwindow* window);
+  Interface(const Interface&) = delete;
+  Interface& operator=(const Interface&) = delete;
+  ~Interface();
+
+  /// The interface is put together between these two calls; the second one draws it.
+  void begin();
+  void end();
+
+  /// Returns true if a list or a picker of colours is open. closePopup() closes the one that was opened last.
+  static bool hasPopup();
+  static void closePopup();
+
+  /// True while events, or characters that the font lacks, are left for the next frame.
+  bool waiting() const;
+
+  /// The receiver of keys: "text" that is edited, a "popup", or the "picture".
+  static const char* focus();
+
+  /// The pixels that stand for one at 96 dots an inch.
+  float scale() const { return scale_; }
+
+ private:
+  void fit();
+  bool lacksCharacters() const { return characters_ != shownCharacters().size(); }
+  GLFWwindow* window_;
+  float scale_ = 0.0f;
+  size_t characters_ = 0;  ///< of shownCharacters() that the font has
+};
 
 }  // namespace fragtrace

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <utility>
 
-#include "view/window/interface.h"
+#include "view/window/glfw_window.h"
 
 namespace fragtrace {
 
@@ -24,7 +24,7 @@ constexpr double kShiftFaster = 4.0;
 
 Input& inputOf(GLFWwindow* window) { return *static_cast<Input*>(glfwGetWindowUserPointer(window)); }
 
-/// Held down, these go on; all else happens once a press.
+/// Held down, these continue; all else happens once a press.
 bool repeats(Command command) {
   return command == Command::Exposure || command == Command::Widen || command == Command::TreeLevel;
 }
@@ -60,19 +60,17 @@ Input::Input(GLFWwindow* window) : window_(window) {
     for (int i = 0; i < count; ++i) inputOf(w).drops_.emplace_back(paths[i]);
     inputOf(w).woken_ = true;
   });
-  const auto wake = [](GLFWwindow* w) { inputOf(w).woken_ = true; };
+  const auto wake = [](GLFWwindow* w, auto...) { inputOf(w).woken_ = true; };
   glfwSetWindowRefreshCallback(window, wake);
   glfwSetWindowCloseCallback(window, wake);
-  glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { inputOf(w).woken_ = true; });
-  glfwSetWindowIconifyCallback(window, [](GLFWwindow* w, int) { inputOf(w).woken_ = true; });
+  glfwSetFramebufferSizeCallback(window, wake);
+  glfwSetWindowIconifyCallback(window, wake);
   glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
     // The release of a key that goes to another window is never seen here.
     if (!focused) inputOf(w).held_.clear();
     inputOf(w).woken_ = true;
   });
 }
-
-std::vector<std::filesystem::path> Input::takeDrops() { return std::exchange(drops_, {}); }
 
 glm::dvec2 Input::place() const { return cursor_ / glm::dvec2(layout_.picture); }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "view/view_state.h"
@@ -39,7 +40,7 @@ class Input {
   bool waiting() const { return !events_.empty() || woken_; }
   /// Returns true if a key is held or something dragged, so that the next frame is not the last.
   bool active() const { return !held_.empty() || button_.code >= 0; }
-  std::vector<std::filesystem::path> takeDrops();
+  std::vector<std::filesystem::path> takeDrops() { return std::exchange(drops_, {}); }
   /// The number of keys and buttons that have been pressed so far.
   int presses() const { return presses_; }
 

@@ -4,16 +4,12 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <string_view>
 #include <utility>
 
 #include "base/text.h"
-#include "view/pictures.h"
-#include "view/shown_text.h"
-#include "view/view_state.h"
 #include "view/window/widgets.h"
 
 namespace fragtrace {
@@ -85,7 +81,7 @@ struct Label {
   bool chosen = false;
 };
 
-void drawLabel(const Label& label, ViewFacts& facts, const std::string& place, const WindowLayout& layout) {
+void drawLabel(const Label& label, const std::string& place, const WindowLayout& layout) {
   const float pad = 0.5f * layout.margin;
   const float room = label.width - 2 * (layout.margin + pad);
   if (room <= 0.0f) return;
@@ -103,7 +99,7 @@ void drawLabel(const Label& label, ViewFacts& facts, const std::string& place, c
   list.PushClipRect(from, {to.x - pad, to.y});
   list.AddText({from.x + pad, from.y + pad}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
   list.PopClipRect();
-  facts.places[place] = {from.x, from.y, to.x - from.x, to.y - from.y};
+  places()[place] = {from.x, from.y, to.x - from.x, to.y - from.y};
 }
 
 /// "3.5 ms"
@@ -114,7 +110,7 @@ std::string frameText(const SideStatistics& s) {
 /// ", 12 samples, 3.5 ms"
 std::string costText(const SideStatistics& s) { return ", " + samplesText(s.samples) + ", " + frameText(s); }
 
-void drawStageNames(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
+void drawStageNames(const ViewState& state, const ViewFacts& facts, const WindowLayout& layout) {
   for (const StageRow& row : stageRows()) {
     if (!row.cumulative) continue;
     const auto side = size_t(row.stage);
@@ -125,12 +121,12 @@ void drawStageNames(const ViewState& state, ViewFacts& facts, const WindowLayout
                {place.to, place.corner.y},
                place.size.x,
                side == state.shownSide()},
-              facts, "name " + std::string(row.name), layout);
+              "name " + std::string(row.name), layout);
   }
 }
 
 /// Names each half of the split view, at its top.
-void drawSideNames(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
+void drawSideNames(const ViewState& state, const ViewFacts& facts, const WindowLayout& layout) {
   const float right = float(layout.picture.x);
   const float bar = float(state.shownBar()) * right;
   const auto draw = [&](size_t side, float from, float to) {
@@ -143,31 +139,23 @@ void drawSideNames(const ViewState& state, ViewFacts& facts, const WindowLayout&
                                                         : std::string(rowOf(view).label));
     Label label{{name}, {to, 0.0f}, to - from, state.edit.active == side};
     if (!file) label.texts.insert(label.texts.begin(), name + costText(facts.statistics[side]));
-    drawLabel(label, facts, side == 0 ? "name A" : "name B", layout);
+    drawLabel(label, side == 0 ? "name A" : "name B", layout);
   };
   if (state.comparison == CompareMode::Difference)
     return drawLabel({{"|A - B| x " + shortText(std::exp2(state.differenceStops))}, {right, 0.0f}, right},
-                     facts, "name difference", layout);
+                     "name difference", layout);
   if (bar > 0.0f) draw(0, 0.0f, bar);
   if (bar < right) draw(1, bar, right);
 }
 
 /// A picture that shows something other than light says what.
-void drawViewName(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
+void drawViewName(const ViewState& state, const WindowLayout& layout) {
   const DebugView view = state.side().output.debugView;
   if (!state.scene || view == DebugView::None) return;
   const std::string name(rowOf(view).label);
   const float right = float(layout.picture.x);
   const std::string keys = keyOf(Command::NextDebugView, 1) + ", " + keyOf(Command::NextDebugView, -1);
-  drawLabel({{name + "  (" + keys + ": others)", name}, {right, 0.0f}, right, true}, facts, "name view",
-            layout);
-}
-
-/// Left of what is said next.
-bool closeButton(Places& places, const std::string& name) {
-  const bool pressed = placed(places, "close " + name, ImGui::SmallButton("x"));
-  ImGui::SameLine();
-  return pressed;
+  drawLabel({{name + "  (" + keys + ": others)", name}, {right, 0.0f}, right, true}, "name view", layout);
 }
 
 struct MessageLine {
@@ -178,7 +166,7 @@ struct MessageLine {
 /// The latest messages, the newest above.
 std::vector<MessageLine> messageLines(const ViewState& state, const ViewFacts& facts, double now) {
   std::vector<MessageLine> lines;
-  if (!facts.note.empty()) lines.push_back({facts.note});
+  if (!facts.trace.note.empty()) lines.push_back({facts.trace.note});
   for (size_t i = facts.messages.size(); i-- > 0;) {
     const float opacity = float(opacityOf(facts.messages[i], now));
     if (opacity > 0.0f) lines.push_back({facts.messages[i].text, opacity});
@@ -218,7 +206,7 @@ void drawMessages(const ViewState& state, ViewFacts& facts, const WindowLayout& 
       {std::min(size.x, layout.messagesMost.x), std::min(size.y, layout.messagesMost.y)});
   ImGui::SetNextWindowBgAlpha(0.78f);
   if (ImGui::Begin("messages", nullptr, kPageFlags)) {
-    const bool close = closes && closeButton(facts.places, "messages");
+    const bool close = closes && closeButton("close messages");
     ImGui::BeginGroup();
     ImGui::PushTextWrapPos(right);
     for (const MessageLine& line : lines) {
@@ -228,7 +216,7 @@ void drawMessages(const ViewState& state, ViewFacts& facts, const WindowLayout& 
     }
     ImGui::PopTextWrapPos();
     ImGui::EndGroup();
-    addWindowPlace(facts.places, "messages");
+    addWindowPlace("messages");
     if (close) {
       closeMessages(facts.messages);
       if (facts.pick) facts.commands.push_back({Command::Deselect});
@@ -243,11 +231,9 @@ void drawError(ViewFacts& facts, const WindowLayout& layout) {
   ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x - 2 * layout.margin, 0.6f * display.y});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, kRed);
   if (ImGui::Begin("error", nullptr, kPageFlags)) {
-    if (closeButton(facts.places, "error")) facts.errorClosed = true;
-    ImGui::PushTextWrapPos(0.7f * display.x);
-    drawText(withControls(facts.error), kMostPageCharacters);
-    ImGui::PopTextWrapPos();
-    addWindowPlace(facts.places, "error");
+    if (closeButton("close error")) facts.errorClosed = true;
+    drawText(withControls(facts.trace.error), kMostPageCharacters, 0.7f * display.x);
+    addWindowPlace("error");
   }
   ImGui::End();
   ImGui::PopStyleColor();
@@ -265,17 +251,14 @@ void drawSaveQuestion(ViewFacts& facts, const WindowLayout& layout) {
     return;
   ImGui::TextUnformatted("Numbers that were set are not saved");
   const size_t before = facts.commands.size();
-  commandButton(facts, "Save...", Command::SaveModel, 1);
+  commandButtons(facts, {{"Save...", Command::SaveModel, 1}, {"Discard", Command::Quit, 1}});
   ImGui::SameLine();
-  commandButton(facts, "Discard", Command::Quit, 1);
-  ImGui::SameLine();
-  if (placed(facts.places, "Cancel", ImGui::Button("Cancel")) || facts.commands.size() > before)
-    ImGui::CloseCurrentPopup();
+  if (button("Cancel") || facts.commands.size() > before) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
 }
 
 void drawLoading(ViewFacts& facts, const WindowLayout& layout) {
-  const LoadStatus& load = facts.load;
+  const LoadStatus& load = facts.trace.load;
   const ImVec2 display = sizeOf(layout);
   ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowBgAlpha(0.88f);
@@ -283,7 +266,7 @@ void drawLoading(ViewFacts& facts, const WindowLayout& layout) {
     drawText("Loading " + shownText(load.name, kMostNameCharacters), kMostLineCharacters);
     const float width = std::min(kProgressWidth * layout.scale, display.x - 6 * layout.margin);
     ImGui::ProgressBar(float(load.fraction), {width, 0.0f}, load.step.c_str());
-    commandButton(facts, "Cancel", Command::CancelLoad);
+    commandButtons(facts, {{"Cancel", Command::CancelLoad}});
   }
   ImGui::End();
 }
@@ -294,8 +277,8 @@ void drawWelcome(ViewFacts& facts, const WindowLayout& layout) {
   ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x - 2 * layout.margin, display.y - 2 * layout.margin});
   if (ImGui::Begin("welcome", nullptr, kPageFlags)) {
-    addWindowPlace(facts.places, "welcome");
-    commandButton(facts, "Open...", Command::Open);
+    addWindowPlace("welcome");
+    commandButtons(facts, {{"Open...", Command::Open}});
     ImGui::SameLine();
     ImGui::TextUnformatted("or drop a model here");
     ImGui::PushTextWrapPos(display.x - 4 * layout.margin);
@@ -330,9 +313,7 @@ void drawSheetLines(const std::vector<SheetLine>& lines, size_t columns) {
     for (size_t i = row; i < lines.size(); i += rows) {
       for (const std::string& text : {lines[i].name, lines[i].sentence}) {
         ImGui::TableNextColumn();
-        ImGui::PushTextWrapPos(0.0f);
-        drawText(text, kMostLineCharacters);
-        ImGui::PopTextWrapPos();
+        drawText(text, kMostLineCharacters, 0.0f);
       }
     }
   }
@@ -351,9 +332,9 @@ void drawSheet(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
   if (ImGui::Begin("Keys and mouse", &state.sheet,
                    ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                        ImGuiWindowFlags_NoSavedSettings)) {
-    addWindowPlace(facts.places, "sheet");
+    addWindowPlace("sheet");
     ImGui::SetNextItemWidth(-1.0f);
-    placed(facts.places, "Search",
+    placed("Search",
            ImGui::InputTextWithHint("##search", "Search", state.search.data(), state.search.size()));
     const std::vector<SheetLine> lines = foundLines(state.search.data());
     facts.sheetLines = lines.size();
@@ -374,8 +355,8 @@ void row(const char* name, const char* format, Values... values) {
   ImGui::Text(format, values...);
 }
 
-/// Each step of a picture and the tracing thread's own work, in milliseconds. Software goes on with the steps
-/// after the trace while it is told more, so their own times are not known there.
+/// Each step of a picture and the tracing thread's own work, in milliseconds. Software continues with the
+/// steps after the trace while it is told more, so their own times are not known there.
 std::string passText(const PassTimes& times) {
   std::string text;
   double host = 0.0;
@@ -431,7 +412,7 @@ float drawSide(const ViewState& state, ViewFacts& facts, size_t side, ImVec2 pla
       row("error", "%.2f %% (goal %.2f %%)", 100.0 * s.error, 100.0 * state.edit.shared.sampling.noise);
     if (layout.figures == FigureDetail::All) drawCosts(state, facts, side, layout);
     ImGui::EndTable();
-    addWindowPlace(facts.places, name);
+    addWindowPlace(name);
     end = ImGui::GetWindowPos().y + ImGui::GetWindowSize().y;
   }
   ImGui::End();
@@ -458,26 +439,8 @@ void drawValue(ImDrawList& list, ImVec2 middle, const glm::dvec3& value) {
     list.AddText({corner.x, corner.y + float(c) * line}, kValueColors[c], texts[c].data());
 }
 
-}  // namespace
-
-void drawOverlay(ViewState& state, ViewFacts& facts, const WindowLayout& layout, double now) {
-  drawLines(state, facts, layout);
-  drawPixelValues(state, facts, layout);
-  if (state.compares() && state.comparison == CompareMode::Bar) drawBar(state, layout);
-  if (state.compares()) drawSideNames(state, facts, layout);
-  if (state.overview) drawStageNames(state, facts, layout);
-  if (!state.compares() && !state.overview) drawViewName(state, facts, layout);
-  if (state.figures && state.scene && !state.overview) drawFigures(state, facts, layout);
-  drawMessages(state, facts, layout, now);
-  if (!state.scene && !facts.load.busy) drawWelcome(facts, layout);
-  if (!facts.error.empty() && !facts.errorClosed) drawError(facts, layout);
-  drawStatusBar(state, facts, layout);
-  drawStageBar(state, facts, layout);
-  if (state.sheet) drawSheet(state, facts, layout);
-  if (facts.load.busy) drawLoading(facts, layout);
-  drawSaveQuestion(facts, layout);
-}
-
+/// The figures at the top left, of one side or of both below each other: what the picture shown has cost, and
+/// how good it is.
 void drawFigures(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
   if (layout.figures == FigureDetail::None) return;
   // Below the names of the sides.
@@ -486,6 +449,7 @@ void drawFigures(const ViewState& state, ViewFacts& facts, const WindowLayout& l
     top = drawSide(state, facts, side, {layout.margin, top}, layout) + layout.margin;
 }
 
+/// The linear value at a place: of a side, or its difference from the other; none if it is not known.
 std::optional<glm::dvec3> shownValue(const ViewFacts& facts, size_t side, bool difference,
                                      const glm::dvec2& place) {
   const auto value = radianceAt(facts.values[side], place);
@@ -494,26 +458,12 @@ std::optional<glm::dvec3> shownValue(const ViewFacts& facts, size_t side, bool d
   return other ? std::optional(glm::abs(*value - *other)) : std::nullopt;
 }
 
-PixelArea wantedArea(const ViewState& state, const ViewFacts& facts, size_t side, glm::ivec2 whole) {
-  if (whole.x <= 0) return {};
-  if (facts.wantsHistogram && side == state.shownSide()) return {{0, 0}, whole};
-  const auto between = [&](const glm::dvec2& from, const glm::dvec2& to) {
-    const glm::ivec2 corner = pixelAt(whole, from);
-    return PixelArea{corner, pixelAt(whole, to) - corner + 1};
-  };
-  if (showsPixelValues(state)) {
-    const glm::dvec2 corner = magnifiedPlace(state, glm::dvec2(0.0));
-    return between(corner, corner + std::exp2(-state.magnifier.steps));
-  }
-  if (!facts.cursor || (state.overview && sideAt(state, *facts.cursor) != side)) return {};
-  const glm::dvec2 place = magnifiedPlace(state, *facts.cursor + 0.5 / glm::dvec2(state.size));
-  return between(place, place);
-}
-
+/// Pixels are enlarged enough for values in them.
 bool showsPixelValues(const ViewState& state) {
   return std::exp2(state.magnifier.steps) >= double((kLines + 1.0f) * ImGui::GetFontSize());
 }
 
+/// Writes the linear red, green and blue of the pixels into them, if they are enlarged enough.
 void drawPixelValues(const ViewState& state, const ViewFacts& facts, const WindowLayout& layout) {
   if (!showsPixelValues(state)) return;
   const double factor = std::exp2(state.magnifier.steps);
@@ -535,6 +485,261 @@ void drawPixelValues(const ViewState& state, const ViewFacts& facts, const Windo
     }
   }
   list.PopClipRect();
+}
+
+constexpr float kProgressBarWidth = 150.0f;  // pixels at 96 dots an inch
+constexpr float kGap = 18.0f;
+
+/// Returns a word or two that say what the viewer is doing.
+std::string activity(const ViewState& state, const ViewFacts& facts) {
+  if (facts.trace.load.busy) return "loading";
+  if (!state.scene) return "no scene";
+  // The messages have all of it.
+  if (!facts.trace.note.empty()) return facts.trace.note.substr(0, facts.trace.note.find_first_of(",("));
+  return progressText(facts.statistics[state.shownSide()], state.options());
+}
+
+/// These are left out last.
+std::vector<std::string> firstTexts(const ViewState& state, const ViewFacts& facts) {
+  const size_t side = state.shownSide();
+  const SideStatistics& s = facts.statistics[side];
+  std::vector<std::string> texts;
+  const std::string name = state.compares() ? (side == 0 ? "A: " : "B: ") : "";
+  texts.push_back(name + samplesText(s.samples) + " per pixel");
+  // It is the error of light, which a debug view does not show.
+  if (s.error >= 0.0 && state.side().output.debugView == DebugView::None) {
+    const double noise = state.edit.shared.sampling.noise;
+    texts.push_back(noise > 0.0 ? formatted("error %.2f %% of %.2f %%", 100.0 * s.error, 100.0 * noise)
+                                : formatted("error %.2f %%", 100.0 * s.error));
+  }
+  if (facts.pick && facts.pick->end) texts.push_back(distanceText(facts.pick->point, *facts.pick->end));
+  return texts;
+}
+
+/// These follow where there is room next to the pixel.
+std::vector<std::string> moreTexts(const ViewState& state, const ViewFacts& facts,
+                                   const ViewProgress& progress) {
+  const size_t side = state.shownSide();
+  const SideStatistics& s = facts.statistics[side];
+  std::vector<std::string> texts;
+  if (!s.resting && progress.seconds) texts.push_back(durationText(*progress.seconds) + " left");
+  if (facts.picturesPerSecond > 0.0) texts.push_back(formatted("%.1f pictures/s", facts.picturesPerSecond));
+  const glm::ivec2 size = facts.pictureSize[side];
+  if (size.x <= 0) return texts;  // there is no picture yet
+  texts.push_back(size == state.size
+                      ? formatted("%d x %d", size.x, size.y)
+                      : formatted("%d x %d of %d x %d", size.x, size.y, state.size.x, state.size.y));
+  return texts;
+}
+
+/// The pixel under the cursor, of the picture at its full resolution, and what it holds.
+std::string pixelText(const ViewState& state, const ViewFacts& facts) {
+  if (!facts.cursor) return "";
+  const bool difference = state.showsDifference();
+  const size_t side = difference ? 0 : sideAt(state, *facts.cursor);
+  if (side >= kMostSides) return "";
+  // The middle of the pixel, since places of whole pixels are rounded.
+  const glm::dvec2 place = magnifiedPlace(state, *facts.cursor + 0.5 / glm::dvec2(state.size));
+  const glm::ivec2 pixel =
+      glm::clamp(glm::ivec2(place * glm::dvec2(state.size)), glm::ivec2(0), state.size - 1);
+  const auto value = shownValue(facts, side, difference, place);
+  if (!value) return "";
+  const char* name = !state.compares() ? "" : difference ? "|A - B| " : side == 0 ? "A " : "B ";
+  return formatted("%s%d, %d: %.4g %.4g %.4g", name, pixel.x, pixel.y, value->x, value->y, value->z);
+}
+
+/// The name of a button, by the room that it has.
+enum class Naming : uint8_t { Label, Name, Number };
+
+std::string nameOf(const StageRow& row, Naming naming) {
+  return naming == Naming::Label  ? row.label
+         : naming == Naming::Name ? row.name
+                                  : std::to_string(int(row.stage) + 1);
+}
+
+float widthOf(const std::string& text) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  return ImGui::CalcTextSize(text.c_str()).x + 2 * style.FramePadding.x + style.ItemSpacing.x;
+}
+
+float widthOf(Naming naming) {
+  float width = 0.0f;
+  for (const StageRow& row : stageRows()) width += row.cumulative ? widthOf(nameOf(row, naming)) : 0.0f;
+  return width;
+}
+
+void drawStage(const ViewState& state, ViewFacts& facts, const StageRow& row, Naming naming) {
+  const std::string reason = whyGrey(state, row.stage);
+  const bool on = has(state.side().stages, row.stage) && reason.empty();
+  if (on) ImGui::PushStyleColor(ImGuiCol_Button, kAccent);
+  if (!reason.empty()) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  const Control& control = *controlOf(Command::StagesUpTo, int(row.stage));
+  if (placed(std::string("stage ") + row.name, ImGui::Button(nameOf(row, naming).c_str())))
+    facts.commands.push_back(invocationOf(control));
+  ImGui::PopStyleColor(int(on) + int(!reason.empty()));
+  const char* upTo = row.stage == Stage::Flat ? "" : "All stages up to ";
+  tip(controlName(control) + ": " + upTo + row.label + ": " + row.sentence +
+      (reason.empty() ? "" : " (" + reason + ")"));
+  ImGui::SameLine();
+}
+
+/// A button at the right end.
+struct EndButton {
+  const char* text;
+  Command command;
+  int rank;  ///< 0: the last to be left out
+};
+constexpr std::array kEndButtons{EndButton{"All", Command::ToggleOverview, 2},
+                                 EndButton{"Undo", Command::Undo, 3}, EndButton{"Redo", Command::Redo, 4},
+                                 EndButton{"Screenshot", Command::Screenshot, 1},
+                                 EndButton{"Panel", Command::TogglePanel, 0}};
+
+/// Returns the width of the first `ranks` ranks.
+float widthOf(int ranks) {
+  float width = 0.0f;
+  for (const EndButton& button : kEndButtons) width += button.rank < ranks ? widthOf(button.text) : 0.0f;
+  return width;
+}
+
+void drawEndButtons(const ViewState& state, ViewFacts& facts, float left, float right) {
+  int ranks = int(kEndButtons.size());
+  while (ranks > 0 && widthOf(ranks) > right - left) --ranks;
+  float place = right - widthOf(ranks);
+  for (const EndButton& button : kEndButtons) {
+    if (button.rank >= ranks) continue;
+    ImGui::SameLine(place);
+    place += widthOf(button.text);
+    const bool off = (button.command == Command::Undo && !facts.canUndo) ||
+                     (button.command == Command::Redo && !facts.canRedo);
+    ImGui::BeginDisabled(off);
+    const bool lit = button.command == Command::ToggleOverview && state.overview;
+    if (lit) ImGui::PushStyleColor(ImGuiCol_Button, kAccent);
+    commandButtons(facts, {{button.text, button.command}});
+    if (lit) ImGui::PopStyleColor();
+    ImGui::EndDisabled();
+    const Control& control = *controlOf(button.command);
+    tip(controlName(control) + ": " + control.sentence);
+  }
+}
+
+/// Stages get labels if all buttons at the end still fit, names if the first two ranks do, else numbers.
+Naming namingFor(float room) {
+  if (widthOf(Naming::Label) + widthOf(int(kEndButtons.size())) <= room) return Naming::Label;
+  return widthOf(Naming::Name) + widthOf(2) <= room ? Naming::Name : Naming::Number;
+}
+
+/// Begins a bar as wide as the window.
+bool beginBar(const char* name, float top, float height, const WindowLayout& layout) {
+  ImGui::SetNextWindowPos({0.0f, top});
+  ImGui::SetNextWindowSize({ImGui::GetIO().DisplaySize.x, height});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(layout.margin, 0.0f));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1.0f, 1.0f));
+  const bool shown = ImGui::Begin(
+      name, nullptr, (kLabelFlags & ~ImGuiWindowFlags_AlwaysAutoResize) | ImGuiWindowFlags_NoScrollWithMouse);
+  ImGui::PopStyleVar(3);
+  if (shown) addWindowPlace(name);
+  return shown;
+}
+
+/// The status bar below the picture: how good it is, how long it will take, and the pixel under the cursor.
+/// What has no room is left out, the least important first.
+void drawStatusBar(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const float top = float(layout.picture.y) + layout.stagesHeight;
+  if (beginBar("status", top, display.y - top, layout)) {
+    const bool known = state.scene.has_value();
+    const ViewProgress progress = known ? progressOf(facts.statistics[state.shownSide()], state.options(),
+                                                     1.0 / double(state.tracedCount()))
+                                        : ViewProgress{};
+    const float height = ImGui::GetTextLineHeight();
+    const float line = std::max(0.5f * (display.y - top - height), 0.0f);
+    ImGui::SetCursorPosY(line);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, 0.0f));
+    const std::string word = activity(state, facts);
+    ImGui::ProgressBar(float(facts.trace.load.busy ? facts.trace.load.fraction : progress.fraction),
+                       {kProgressBarWidth * layout.scale, height}, word.c_str());
+    ImGui::PopStyleVar();
+    float end = ImGui::GetItemRectMax().x;
+    facts.status = word;
+    const auto put = [&](const std::vector<std::string>& texts, float room) {
+      for (const std::string& text : texts) {
+        const float width = ImGui::CalcTextSize(text.c_str()).x;
+        const float start = end + kGap * layout.scale;
+        if (start + width > room) break;
+        ImGui::SameLine(start);
+        ImGui::TextUnformatted(text.c_str());
+        facts.status += "; " + text;
+        end = start + width;
+      }
+    };
+    if (known) put(firstTexts(state, facts), display.x - layout.margin);
+    std::string pixel = known ? pixelText(state, facts) : "";
+    if (pixel.empty()) pixel = "H: help";
+    const float start = display.x - layout.margin - ImGui::CalcTextSize(pixel.c_str()).x;
+    const bool fits = start >= end + kGap * layout.scale;
+    if (known)
+      put(moreTexts(state, facts, progress), fits ? start - kGap * layout.scale : display.x - layout.margin);
+    if (fits) {
+      ImGui::SameLine(start);
+      ImGui::TextUnformatted(pixel.c_str());
+      facts.status += "; " + pixel;
+    }
+  }
+  ImGui::End();
+}
+
+/// The stages above it in the same way, each a click away, and what is wanted besides them at any time.
+void drawStageBar(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  if (beginBar("stages", float(layout.picture.y), layout.stagesHeight, layout)) {
+    ImGui::SetCursorPosY(std::max(0.5f * (layout.stagesHeight - ImGui::GetFrameHeight()), 0.0f));
+    ImGui::BeginDisabled(!state.scene);
+    const float right = display.x - layout.margin + ImGui::GetStyle().ItemSpacing.x;
+    const Naming naming = namingFor(right - layout.margin);
+    for (const StageRow& row : stageRows()) {
+      if (row.cumulative) drawStage(state, facts, row, naming);
+    }
+    drawEndButtons(state, facts, layout.margin + widthOf(naming), right);
+    ImGui::EndDisabled();
+  }
+  ImGui::End();
+}
+
+}  // namespace
+
+void drawOverlay(ViewState& state, ViewFacts& facts, const WindowLayout& layout, double now) {
+  drawLines(state, facts, layout);
+  drawPixelValues(state, facts, layout);
+  if (state.compares() && state.comparison == CompareMode::Bar) drawBar(state, layout);
+  if (state.compares()) drawSideNames(state, facts, layout);
+  if (state.overview) drawStageNames(state, facts, layout);
+  if (!state.compares() && !state.overview) drawViewName(state, layout);
+  if (state.figures && state.scene && !state.overview) drawFigures(state, facts, layout);
+  drawMessages(state, facts, layout, now);
+  if (!state.scene && !facts.trace.load.busy) drawWelcome(facts, layout);
+  if (!facts.trace.error.empty() && !facts.errorClosed) drawError(facts, layout);
+  drawStatusBar(state, facts, layout);
+  drawStageBar(state, facts, layout);
+  if (state.sheet) drawSheet(state, facts, layout);
+  if (facts.trace.load.busy) drawLoading(facts, layout);
+  drawSaveQuestion(facts, layout);
+}
+
+PixelArea wantedArea(const ViewState& state, const ViewFacts& facts, size_t side, glm::ivec2 whole) {
+  if (whole.x <= 0) return {};
+  if (facts.wantsHistogram && side == state.shownSide()) return {{0, 0}, whole};
+  const auto between = [&](const glm::dvec2& from, const glm::dvec2& to) {
+    const glm::ivec2 corner = pixelAt(whole, from);
+    return PixelArea{corner, pixelAt(whole, to) - corner + 1};
+  };
+  if (showsPixelValues(state)) {
+    const glm::dvec2 corner = magnifiedPlace(state, glm::dvec2(0.0));
+    return between(corner, corner + std::exp2(-state.magnifier.steps));
+  }
+  if (!facts.cursor || (state.overview && sideAt(state, *facts.cursor) != side)) return {};
+  const glm::dvec2 place = magnifiedPlace(state, *facts.cursor + 0.5 / glm::dvec2(state.size));
+  return between(place, place);
 }
 
 }  // namespace fragtrace

@@ -3,15 +3,17 @@
 #pragma once
 
 #include <array>
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "view/message_list.h"
+#include "gl/gl.h"
+#include "view/files.h"
 #include "view/pictures.h"
-#include "view/remembered.h"
+#include "view/shown_text.h"
 #include "view/view_state.h"
 #include "view/window_layout.h"
 
@@ -19,23 +21,14 @@ namespace fragtrace {
 
 // The places of things in the window, for scripts that click on them (docs/viewer.md).
 
-/// Left, top, width and height by name, in pixels of the window.
-using Places = std::map<std::string, std::array<float, 4>>;
+/// Left, top, width and height by name, in pixels of the window, in the latest frame.
+std::map<std::string, std::array<float, 4>>& places();
 
 /// Adds the window of Dear ImGui that is being made.
-void addWindowPlace(Places& places, const std::string& name);
+void addWindowPlace(const std::string& name);
 
 /// Adds the item of Dear ImGui that was made last, and returns what that returned.
-bool placed(Places& places, const std::string& name, bool result = true);
-
-// The files that were shown before, as a list to choose from.
-
-/// The recent files as they were when the list was opened: the disk is not asked in each frame.
-struct RecentFiles {
-  std::vector<std::filesystem::path> files;
-  std::vector<bool> gone;
-  int frame = -1;  ///< Dear ImGui's frame in which the list was drawn last
-};
+bool placed(const std::string& name, bool result = true);
 
 /// The histogram that was drawn last, and of what.
 struct ShownHistogram {
@@ -45,7 +38,7 @@ struct ShownHistogram {
   double exposure = 0.0;
 };
 
-/// The window's knowledge beside the state that its user sets.
+/// The window's knowledge besides the state that its user sets.
 struct ViewFacts {
   std::array<SideStatistics, kMostSides> statistics;
   std::array<glm::ivec2, kMostSides>
@@ -54,11 +47,9 @@ struct ViewFacts {
   std::array<PictureValues, kMostSides>
       values;  ///< values under the cursor, of the enlarged area, of the whole
   ShownHistogram histogram;
-  std::map<std::filesystem::path, unsigned> thumbnails;  ///< textures by environment; empty path: studio
+  std::map<std::filesystem::path, GlTexture> thumbnails;  ///< by environment; empty path: studio
   std::optional<glm::dvec2> cursor;  ///< over the picture: parts of its width and height, from the top left
-  LoadStatus load;
-  std::string note;
-  std::string error;
+  TraceStatus trace;
   MessageList messages;
   std::optional<PickAnswer> pick;
   double picturesPerSecond = 0.0;  ///< rate of the first side while something moves; else 0
@@ -66,45 +57,46 @@ struct ViewFacts {
   bool wantsThumbnails = false;    ///< the list of environments is open
   bool errorClosed = false;        ///< the user has read the error
   bool asksToSave = false;         ///< the window is to be closed, and numbers are not saved
-  bool resting = false;
   bool canUndo = false;
   bool canRedo = false;
   std::string status;  ///< text of the status bar
   Remembered remembered;
-  RecentFiles recent;
   bool dialog = false;               ///< the desktop's dialog for a file is open
   size_t sheetLines = 0;             ///< lines of the sheet that the search has found
-  const char* focus = "picture";     ///< receiver of keys (Interface::focus)
-  std::optional<glm::vec2> mouse;    ///< Interface::mouse
-  Places places;                     ///< places in the latest frame
   std::vector<Invocation> commands;  ///< commands of the latest frame's widgets
 };
 
 /// Draws all of that into Dear ImGui's frame, `now` being seconds of the messages' clock.
 void drawOverlay(ViewState& state, ViewFacts& facts, const WindowLayout& layout, double now);
 
-/// The linear value at a place: of a side, or its difference from the other; none if it is not known.
-std::optional<glm::dvec3> shownValue(const ViewFacts& facts, size_t side, bool difference,
-                                     const glm::dvec2& place);
-
 /// The pixels of a side's picture, of that size, that somebody looks at.
 PixelArea wantedArea(const ViewState& state, const ViewFacts& facts, size_t side, glm::ivec2 whole);
 
-/// Returns true if pixels are enlarged enough for values in them.
-bool showsPixelValues(const ViewState& state);
+// The state of the window as JSON, for programs that drive it from outside (docs/viewer.md).
 
-/// Writes the linear red, green and blue of the pixels into them, if they are enlarged enough.
-void drawPixelValues(const ViewState& state, const ViewFacts& facts, const WindowLayout& layout);
+/// Adds one; of 512 the oldest is forgotten.
+void keepTime(std::deque<double>& times, double ms);
 
-/// Draws the figures at the top left, of one side or of both below each other: what the picture shown has
-/// cost, and how good it is.
-void drawFigures(const ViewState& state, ViewFacts& facts, const WindowLayout& layout);
+struct WindowReport {
+  uint64_t asked = 0;         ///< the latest request
+  uint64_t answered = 0;      ///< the latest change that a picture shown answers
+  uint64_t pictures = 0;      ///< pictures of all sides that came
+  uint64_t frames = 0;        ///< frames of the window that were drawn
+  std::string camera;         ///< the camera, as options of the command line
+  const char* end = nullptr;  ///< "closed" or "failed"; null: the window is open
+  std::vector<std::string> glErrors;
+  // Delays that a user would notice, in milliseconds.
+  std::deque<double> loopMs;    ///< the event loop's latest turns, without waiting
+  std::deque<double> answerMs;  ///< latest times from a change to its first picture
+  double longestLoopMs = 0.0;
+};
 
-/// Draws the status bar below the picture: how good it is, how long it will take, and the pixel under the
-/// cursor. What has no room is left out, the least important first.
-void drawStatusBar(const ViewState& state, ViewFacts& facts, const WindowLayout& layout);
+/// The text of the status file if no window could be opened.
+std::string failureText(const std::string& error);
 
-/// Draws the stages above it in the same way, each a click away, and what is wanted beside them at any time.
-void drawStageBar(const ViewState& state, ViewFacts& facts, const WindowLayout& layout);
+std::string statusText(const ViewState& state, const ViewFacts& facts, const WindowReport& report);
+
+/// Replaces the file as a whole; nothing where its name is empty. Throws RenderError.
+void writeStatusFile(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace fragtrace

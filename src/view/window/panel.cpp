@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
-#include <string>
 
 #include "base/text.h"
 #include "gltf/edit/factors.h"
@@ -12,7 +11,6 @@
 #include "scene/parts.h"
 #include "scene/sky/map_filter.h"
 #include "view/files.h"
-#include "view/shown_text.h"
 #include "view/view_state.h"
 #include "view/window/input.h"
 #include "view/window/widgets.h"
@@ -34,7 +32,7 @@ void drawParts(const ViewState& state, ViewFacts& facts) {
     const std::string& current = scene.options.selection.*part;
     const auto nameOf = [&](size_t i) { return i == 0 ? none : partText(i - 1, names[i - 1]); };
     const std::optional<size_t> shown = current.empty() ? std::nullopt : findPart(current, names);
-    const auto chosen = choose(facts.places, name, names.size() + 1, shown ? *shown + 1 : 0, nameOf);
+    const auto chosen = choose(name, names.size() + 1, shown ? *shown + 1 : 0, nameOf);
     const std::string wanted = chosen.value_or(0) == 0 ? "" : std::to_string(*chosen - 1);
     if (!chosen || wanted == current) return;
     facts.commands.push_back({.command = Command::Load, .load = scene.options});
@@ -54,20 +52,19 @@ constexpr float kMostBrighter = 100.0f;  // than in the file
 float roomForReset() { return ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x; }
 
 /// Ends a row: sets its number if that has changed, and goes back to the file's by a button.
-void endRow(ViewState& state, Places& places, const char* name, bool changed, const SetNumber& now,
-            const SetNumber& file) {
+void endRow(ViewState& state, const char* name, bool changed, const SetNumber& now, const SetNumber& file) {
   if (changed) setNumber(state, now, file);
   if (isSame(now, file)) return;
   ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
   ImGui::PushID(name);
-  if (placed(places, std::string("reset ") + name, ImGui::Button("x", {ImGui::GetFrameHeight(), 0.0f})))
+  if (placed(std::string("reset ") + name, ImGui::Button("x", {ImGui::GetFrameHeight(), 0.0f})))
     setNumber(state, file, file);
   ImGui::PopID();
-  tip(places, "back to the file's value");
+  tip("back to the file's value");
 }
 
-void drawFactor(ViewState& state, Places& places, const Factor& factor, const Material& file, Material now) {
-  label(places, factor.label);
+void drawFactor(ViewState& state, const Factor& factor, const Material& file, Material now) {
+  label(factor.label);
   const std::string id = std::string("##") + factor.member;
   float* first = factor.at(now);
   const ImGuiSliderFlags flags = factor.logarithmic ? kBoundedLogarithmic : kBounded;
@@ -80,67 +77,34 @@ void drawFactor(ViewState& state, Places& places, const Factor& factor, const Ma
     ImGui::SetNextItemWidth(-roomForReset());
     changed = ImGui::SliderFloat(id.c_str(), first, factor.least, factor.most, "%.3f", flags);
   }
-  endRow(state, places, factor.label, changed, numberOf(factor, now), numberOf(factor, file));
+  endRow(state, factor.label, changed, numberOf(factor, now), numberOf(factor, file));
 }
 
-void drawLightSource(ViewState& state, Places& places, size_t index) {
+void drawLightSource(ViewState& state, size_t index) {
   const LightSource& file = state.scene->lights[index];
   LightSource now = file;
   setLight(now, index, state.edit.shared.selection.set);
   const float most = file.intensity > 0.0 ? kMostBrighter * float(file.intensity) : kMostBrighter;
-  const bool brighter = slider(places,
-                               {.name = "Light intensity",
+  const bool brighter = slider({.name = "Light intensity",
                                 .most = most,
                                 .format = "%.4g",
                                 .flags = kBoundedLogarithmic,
                                 .spare = roomForReset()},
                                now.intensity);
   if (brighter) now.intensity = shortest(float(now.intensity));
-  endRow(state, places, "Light intensity", brighter, intensityOf(now, index), intensityOf(file, index));
-  label(places, "Light colour");
+  endRow(state, "Light intensity", brighter, intensityOf(now, index), intensityOf(file, index));
+  label("Light colour");
   glm::vec3 color(now.color);
   const bool colored = editColor("##color", color, 1.0f, true, roomForReset());
   if (colored) now.color = {shortest(color.x), shortest(color.y), shortest(color.z)};
-  endRow(state, places, "Light colour", colored, colorOf(now, index), colorOf(file, index));
+  endRow(state, "Light colour", colored, colorOf(now, index), colorOf(file, index));
 }
 
-/// A row that opens.
-bool beginPart(Places& places, const std::string& place, size_t index, const std::string& name) {
-  ImGui::PushID(int(index));
-  return placed(places, place + " " + std::to_string(index),
-                ImGui::TreeNodeEx("##part", 0, "%s", partText(index, name).c_str()));
-}
-
-void endPart(bool open) {
-  if (open) ImGui::TreePop();
-  ImGui::PopID();
-}
-
-void drawMaterial(ViewState& state, Places& places, size_t index) {
+void drawMaterial(ViewState& state, size_t index) {
   const Material& file = state.scene->materials[index];
   const Material now = shownMaterial(state, index);
   for (const Factor& factor : factors()) {
-    if (isOffered(factor, file)) drawFactor(state, places, factor, file, now);
-  }
-}
-
-void drawMaterials(ViewState& state, Places& places) {
-  for (size_t i = 0; i < state.scene->materials.size(); ++i) {
-    const bool open = beginPart(places, "material", i, state.scene->materials[i].name);
-    if (open) {
-      drawMaterial(state, places, i);
-      for (const std::string& line : materialLines(shownMaterial(state, i)))
-        ImGui::TextUnformatted(line.c_str());
-    }
-    endPart(open);
-  }
-}
-
-void drawLights(ViewState& state, Places& places) {
-  for (size_t i = 0; i < state.scene->lights.size(); ++i) {
-    const bool open = beginPart(places, "light", i, state.scene->lights[i].name);
-    if (open) drawLightSource(state, places, i);
-    endPart(open);
+    if (isOffered(factor, file)) drawFactor(state, factor, file, now);
   }
 }
 
@@ -168,8 +132,7 @@ bool drawNode(ViewState& state, ViewFacts& facts, size_t i, bool parentShown) {
   bool shown = !isHidden(state, i) && !node.hiddenInFile;
   ImGui::BeginDisabled(node.hiddenInFile || !parentShown);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, 0.0f));
-  if (placed(facts.places, "show " + node.name, ImGui::Checkbox("##shown", &shown)))
-    hideNode(state, i, !shown);
+  if (placed("show " + node.name, ImGui::Checkbox("##shown", &shown))) hideNode(state, i, !shown);
   ImGui::PopStyleVar();
   ImGui::EndDisabled();
   ImGui::SameLine();
@@ -183,7 +146,7 @@ bool drawNode(ViewState& state, ViewFacts& facts, size_t i, bool parentShown) {
                         "%s%s", shownText(node.name, kMostNameCharacters).c_str(), notesOf(node).c_str());
   if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen())
     facts.commands.push_back({Command::SelectNode, int(node.index)});
-  placed(facts.places, "node " + node.name, open);
+  placed("node " + node.name, open);
   ImGui::PopID();
   return open;
 }
@@ -229,16 +192,30 @@ void drawTree(ViewState& state, ViewFacts& facts) {
   if (beginList("nodes", state.scene->nodes.size(), ImGuiWindowFlags_HorizontalScrollbar))
     drawNodes(state, facts);
   ImGui::EndChild();
-  const auto list = [&](const char* name, const char* title, size_t count, auto draw) {
-    const std::string id = std::string("##") + name;
-    const bool open =
-        ImGui::TreeNodeEx(id.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen, "%s (%d)", title, int(count));
-    if (!placed(facts.places, name, open)) return;
-    if (beginList(name, size_t(kMostRows))) draw(state, facts.places);
+  const auto list = [](const std::string& name, const char* title, const auto& parts, const auto& draw) {
+    const std::string id = "##" + name;
+    const bool open = ImGui::TreeNodeEx(id.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen, "%s (%d)", title,
+                                        int(parts.size()));
+    if (!placed(name + "s", open)) return;
+    const bool seen = beginList(name.c_str(), size_t(kMostRows));
+    for (size_t i = 0; seen && i < parts.size(); ++i) {
+      ImGui::PushID(int(i));
+      if (placed(name + " " + std::to_string(i),
+                 ImGui::TreeNodeEx("##part", 0, "%s", partText(i, parts[i].name).c_str()))) {
+        draw(i);
+        ImGui::TreePop();
+      }
+      ImGui::PopID();
+    }
     ImGui::EndChild();
   };
-  list("materials", "Materials", state.scene->materials.size(), drawMaterials);
-  if (!state.scene->lights.empty()) list("lights", "Lights", state.scene->lights.size(), drawLights);
+  list("material", "Materials", state.scene->materials, [&](size_t i) {
+    drawMaterial(state, i);
+    for (const std::string& line : materialLines(shownMaterial(state, i)))
+      ImGui::TextUnformatted(line.c_str());
+  });
+  if (state.scene->lights.empty()) return;
+  list("light", "Lights", state.scene->lights, [&](size_t i) { drawLightSource(state, i); });
 }
 
 // Exposure, tone map, environment and background.
@@ -260,12 +237,11 @@ void drawThumbnail(const ViewFacts& facts, const EnvironmentChoice& choice, floa
     ImGui::Dummy(size);
   else
     // Dear ImGui's pointer is a texture's name to its part for OpenGL.
-    ImGui::Image(ImTextureID(intptr_t(found->second)), size);  // NOLINT(performance-no-int-to-ptr)
+    ImGui::Image(ImTextureID(intptr_t(found->second.name())), size);  // NOLINT(performance-no-int-to-ptr)
 }
 
 /// A list of what can light the scene.
 void chooseEnvironment(const ViewedScene& scene, ViewFacts& facts) {
-  Places& places = facts.places;
   const std::vector<EnvironmentChoice> choices = environmentChoices(scene);
   const size_t current = currentChoice(scene, choices);
   if (!ImGui::BeginCombo("##environment", shownText(choices[current].name, kMostNameCharacters).c_str()))
@@ -277,48 +253,42 @@ void chooseEnvironment(const ViewedScene& scene, ViewFacts& facts) {
     drawThumbnail(facts, choices[i], height);
     ImGui::SameLine();
     const std::string name = shownText(choices[i].name, kMostNameCharacters);
-    if (placed(places, "environment " + choices[i].name,
+    if (placed("environment " + choices[i].name,
                ImGui::Selectable(name.c_str(), i == current, 0, ImVec2(0.0f, height))))
       facts.commands.push_back(
           {.command = Command::Load, .load = withEnvironment(scene.options, choices[i])});
     ImGui::PopID();
   }
-  if (placed(places, "environment Open...", ImGui::Selectable("Open...")))
+  if (placed("environment Open...", ImGui::Selectable("Open...")))
     facts.commands.push_back({Command::Open, 1});
   ImGui::EndCombo();
 }
 
 /// The sun of the sky, and its haze.
-void drawSky(ViewState& state, Places& places) {
-  SkyOptions& sky = state.edit.shared.light.sky;
+void drawSky(SkyOptions& sky) {
   SunPlace sun = sunOf(sky);
-  if (slider(places,
-             {"Sun height", kLowestSun, 90.0f, "%.1f degrees", kBounded,
-              "Degrees above the horizon (--sun-elevation). Shift and the right button drag the sun"},
-             sun.elevation))
-    placeSun(sky, sun);
   double azimuth = std::remainder(sun.azimuth, 360.0);
-  if (slider(places,
-             {"Sun from", -180.0f, 180.0f, "%.0f degrees", kBounded,
-              "Degrees clockwise from north, which is -Z: 90 is east, +X (--sun-azimuth)"},
-             azimuth)) {
-    sun.azimuth = azimuth;
-    placeSun(sky, sun);
-  }
-  slider(places,
-         {"Haze", 1.0f, 10.0f, "%.1f", kBounded, "1 is air without haze, 3 a clear day (--sky-turbidity)"},
+  const bool lifted =
+      slider({"Sun height", kLowestSun, 90.0f, "%.1f degrees", kBounded,
+              "Degrees above the horizon (--sun-elevation). Shift and the right button drag the sun"},
+             sun.elevation);
+  const bool turned = slider({"Sun from", -180.0f, 180.0f, "%.0f degrees", kBounded,
+                              "Degrees clockwise from north, which is -Z: 90 is east, +X (--sun-azimuth)"},
+                             azimuth);
+  if (turned) sun.azimuth = azimuth;
+  if (lifted || turned) placeSun(sky, sun);
+  slider({"Haze", 1.0f, 10.0f, "%.1f", kBounded, "1 is air without haze, 3 a clear day (--sky-turbidity)"},
          sky.turbidity);
 }
 
 /// Fog round the scene.
-void drawFog(ViewState& state, Places& places) {
+void drawFog(ViewState& state) {
   FogOptions& fog = state.edit.shared.fog;
   const std::string reason = whyNoFog(state);
   ImGui::BeginDisabled(!reason.empty());
   // The box of its colour stands on the same line.
   const float box = fog.density > 0.0 ? ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x : 0.0f;
-  slider(places,
-         {"Fog", 0.0f, kMostFog, fog.density > 0.0 ? "%.3f / m" : "none", kBoundedLogarithmic,
+  slider({"Fog", 0.0f, kMostFog, fog.density > 0.0 ? "%.3f / m" : "none", kBoundedLogarithmic,
           "How dense the fog round the scene is: at 0.2 / m, light goes 5 m on average before it meets some "
           "(--fog-density). --fog-distance says how far the fog reaches",
           reason, box},
@@ -326,16 +296,14 @@ void drawFog(ViewState& state, Places& places) {
   if (fog.density > 0.0) {
     ImGui::SameLine();
     glm::vec3 color = fog.color.value_or(glm::vec3(1.0f));
-    if (placed(places, "Fog colour", editColor("##fogcolor", color))) fog.color = color;
-    tip(places, "The part of the light that the fog scatters rather than swallows (--fog-color)");
-    slider(places,
-           {"Fog forward", -kMostForward, kMostForward, "%.2f", kBounded,
+    if (placed("Fog colour", editColor("##fogcolor", color))) fog.color = color;
+    tip("The part of the light that the fog scatters rather than swallows (--fog-color)");
+    slider({"Fog forward", -kMostForward, kMostForward, "%.2f", kBounded,
             "Where the fog scatters light: above 0 rather forwards, as mist before a lamp; below 0 rather "
             "back (--fog-anisotropy)"},
            fog.anisotropy);
     double height = fog.height.value_or(0.0);
-    if (slider(places,
-               {"Fog height", 0.0f, kMostFogHeight, height > 0.0 ? "%.2f m" : "no limit", kBoundedLogarithmic,
+    if (slider({"Fog height", 0.0f, kMostFogHeight, height > 0.0 ? "%.2f m" : "no limit", kBoundedLogarithmic,
                 "Ground fog: every so many metres up, it is thinner by a factor of e. At 0 it is as dense "
                 "above as below (--fog-height)"},
                height))
@@ -346,44 +314,29 @@ void drawFog(ViewState& state, Places& places) {
   ImGui::EndDisabled();
 }
 
-void drawBackground(ViewState& state, Places& places) {
-  LightOptions& light = state.edit.shared.light;
-  label(places, "Background");
-  ImGui::Checkbox("##background", &light.background);
-  if (light.background && state.scene->surroundings != Surroundings::Map) {
-    ImGui::SameLine();
-    glm::vec3 color = light.backgroundColor.value_or(glm::vec3(0.0f));
-    if (placed(places, "Background colour", editColor("##color", color, kMostColor)))
-      light.backgroundColor = color;
-  }
-}
-
 void drawLight(ViewState& state, ViewFacts& facts) {
-  Places& places = facts.places;
   RenderOptions& o = state.edit.shared;
-  double exposure = o.output.exposure.value_or(0.0);
-  if (slider(places, {"Exposure", -8.0f, 8.0f, "%.1f EV"}, exposure)) o.output.exposure = exposure;
-  choose(places, "Tone map", toneMapNames(), o.output.toneMap);
-  label(places, "Environment");
+  LightOptions& light = o.light;
+  slider({"Exposure", -8.0f, 8.0f, "%.1f EV"}, o.output.exposure);
+  choose("Tone map", toneMapNames(), o.output.toneMap);
+  label("Environment");
   chooseEnvironment(*state.scene, facts);
   const bool map = state.scene->surroundings == Surroundings::Map;
-  double degrees = std::remainder(o.light.hdriRotationDegrees, 360.0);
+  double degrees = std::remainder(light.hdriRotationDegrees, 360.0);
   // Typed values beyond the ends wrap around.
-  if (slider(places,
-             {"Rotation", -180.0f, 180.0f, "%.0f degrees", 0, nullptr, map ? "" : "no environment map"},
+  if (slider({"Rotation", -180.0f, 180.0f, "%.0f degrees", 0, nullptr, map ? "" : "no environment map"},
              degrees))
-    o.light.hdriRotationDegrees = std::isfinite(degrees) ? std::remainder(degrees, 360.0) : 0.0;
+    light.hdriRotationDegrees = std::isfinite(degrees) ? std::remainder(degrees, 360.0) : 0.0;
   const bool lit = has(state.scene->present, Trait::Environment);
   slider(
-      places,
       {"Intensity", 0.0f, kMostIntensity, "%.2f", kBoundedLogarithmic, nullptr, lit ? "" : "no environment"},
-      o.light.hdriIntensity);
-  if (o.light.sky.on) drawSky(state, places);
+      light.hdriIntensity);
+  if (light.sky.on) drawSky(light.sky);
   const LightOptions& loaded = state.scene->options.light;
   if (!loaded.hdriFile.empty() || loaded.sky.on) {
     // The map is blurred once, when the slider is let go.
     double wanted = state.blur.value_or(loaded.backgroundBlur);
-    if (slider(places, {"Blur", 0.0f, kMostBlur, wanted > 0.0 ? "%.1f degrees" : "none"}, wanted))
+    if (slider({"Blur", 0.0f, kMostBlur, wanted > 0.0 ? "%.1f degrees" : "none"}, wanted))
       state.blur = wanted;
     if (ImGui::IsItemDeactivatedAfterEdit() && state.blur) {
       facts.commands.push_back({.command = Command::Load, .load = state.scene->options});
@@ -391,13 +344,18 @@ void drawLight(ViewState& state, ViewFacts& facts) {
       state.blur.reset();
     }
   }
-  drawFog(state, places);
-  drawBackground(state, places);
+  drawFog(state);
+  label("Background");
+  ImGui::Checkbox("##background", &light.background);
+  if (light.background && !map) {
+    ImGui::SameLine();
+    glm::vec3 color = light.backgroundColor.value_or(glm::vec3(0.0f));
+    if (placed("Background colour", editColor("##color", color, kMostColor))) light.backgroundColor = color;
+  }
   const bool paths = has(state.side().stages, Stage::Gi);
-  ImGui::BeginDisabled(!paths);
-  commandBox(facts, "Shadow catcher", o.light.shadowCatcher && paths, Command::ToggleGround);
-  ImGui::EndDisabled();
-  dimAtEnd(paths ? keyOf(Command::ToggleGround) : "only path traced");
+  bool catches = light.shadowCatcher && paths;
+  if (box("Shadow catcher", catches, paths ? "" : "only path traced", keyOf(Command::ToggleGround)))
+    facts.commands.push_back({Command::ToggleGround});
 }
 
 // The histogram of the radiance in the active side's picture.
@@ -442,33 +400,30 @@ void drawHistogram(const ViewState& state, ViewFacts& facts) {
   const ImVec2 size(ImGui::GetContentRegionAvail().x, kPlotHeight * scale);
   plot(histogram, ImGui::GetCursorScreenPos(), size);
   ImGui::Dummy(size);
-  placed(facts.places, "histogram");
-  tip(facts.places,
-      formatted("radiance from 2^%g to 2^%g with the exposure; the line is at 1", kLowestStop, kHighestStop));
+  placed("histogram");
+  tip(formatted("radiance from 2^%g to 2^%g with the exposure; the line is at 1", kLowestStop, kHighestStop));
   ImGui::TextDisabled("mean %.3g   max %.3g   above 1: %.2g %%", histogram.mean, histogram.most,
                       100.0 * histogram.above);
 }
 
 // The camera: projection, cameras of the scene, views with a name.
 
-constexpr double kLeastStop = 0.001;  // the range that the panel offers
-constexpr double kMostStop = 32.0;
+constexpr float kMostFocus = 1000.0f;  // metres; the range that the panel offers
 
 /// A line for a new name, then one a view: go there, or forget it.
 void drawBookmarks(ViewState& state, ViewFacts& facts) {
-  Places& places = facts.places;
   const float button = ImGui::CalcTextSize("Keep view").x + 4 * ImGui::GetStyle().FramePadding.x;
   ImGui::SetNextItemWidth(-button);
   shownText(state.bookmarkName.data(), state.bookmarkName.size());  // the font gets what is typed
   const bool typed =
-      placed(places, "Bookmark name",
+      placed("Bookmark name",
              ImGui::InputTextWithHint("##bookmark", "name of this view", state.bookmarkName.data(),
                                       state.bookmarkName.size(), ImGuiInputTextFlags_EnterReturnsTrue));
   ImGui::SameLine();
   const auto& all = facts.remembered.bookmarks;
   const auto found = all.find(std::filesystem::absolute(state.scene->options.scene).string());
   const size_t count = found == all.end() ? 0 : found->second.size();
-  if (placed(places, "Keep view", ImGui::Button("Keep view", ImVec2(-1, 0))) || typed) {
+  if (placed("Keep view", ImGui::Button("Keep view", ImVec2(-1, 0))) || typed) {
     const std::string name(state.bookmarkName.data());
     facts.commands.push_back(
         {.command = Command::AddBookmark, .text = name.empty() ? "View " + std::to_string(count + 1) : name});
@@ -476,65 +431,64 @@ void drawBookmarks(ViewState& state, ViewFacts& facts) {
   }
   for (size_t i = 0; i < count; ++i) {
     ImGui::PushID(int(i));
-    if (placed(places, "forget view " + std::to_string(i), ImGui::SmallButton("x")))
+    if (closeButton("forget view " + std::to_string(i)))
       facts.commands.push_back({Command::RemoveBookmark, int(i)});
-    ImGui::SameLine();
     const std::string name = shownText(found->second[i].name, kMostNameCharacters) + "##view";
-    if (placed(places, "view " + std::to_string(i), ImGui::Selectable(name.c_str())))
+    if (placed("view " + std::to_string(i), ImGui::Selectable(name.c_str())))
       facts.commands.push_back({Command::ShowBookmark, int(i)});
     ImGui::PopID();
   }
 }
 
-/// An f-number whose blur can be seen, whatever the size of the scene.
-double firstStop(const CameraPose& pose) {
-  constexpr double kRadius = 0.02;  // the radius in parts of the distance to the focal point
-  const double focalLength = focalLengthOf(glm::radians(pose.viewAngleDegrees));
-  const double distance = glm::distance(pose.position, pose.focalPoint);
-  return std::clamp(focalLength / (2.0 * kRadius * distance), kLeastStop, kMostStop);
-}
-
 /// Depth of field: sharp at the focal point, unless the command line says where.
-void drawLens(ViewState& state, Places& places) {
+void drawLens(ViewState& state) {
   LensOptions& lens = state.edit.shared.camera.lens;
   bool blurred = lens.fStop.has_value();
-  if (placed(places, "Depth of field", ImGui::Checkbox("Depth of field", &blurred)))
+  if (box("Depth of field", blurred))
     lens.fStop = blurred ? std::optional(firstStop(state.edit.pose)) : std::nullopt;
   if (!lens.fStop) return;
-  slider(places, {"F-stop", float(kLeastStop), float(kMostStop), "f / %.3g", kBoundedLogarithmic},
-         *lens.fStop);
-  if (slider(places, {"Blades", 2, 12, lens.blades < 3 ? "round" : "%d"}, lens.blades) && lens.blades < 3)
+  slider({"F-stop", float(kLeastStop), float(kMostStop), "f / %.3g", kBoundedLogarithmic}, *lens.fStop);
+  slider(
+      {"Focus distance", 0.0f, kMostFocus, lens.focusDistance.value_or(0.0) > 0.0 ? "%.3g m" : "focal point",
+       kBoundedLogarithmic, "Metres along the view (--focus-distance); Ctrl+click on what is to be sharp"},
+      lens.focusDistance);
+  if (lens.focusDistance == 0.0) lens.focusDistance.reset();
+  if (slider({"Blades", 2, 12, lens.blades < 3 ? "round" : "%d"}, lens.blades) && lens.blades < 3)
     lens.blades = 0;
 }
 
 void drawCamera(ViewState& state, ViewFacts& facts) {
-  Places& places = facts.places;
   CameraType type = state.edit.pose.type;
-  choose(places, "Projection", kCameraTypeNames, type);
+  choose("Projection", kCameraTypeNames, type);
   if (type != state.edit.pose.type) {
     state.edit.pose = withProjection(state.edit.pose, type);
     state.edit.posed = true;
   }
   const bool fisheye = type == CameraType::Fisheye;
   if (fisheye || type == CameraType::Perspective) {
-    if (slider(places, {"View angle", 1.0f, fisheye ? 360.0f : 170.0f, "%.1f degrees"},
+    if (slider({"View angle", 1.0f, fisheye ? 360.0f : 170.0f, "%.1f degrees"},
                fisheye ? state.edit.pose.fisheyeDegrees : state.edit.pose.viewAngleDegrees))
       state.edit.posed = true;
   }
-  if (type == CameraType::Perspective) drawLens(state, places);
+  if (type == CameraType::Perspective) {
+    double millimetres = 1000.0 * focalLengthOf(glm::radians(state.edit.pose.viewAngleDegrees));
+    if (slider({"Focal length", 2.0f, 1000.0f, "%.1f mm", kBoundedLogarithmic,
+                "On a sensor 24 mm high (--focal-length)"},
+               millimetres)) {
+      state.edit.pose.viewAngleDegrees = glm::degrees(2.0 * std::atan(12.0 / millimetres));
+      state.edit.posed = true;
+    }
+    drawLens(state);
+  }
   if (const std::vector<Camera>& cameras = state.scene->cameras; !cameras.empty()) {
     const auto nameOf = [&](size_t i) { return partText(i, cameras[i].name); };
-    if (const auto chosen =
-            choose(places, "Scene camera", cameras.size(), size_t(state.edit.sceneCamera), nameOf))
+    if (const auto chosen = choose("Scene camera", cameras.size(), size_t(state.edit.sceneCamera), nameOf))
       facts.commands.push_back({Command::SceneCamera, int(*chosen)});
   }
-  commandButton(facts, "Frame all", Command::FrameAll, 1);
-  stayOnLineFor("Reset view");
-  commandButton(facts, "Reset view", Command::ResetCamera);
-  stayOnLineFor("Copy");
-  commandButton(facts, "Copy", Command::CopyCommand);
-  stayOnLineFor("Paste");
-  commandButton(facts, "Paste", Command::PasteCommand);
+  commandButtons(facts, {{"Frame all", Command::FrameAll, 1},
+                         {"Reset view", Command::ResetCamera},
+                         {"Copy", Command::CopyCommand},
+                         {"Paste", Command::PasteCommand}});
   drawBookmarks(state, facts);
 }
 
@@ -548,73 +502,64 @@ void drawPresets(const ViewState& state, ViewFacts& facts) {
     const bool chosen = isPreset(state.side().stages, preset);
     if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, kAccent);
     if (&preset != kPresets.data()) ImGui::SameLine();
-    if (placed(facts.places, preset.name, ImGui::Button(preset.name, {width, 0.0f})))
+    if (placed(preset.name, ImGui::Button(preset.name, {width, 0.0f})))
       facts.commands.push_back({Command::StagesUpTo, int(preset.last)});
     if (chosen) ImGui::PopStyleColor();
-    tip(facts.places, preset.sentence);
+    tip(preset.sentence);
   }
 }
 
 /// Draws the stages that build on each other, or the switches.
-void drawStages(ViewState& state, Places& places, bool cumulative) {
+void drawStages(ViewState& state, bool cumulative) {
   RenderOptions& side = state.side();
   for (const StageRow& row : stageRows()) {
     if (row.cumulative != cumulative) continue;
     const std::string reason = row.stage == Stage::Flat ? "always on" : whyGrey(state, row.stage);
     bool on = has(side.stages, row.stage) && (reason.empty() || row.stage == Stage::Flat);
-    ImGui::BeginDisabled(!reason.empty());
-    if (ImGui::Checkbox(row.label, &on)) side.stages.set(size_t(row.stage), on);
-    ImGui::EndDisabled();
-    tip(places, row.sentence);
-    dimAtEnd(reason.empty() ? keyOf(Command::ToggleStage, int(row.stage)) : reason);
+    if (box(row.label, on, reason, keyOf(Command::ToggleStage, int(row.stage)), row.sentence))
+      side.stages.set(size_t(row.stage), on);
   }
 }
 
-void drawSampling(ViewState& state, Places& places) {
+void drawSampling(ViewState& state) {
   RenderOptions& side = state.side();
   int bounces = std::min(side.sampling.bounces, kMostBouncesShown);
   const bool unlimited = side.sampling.bounces >= kMostBouncesShown;
-  if (slider(places, {"Bounces", 0, kMostBouncesShown, unlimited ? "unlimited" : "%d"}, bounces))
+  if (slider({"Bounces", 0, kMostBouncesShown, unlimited ? "unlimited" : "%d"}, bounces))
     side.sampling.bounces = bounces >= kMostBouncesShown ? kUnlimitedBounces : bounces;
-  slider(places, {"Roulette from", 1, 32, "%d"}, side.sampling.rouletteDepth);
+  slider({"Roulette from", 1, 32, "%d"}, side.sampling.rouletteDepth);
   double& goal = state.edit.shared.sampling.noise;
   double percent = 100.0 * goal;
-  if (slider(places, {"Noise to reach", 0.1f, 20.0f, "%.2f %%", kBoundedLogarithmic}, percent))
-    goal = 0.01 * percent;
-  choose(places, "Pixel filter", kPixelFilterNames, side.camera.pixelFilter);
+  if (slider({"Noise to reach", 0.1f, 20.0f, "%.2f %%", kBoundedLogarithmic}, percent)) goal = 0.01 * percent;
+  choose("Pixel filter", kPixelFilterNames, side.camera.pixelFilter);
   double& clamp = side.sampling.clampIndirect;
-  slider(places, {"Clamp indirect", 0.0f, 100.0f, clamp > 0.0 ? "%.2f (biased)" : "off", kBoundedLogarithmic},
-         clamp);
-  choose(places, "Traversal", kTraversalNames, side.device.traversal);
+  slider({"Clamp indirect", 0.0f, 100.0f, clamp > 0.0 ? "%.2f (biased)" : "off", kBoundedLogarithmic}, clamp);
+  choose("Traversal", kTraversalNames, side.device.traversal);
 }
 
 void drawAnimation(ViewState& state, ViewFacts& facts) {
-  Places& places = facts.places;
   const int shown = shownAnimation(state);
   const std::vector<std::string>& names = state.scene->animationNames;
   const auto nameOf = [&](size_t i) { return i < names.size() ? partText(i, names[i]) : "all at once"; };
-  if (const auto chosen = choose(places, "Clip", size_t(animationCount(state)), size_t(shown), nameOf))
+  if (const auto chosen = choose("Clip", size_t(animationCount(state)), size_t(shown), nameOf))
     showAnimation(state, int(*chosen), 0.0);
   const std::optional<double> posed = state.edit.shared.selection.animationTime;
   double time = posed.value_or(0.0);
-  if (slider(places, {"Time", 0.0f, float(animationLength(state)), posed ? "%.2f s" : "at rest"}, time)) {
+  if (slider({"Time", 0.0f, float(animationLength(state)), posed ? "%.2f s" : "at rest"}, time)) {
     state.playback.playing = false;
     showAnimation(state, shown, time);
   }
-  slider(places, {"Speed", 0.1f, 10.0f, "%.2f", kBoundedLogarithmic}, state.playback.speed);
-  if (placed(places, "Play", ImGui::Button(state.playback.playing ? "Pause" : "Play")))
+  slider({"Speed", 0.1f, 10.0f, "%.2f", kBoundedLogarithmic}, state.playback.speed);
+  if (placed("Play", ImGui::Button(state.playback.playing ? "Pause" : "Play")))
     facts.commands.push_back({Command::PlayAnimation});
   ImGui::SameLine();
-  placed(places, "Loop", ImGui::Checkbox("Loop", &state.playback.loops));
-  dimAtEnd(keyOf(Command::PlayAnimation));
+  box("Loop", state.playback.loops, {}, keyOf(Command::PlayAnimation));
 }
 
 /// Draws the choice of the side whose settings are shown. If side B is a file, draws its name instead.
 void drawSides(ViewState& state, ViewFacts& facts) {
   if (!state.reference.empty()) {
-    if (placed(facts.places, "close reference", ImGui::SmallButton("x")))
-      facts.commands.push_back({Command::DropReference});
-    ImGui::SameLine();
+    if (closeButton("close reference")) facts.commands.push_back({Command::DropReference});
     ImGui::Text("B: %s", shownText(state.reference.filename().string(), kMostNameCharacters).c_str());
     return;
   }
@@ -629,49 +574,44 @@ void drawSides(ViewState& state, ViewFacts& facts) {
 }
 
 void drawCompare(ViewState& state, ViewFacts& facts) {
-  Places& places = facts.places;
-  commandBox(facts, "Split view", state.edit.split, Command::ToggleSplit);
+  bool splits = state.edit.split;
+  if (box("Split view", splits)) facts.commands.push_back({Command::ToggleSplit});
   stayOnLineFor("[ ] Denoise");
   const std::string reason = whyWithoutNoise(state.options());
-  const bool denoises = state.side().output.denoise != Denoise::None && reason.empty();
+  bool denoises = state.side().output.denoise != Denoise::None && reason.empty();
   ImGui::BeginDisabled(!reason.empty());
-  commandBox(facts, "Denoise", denoises, Command::ToggleDenoise);
+  if (box("Denoise", denoises)) facts.commands.push_back({Command::ToggleDenoise});
   ImGui::EndDisabled();
-  tip(places, reason.empty() ? "all of it up to 64 samples per pixel, nothing from 256 on" : reason);
+  tip(reason.empty() ? "all of it up to 64 samples per pixel, nothing from 256 on" : reason);
   dimAtEnd(keyOf(Command::ToggleSplit) + ", " + keyOf(Command::ToggleDenoise));
   if (!state.edit.split) return;
   int comparison = int(state.comparison);
   constexpr std::array kNames{"bar", "A", "B", "difference"};
   for (int i = 0; i < int(kNames.size()); ++i) {
     if (i > 0) ImGui::SameLine();
-    placed(places, std::string("compare ") + kNames[size_t(i)],
+    placed(std::string("compare ") + kNames[size_t(i)],
            ImGui::RadioButton(kNames[size_t(i)], &comparison, i));
   }
   state.comparison = CompareMode(comparison);
   if (state.comparison == CompareMode::Difference)
-    slider(places, {"Amplify", -8.0f, 16.0f, shortText(std::exp2(state.differenceStops)).c_str()},
+    slider({"Amplify", -8.0f, 16.0f, shortText(std::exp2(state.differenceStops)).c_str()},
            state.differenceStops);
   drawSides(state, facts);
 }
 
 void drawAdvanced(ViewState& state, ViewFacts& facts) {
-  Places& places = facts.places;
   RenderOptions& side = state.side();
   const auto nameOf = [](size_t i) { return std::string(kDebugViewRows[i].label); };
-  if (const auto chosen = choose(places, "Show", kDebugViewRows.size(), size_t(side.output.debugView), nameOf,
+  if (const auto chosen = choose("Show", kDebugViewRows.size(), size_t(side.output.debugView), nameOf,
                                  ImGuiComboFlags_HeightLargest))
     side.output.debugView = DebugView(*chosen);
-  ImGui::Checkbox("Boxes of the tree", &state.edit.treeBoxes);
-  dimAtEnd(keyOf(Command::ToggleTreeBoxes));
-  slider(places, {"Level", 0, 31, "%d"}, state.edit.treeLevel);
-  placed(places, "Figures", ImGui::Checkbox("Figures over the picture", &state.figures));
-  dimAtEnd(keyOf(Command::ToggleHud));
+  box("Boxes of the tree", state.edit.treeBoxes, {}, keyOf(Command::ToggleTreeBoxes));
+  slider({"Level", 0, 31, "%d"}, state.edit.treeLevel);
+  box("Figures over the picture", state.figures, {}, keyOf(Command::ToggleHud));
   ImGui::TextDisabled("Features in the shader");
-  ImGui::PushTextWrapPos(0.0f);
   std::string variant = facts.statistics[state.shownSide()].variant;
   std::ranges::replace(variant, '+', ' ');
-  drawText(variant, kMostLineCharacters);
-  ImGui::PopTextWrapPos();
+  drawText(variant, kMostLineCharacters, 0.0f);
 }
 
 /// The left edge of a docked panel can be dragged (Input).
@@ -684,17 +624,14 @@ void drawEdge(const WindowLayout& layout) {
 
 void drawButtons(ViewFacts& facts) {
   ImGui::Separator();
-  const auto next = [&](const char* text, Command command) {
-    stayOnLineFor(text);
-    commandButton(facts, text, command);
-  };
-  commandButton(facts, "Open...", Command::Open);
-  next("Save as...", Command::SaveAs);
-  next("Save model...", Command::SaveModel);
-  next("Write .exr", Command::WriteExr);
-  next("Reload", Command::Reload);
-  next("Reset all", Command::ResetAll);
-  next("Full screen", Command::Fullscreen);
+  commandButtons(facts, {{"Open...", Command::Open},
+                         {"Save as...", Command::SaveAs},
+                         {"Save model...", Command::SaveModel},
+                         {"Write .exr", Command::WriteExr},
+                         {"Reload", Command::Reload},
+                         {"Reset all", Command::ResetAll},
+                         {"Keep as default", Command::KeepDefaults},
+                         {"Full screen", Command::Fullscreen}});
   ImGui::TextDisabled("%s: all keys   %s: this panel", keyOf(Command::ToggleSheet).c_str(),
                       keyOf(Command::TogglePanel).c_str());
 }
@@ -702,7 +639,6 @@ void drawButtons(ViewFacts& facts) {
 }  // namespace
 
 void drawPanel(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
-  Places& places = facts.places;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float margin = layout.docked ? 0.0f : layout.margin;
   ImGui::SetNextWindowPos({display.x - layout.panel.x - margin, margin});
@@ -717,12 +653,12 @@ void drawPanel(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
                                  ImGuiWindowFlags_NoResize |
                                  (layout.docked ? 0 : ImGuiWindowFlags_AlwaysAutoResize);
   if (ImGui::Begin("Settings", nullptr, flags)) {
-    addWindowPlace(places, "panel");
+    addWindowPlace("panel");
     if (layout.docked) drawEdge(layout);
     drawPresets(state, facts);
     drawCompare(state, facts);
     const auto open = [&](const char* name, bool first = true) {
-      return placed(places, std::string("section ") + name,
+      return placed(std::string("section ") + name,
                     ImGui::CollapsingHeader(name, first ? ImGuiTreeNodeFlags_DefaultOpen : 0));
     };
     if (shownAnimation(state) >= 0 && open("Animation")) drawAnimation(state, facts);
@@ -730,15 +666,15 @@ void drawPanel(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
     const std::optional<uint32_t> picked = facts.pick ? facts.pick->material : std::nullopt;
     if (picked && *picked < state.scene->materials.size() && open("Material")) {
       ImGui::TextDisabled("%s", partText(*picked, state.scene->materials[*picked].name).c_str());
-      drawMaterial(state, places, *picked);
+      drawMaterial(state, *picked);
     }
     if (open("Scene", false)) drawTree(state, facts);
     if (open("Light and display")) drawLight(state, facts);
     if (open("Histogram", false)) drawHistogram(state, facts);
     if (open("Camera")) drawCamera(state, facts);
-    if (open("Stages")) drawStages(state, places, true);
-    if (open("Switches", false)) drawStages(state, places, false);
-    if (open("Sampling", false)) drawSampling(state, places);
+    if (open("Stages")) drawStages(state, true);
+    if (open("Switches", false)) drawStages(state, false);
+    if (open("Sampling", false)) drawSampling(state);
     if (open("Advanced", false)) drawAdvanced(state, facts);
     if (open("Shown before", false)) drawRecentFiles(facts);
     drawButtons(facts);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "view/window/status.h"
+#include "view/window/overlay.h"
+
+#include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +10,7 @@
 #include "base/summary.h"
 #include "image/files/whole_file.h"
 #include "options/option_row.h"
-#include "view/shown_text.h"
-#include "view/view_state.h"
+#include "view/window/glfw_window.h"
 
 namespace fragtrace {
 
@@ -50,10 +51,10 @@ Json sideJson(const RenderOptions& options, const ViewFacts& facts, size_t side)
 
 const char* stateName(const ViewState& state, const ViewFacts& facts, const WindowReport& report) {
   if (report.end) return report.end;
-  if (facts.load.busy) return "loading";
+  if (facts.trace.load.busy) return "loading";
   if (!state.scene) return "empty";
-  if (!facts.note.empty()) return "compiling";
-  const bool resting = facts.resting && report.seen == report.asked;
+  if (!facts.trace.note.empty()) return "compiling";
+  const bool resting = facts.trace.resting && facts.trace.request == report.asked;
   return resting ? "resting" : "drawing";
 }
 
@@ -76,6 +77,19 @@ Json boundsJson(const BoundsDouble& b) {
   return {b.minimum.x, b.minimum.y, b.minimum.z, b.maximum.x, b.maximum.y, b.maximum.z};
 }
 
+Json setJson(const std::vector<SetNumber>& numbers) {
+  Json json = Json::object();
+  for (const SetNumber& set : numbers)
+    json[set.pointer] = set.word.empty() ? Json(set.values) : Json(set.word);
+  return json;
+}
+
+/// As the latest frame has seen it.
+Json mouseJson() {
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  return ImGui::IsMousePosValid(&mouse) ? Json({mouse.x, mouse.y}) : Json();
+}
+
 }  // namespace
 
 void keepTime(std::deque<double>& times, double ms) {
@@ -88,6 +102,7 @@ std::string failureText(const std::string& error) {
 }
 
 std::string statusText(const ViewState& state, const ViewFacts& facts, const WindowReport& report) {
+  const RenderOptions& shared = state.edit.shared;
   Json json;
   json["schema"] = 1;
   json["state"] = stateName(state, facts, report);
@@ -115,41 +130,35 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   const std::vector<RenderOptions> sides = tracedSides(state);
   for (size_t i = 0; i < sides.size(); ++i) json["sides"].push_back(sideJson(sides[i], facts, i));
   json["camera"] = report.camera;
-  json["exposure"] = state.edit.shared.output.exposure.value_or(0.0);
-  json["tone_map"] = toneMapNames()[size_t(state.edit.shared.output.toneMap)];
+  json["exposure"] = shared.output.exposure.value_or(0.0);
+  json["tone_map"] = toneMapNames()[size_t(shared.output.toneMap)];
   json["thumbnails"] = facts.thumbnails.size();
   json["reference"] = state.reference.string();
   json["up"] = state.scene ? rowOf("--up").words(state.scene->options).front() : "";
-  json["hidden"] = state.edit.shared.selection.hiddenNodes;
-  json["set"] = Json::object();
-  for (const SetNumber& set : state.edit.shared.selection.set) {
-    if (set.word.empty())
-      json["set"][set.pointer] = set.values;
-    else
-      json["set"][set.pointer] = set.word;
-  }
-  json["hdri_rotation"] = state.edit.shared.light.hdriRotationDegrees;
-  json["sun"] = {sunOf(state.edit.shared.light.sky).elevation, sunOf(state.edit.shared.light.sky).azimuth};
-  json["hdri_intensity"] = state.edit.shared.light.hdriIntensity;
-  json["background"] = state.edit.shared.light.background;
+  json["hidden"] = shared.selection.hiddenNodes;
+  json["set"] = setJson(shared.selection.set);
+  json["hdri_rotation"] = shared.light.hdriRotationDegrees;
+  json["sun"] = {sunOf(shared.light.sky).elevation, sunOf(shared.light.sky).azimuth};
+  json["hdri_intensity"] = shared.light.hdriIntensity;
+  json["background"] = shared.light.background;
   json["animation"] = animationJson(state);
-  json["load_step"] = facts.load.step;
-  json["load_fraction"] = facts.load.fraction;
-  json["error"] = facts.error;
+  json["load_step"] = facts.trace.load.step;
+  json["load_fraction"] = facts.trace.load.fraction;
+  json["error"] = facts.trace.error;
   json["messages"] = Json::array();
   for (const Message& message : facts.messages) json["messages"].push_back(message.text);
   json["dialog"] = facts.dialog ? "desktop" : "";
-  json["focus"] = facts.focus;
-  json["mouse"] = facts.mouse ? Json({facts.mouse->x, facts.mouse->y}) : Json();
-  json["places"] = facts.places;
+  json["focus"] = Interface::focus();
+  json["mouse"] = mouseJson();
+  json["places"] = places();
   json["pick"] = facts.pick ? Json(pickLines(state, *facts.pick)) : Json();
   json["measured"] =
       facts.pick && facts.pick->end ? Json(distanceText(facts.pick->point, *facts.pick->end)) : Json();
   json["selected"] = boundsJson(state.selected);
   json["gl_errors"] = report.glErrors;
-  json["loop_ms"] = timesJson(report.times.loopMs);
-  json["longest_loop_ms"] = report.times.longestLoopMs;
-  json["answer_ms"] = timesJson(report.times.answerMs);
+  json["loop_ms"] = timesJson(report.loopMs);
+  json["longest_loop_ms"] = report.longestLoopMs;
+  json["answer_ms"] = timesJson(report.answerMs);
   return textOf(json);
 }
 

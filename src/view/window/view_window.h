@@ -7,15 +7,13 @@
 #include <set>
 
 #include "gl/gl.h"
-#include "view/history.h"
-#include "view/window.h"
+#include "view/exchange.h"
+#include "view/view_state.h"
 #include "view/window/display.h"
 #include "view/window/file_dialog.h"
 #include "view/window/glfw_window.h"
 #include "view/window/input.h"
-#include "view/window/interface.h"
 #include "view/window/overlay.h"
-#include "view/window/status.h"
 
 namespace fragtrace {
 
@@ -47,9 +45,9 @@ class Window {
   void take(const EnvironmentThumbnail& thumbnail);
   void take(SavedModel saved);
   void take(const std::string& message);
-  void take(const std::exception_ptr&) {}  ///< throwFailure() has thrown it
   std::vector<ChangedNumber> numbersSavedIn(const ViewedScene& scene) const;
   void takeStatus(const TraceStatus& status);
+  void endLoad();
   void forgetBrokenEnvironment();
   void request();
   void readValues();
@@ -81,9 +79,6 @@ class Window {
   void toggleFullscreen();
   bool takeText(const std::string& text, const std::string& otherwise);
   RenderOptions shownOptions() const;
-
-  // window_files.cpp
-  void takeDrops();
   void openFiles(const std::vector<std::filesystem::path>& files, bool isAsked = false);
   void save(const std::filesystem::path& file);
   void askForFile(const Invocation& invocation);
@@ -95,7 +90,7 @@ class Window {
   Glfw glfw_;
   WindowHandle window_;
   WindowHandle sharing_;    ///< none: the tracing thread draws elsewhere
-  WindowHandle compiling_;  ///< beside it
+  WindowHandle compiling_;  ///< next to it
   DebugLog driverLog_;
   Input input_;
   Interface interface_;
@@ -104,7 +99,6 @@ class Window {
   Command dialogFor_ = Command::Open;  ///< why it asks: Open, SaveAs, SaveModel
   std::filesystem::path savedFolder_;  ///< folder of the latest picture written; empty: none was
   std::vector<SetNumber> saved_;       ///< numbers that the latest model was written with
-  std::map<std::filesystem::path, GlTexture> thumbnails_;
   std::set<std::filesystem::path> requestedThumbnails_;
   ViewState state_;
   ViewFacts facts_;
@@ -120,17 +114,15 @@ class Window {
   bool prepared_ = false;      ///< the display
   /// The latest frame was not drawn, since it would have shown the previous picture again.
   bool skipped_ = false;
-  int frames_ = 0;         ///< still to be drawn
-  double drawn_ = -1e30;   ///< time of the latest frame that was drawn
-  double changed_ = -1.0;  ///< time of the latest change of the traced picture
-  double again_ = 1e30;    ///< time to look again for a picture or its values
-  double fades_ = 1e30;    ///< time to draw a message paler
-  std::vector<RenderOptions> requestedSides_;
-  glm::ivec2 requestedSize_{0};
+  int frames_ = 0;               ///< still to be drawn
+  double drawn_ = -1e30;         ///< time of the latest frame that was drawn
+  double changed_ = -1.0;        ///< time of the latest change of the traced picture
+  double again_ = 1e30;          ///< time to look again for a picture or its values
+  double fades_ = 1e30;          ///< time to draw a message paler
+  TraceRequest requested_;       ///< the latest; without sides, the next turn asks again
   bool discards_ = false;        ///< the window closes although numbers are not saved
   bool quitsWhenSaved_ = false;  ///< the model that is being written is what the window waits for
   bool savesShown_ = false;      ///< a model is written over the file that is shown
-  bool requestedMoving_ = false;
   uint64_t picksRequested_ = 0;
   uint64_t picksAnswered_ = 0;   ///< picks that are answered or taken back
   int quitAskedAt_ = -2;         ///< Input::presses() when Escape last asked

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "view/window/widgets.h"
 
-#include <imgui.h>
-
 #include <algorithm>
 #include <system_error>
 
 #include "image/display/tone_map.h"
-#include "view/window/overlay.h"
 
 namespace fragtrace {
 
@@ -17,22 +14,22 @@ ImVec4 grey(float level, float opacity = 1.0f) { return {level, level, level, op
 
 const ImVec4 kAccentLit{0.27f, 0.48f, 0.74f, 1.0f};
 
-void add(Places& places, const std::string& name, ImVec2 place, ImVec2 size) {
-  places[name] = {place.x, place.y, size.x, size.y};
+void add(const std::string& name, ImVec2 place, ImVec2 size) {
+  places()[name] = {place.x, place.y, size.x, size.y};
 }
 
 constexpr float kLabelWidth = 0.42f;  // share of the row before its control
 constexpr float kTipWidth = 30.0f;    // widest tip, in heights of the font
 
 template <typename Slide>
-bool drawRow(Places& places, const Row& row, const Slide& slide) {
-  label(places, row.name);
+bool drawRow(const Row& row, const Slide& slide) {
+  label(row.name);
   if (row.spare > 0.0f) ImGui::SetNextItemWidth(-row.spare);
   ImGui::BeginDisabled(!row.whyOff.empty());
   const bool moved =
       slide((std::string("##") + row.name).c_str(), row.whyOff.empty() ? row.format : row.whyOff.c_str());
   ImGui::EndDisabled();
-  if (row.tip) tip(places, row.tip);
+  if (row.tip) tip(row.tip);
   return moved;
 }
 
@@ -84,12 +81,15 @@ ImGuiStyle themeStyle() {
   return style;
 }
 
-void addWindowPlace(Places& places, const std::string& name) {
-  add(places, name, ImGui::GetWindowPos(), ImGui::GetWindowSize());
+std::map<std::string, std::array<float, 4>>& places() {
+  static std::map<std::string, std::array<float, 4>> all;
+  return all;
 }
 
-bool placed(Places& places, const std::string& name, bool result) {
-  add(places, name, ImGui::GetItemRectMin(), ImGui::GetItemRectSize());
+void addWindowPlace(const std::string& name) { add(name, ImGui::GetWindowPos(), ImGui::GetWindowSize()); }
+
+bool placed(const std::string& name, bool result) {
+  add(name, ImGui::GetItemRectMin(), ImGui::GetItemRectSize());
   return result;
 }
 
@@ -103,17 +103,17 @@ void dimAtEnd(const std::string& text) {
   ImGui::TextDisabled("%s", text.c_str());
 }
 
-void label(Places& places, const char* text) {
+void label(const char* text) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(text);
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * kLabelWidth);
   ImGui::SetNextItemWidth(-1.0f);
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  places[text] = {at.x, at.y, ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight()};
+  places()[text] = {at.x, at.y, ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight()};
 }
 
-bool slider(Places& places, const Row& row, double& value) {
-  return drawRow(places, row, [&](const char* id, const char* format) {
+bool slider(const Row& row, double& value) {
+  return drawRow(row, [&](const char* id, const char* format) {
     float shown = float(value);
     const bool moved = ImGui::SliderFloat(id, &shown, row.least, row.most, format, row.flags);
     if (moved) value = shown;
@@ -121,8 +121,15 @@ bool slider(Places& places, const Row& row, double& value) {
   });
 }
 
-bool slider(Places& places, const Row& row, int& value) {
-  return drawRow(places, row, [&](const char* id, const char* format) {
+bool slider(const Row& row, std::optional<double>& value) {
+  double shown = value.value_or(0.0);
+  const bool moved = slider(row, shown);
+  if (moved) value = shown;
+  return moved;
+}
+
+bool slider(const Row& row, int& value) {
+  return drawRow(row, [&](const char* id, const char* format) {
     return ImGui::SliderInt(id, &value, int(row.least), int(row.most), format, row.flags);
   });
 }
@@ -152,9 +159,9 @@ bool editColor(const char* id, glm::vec3& linear, float most, bool numbers, floa
   return linear != before;
 }
 
-std::optional<size_t> choose(Places& places, const char* name, size_t count, std::optional<size_t> current,
+std::optional<size_t> choose(const char* name, size_t count, std::optional<size_t> current,
                              const std::function<std::string(size_t)>& nameOf, ImGuiComboFlags flags) {
-  label(places, name);
+  label(name);
   std::optional<size_t> chosen;
   const std::string shown = current && *current < count ? nameOf(*current) : "none";
   if (!ImGui::BeginCombo((std::string("##") + name).c_str(), shown.c_str(), flags)) return chosen;
@@ -165,7 +172,7 @@ std::optional<size_t> choose(Places& places, const char* name, size_t count, std
   return chosen;
 }
 
-void tip(Places& places, const std::string& text) {
+void tip(const std::string& text) {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   const float left = ImGui::GetWindowPos().x - ImGui::GetStyle().ItemSpacing.x;
   const ImVec2 item = ImGui::GetItemRectMin();
@@ -182,7 +189,7 @@ void tip(Places& places, const std::string& text) {
   ImGui::PushTextWrapPos(most);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
-  addWindowPlace(places, "tip");
+  addWindowPlace("tip");
   ImGui::EndTooltip();
   ImGui::PopStyleVar();
 }
@@ -203,16 +210,38 @@ std::string keyOf(Command command, int argument) {
   return control ? controlName(*control) : std::string();
 }
 
-void commandButton(ViewFacts& facts, const char* text, Command command, int argument) {
-  if (placed(facts.places, text, ImGui::Button(text))) facts.commands.push_back({command, argument});
+bool button(const char* text) { return placed(text, ImGui::Button(text)); }
+
+bool closeButton(const std::string& place) {
+  const bool pressed = placed(place, ImGui::SmallButton("x"));
+  ImGui::SameLine();
+  return pressed;
 }
 
-void commandBox(ViewFacts& facts, const char* text, bool on, Command command) {
-  if (placed(facts.places, text, ImGui::Checkbox(text, &on))) facts.commands.push_back({command});
+void commandButtons(ViewFacts& facts, std::initializer_list<CommandButton> buttons) {
+  for (const CommandButton& one : buttons) {
+    if (&one != buttons.begin()) stayOnLineFor(one.text);
+    if (button(one.text)) facts.commands.push_back({one.command, one.argument});
+  }
+}
+
+bool box(const char* text, bool& on, const std::string& whyOff, const std::string& key,
+         const std::string& sentence) {
+  ImGui::BeginDisabled(!whyOff.empty());
+  const bool changed = placed(text, ImGui::Checkbox(text, &on));
+  ImGui::EndDisabled();
+  if (!sentence.empty()) tip(sentence);
+  if (const std::string& end = whyOff.empty() ? key : whyOff; !end.empty()) dimAtEnd(end);
+  return changed;
 }
 
 void drawRecentFiles(ViewFacts& facts) {
-  RecentFiles& seen = facts.recent;
+  // As they were when the list was opened: the disk is not asked in each frame.
+  static struct {
+    std::vector<std::filesystem::path> files;
+    std::vector<bool> gone;
+    int frame = -1;  ///< in which the list was drawn last
+  } seen;
   const std::vector<std::filesystem::path>& files = facts.remembered.recent;
   const int frame = ImGui::GetFrameCount();
   if (frame > seen.frame + 1 || files != seen.files) {
@@ -228,10 +257,10 @@ void drawRecentFiles(ViewFacts& facts) {
     const std::string text =
         shownText(files[i].filename().string(), kMostNameCharacters) + "##" + std::to_string(i);
     ImGui::BeginDisabled(seen.gone[i]);
-    if (placed(facts.places, "recent " + std::to_string(i), ImGui::Selectable(text.c_str())))
+    if (placed("recent " + std::to_string(i), ImGui::Selectable(text.c_str())))
       facts.commands.push_back({.command = Command::OpenFile, .file = files[i]});
     ImGui::EndDisabled();
-    tip(facts.places, shownText(files[i].string(), kMostLineCharacters) + (seen.gone[i] ? " is gone" : ""));
+    tip(shownText(files[i].string(), kMostLineCharacters) + (seen.gone[i] ? " is gone" : ""));
   }
 }
 

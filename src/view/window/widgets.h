@@ -31,10 +31,13 @@ inline constexpr ImGuiWindowFlags kLabelFlags =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
 
-/// Draws at most `most` characters of the text (shownText).
-inline void drawText(std::string_view text, size_t most) {
+/// Draws at most `most` characters of the text (shownText), in lines up to `right`, a place in the window: 0:
+/// its end; below: in one line.
+inline void drawText(std::string_view text, size_t most, float right = -1.0f) {
   const std::string shown = shownText(text, most);
+  ImGui::PushTextWrapPos(right);
   ImGui::TextUnformatted(shown.data(), shown.data() + shown.size());
+  ImGui::PopTextWrapPos();
 }
 
 /// Typed values keep to the ends of their slider, too.
@@ -45,7 +48,7 @@ inline constexpr ImGuiSliderFlags kBoundedLogarithmic = kBounded | ImGuiSliderFl
 void dimAtEnd(const std::string& text);
 
 /// A label, and room for a control up to the end of the row, which has the label's place.
-void label(Places& places, const char* text);
+void label(const char* text);
 
 /// A row of the panel with a slider.
 struct Row {
@@ -60,8 +63,9 @@ struct Row {
 };
 
 /// Draws the row of a number. Returns true when it has set the number.
-bool slider(Places& places, const Row& row, double& value);
-bool slider(Places& places, const Row& row, int& value);
+bool slider(const Row& row, double& value);
+bool slider(const Row& row, std::optional<double>& value);  ///< none is shown as 0
+bool slider(const Row& row, int& value);
 
 /// Draws a square of a linear colour as a display shows it (sRGB), which opens a picker with #RRGGBB. With
 /// `numbers` its three linear numbers stand before it, which end `spare` pixels before the end of the row.
@@ -70,12 +74,12 @@ bool editColor(const char* id, glm::vec3& linear, float most = 1.0f, bool number
                float spare = 0.0f);
 
 /// A row with a list of names. Returns the index of the name that is chosen; none: nothing is.
-std::optional<size_t> choose(Places& places, const char* name, size_t count, std::optional<size_t> current,
+std::optional<size_t> choose(const char* name, size_t count, std::optional<size_t> current,
                              const std::function<std::string(size_t)>& nameOf, ImGuiComboFlags flags = 0);
 
-/// A sentence on the latest item, while the cursor is over it, even if that is greyed: beside the panel, or
+/// A sentence on the latest item, while the cursor is over it, even if that is greyed: next to the panel, or
 /// else above the item, so that no other control is covered.
-void tip(Places& places, const std::string& text);
+void tip(const std::string& text);
 
 /// The next button on the same line, if that has room for it.
 void stayOnLineFor(const char* text);
@@ -86,25 +90,35 @@ std::string partText(size_t index, const std::string& name);
 /// The key that does it.
 std::string keyOf(Command command, int argument = 0);
 
-/// A button for a command.
-void commandButton(ViewFacts& facts, const char* text, Command command, int argument = 0);
+/// A button, which has its text's place.
+bool button(const char* text);
+/// A small x, before what is said next.
+bool closeButton(const std::string& place);
+struct CommandButton {
+  const char* text;
+  Command command;
+  int argument = 0;
+};
+/// Buttons for commands, in as many lines as they need.
+void commandButtons(ViewFacts& facts, std::initializer_list<CommandButton> buttons);
 
-/// A box for a command that turns something on or off.
-void commandBox(ViewFacts& facts, const char* text, bool on, Command command);
+/// A box, which has its text's place. Where it is off, the reason stands at the end of the line, else the
+/// key. Returns true when it was clicked on.
+bool box(const char* text, bool& on, const std::string& whyOff = {}, const std::string& key = {},
+         const std::string& sentence = {});
 
 /// Chooses from names in the order of the values.
 template <typename Choice>
-void choose(Places& places, const char* name, std::span<const std::string_view> names, Choice& choice) {
+void choose(const char* name, std::span<const std::string_view> names, Choice& choice) {
   const auto nameOf = [&](size_t i) { return std::string(names[i]); };
-  if (const auto chosen = choose(places, name, names.size(), size_t(choice), nameOf))
-    choice = Choice(*chosen);
+  if (const auto chosen = choose(name, names.size(), size_t(choice), nameOf)) choice = Choice(*chosen);
 }
 
 /// Draws a line for each file that was shown before, grey where it is gone.
 void drawRecentFiles(ViewFacts& facts);
 
 /// Draws the panel, with every stage, switch and setting, into the frame that Dear ImGui is making; what is
-/// changed there changes the state. Adds the places of the panel and its controls.
+/// changed there changes the state.
 void drawPanel(ViewState& state, ViewFacts& facts, const WindowLayout& layout);
 
 }  // namespace fragtrace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/window.h"
+#include "view/exchange.h"
 
 #include <cstdio>
 #include <memory>

@@ -10,12 +10,9 @@
 #include <utility>
 
 #include "base/errors.h"
-#include "gl/gl.h"
 #include "gltf/edit/factors.h"
 #include "options/command_text.h"
 #include "view/shown_text.h"
-#include "view/view_state.h"
-#include "view/window/overlay.h"
 #include "view/window/widgets.h"
 
 namespace fragtrace {
@@ -35,45 +32,45 @@ constexpr double kStatusSeconds = 0.05;  // between two status files
 constexpr const char* kStarting = "starting";
 constexpr glm::ivec2 kWindowSize{1280, 720};
 
-float primaryScale(GLFWmonitor* monitor) {
-  glm::vec2 scale(1.0f);
-  if (monitor) glfwGetMonitorContentScale(monitor, &scale.x, &scale.y);
-  return displayScale(scale);
-}
+/// The first screen.
+struct Screen {
+  float scale = 1.0f;  ///< displayScale()
+  glm::ivec2 room{0};  ///< for a window, in pixels, also on Wayland; 0: not known
+};
 
-/// The room for a window on the screen, in pixels, also on Wayland; 0: not known.
-glm::ivec2 screenRoom() {
+Screen primaryScreen() {
   GLFWmonitor* monitor = glfwGetPrimaryMonitor();
-  glm::ivec2 corner(0);
-  glm::ivec2 room(0);
-  if (monitor) glfwGetMonitorWorkarea(monitor, &corner.x, &corner.y, &room.x, &room.y);
-  return room;
+  if (!monitor) return {};
+  glm::vec2 scale(1.0f);
+  glm::ivec2 corner(0), room(0);
+  glfwGetMonitorContentScale(monitor, &scale.x, &scale.y);
+  glfwGetMonitorWorkarea(monitor, &corner.x, &corner.y, &room.x, &room.y);
+  return {displayScale(scale), room};
 }
 
 /// The window without a given resolution: as large on every display, if that has room.
-glm::ivec2 standardSize(float scale) {
-  const glm::ivec2 room = screenRoom();
-  const glm::ivec2 wanted(glm::round(glm::vec2(kWindowSize) * std::max(scale, 1.0f)));
-  return room.x > 0 && room.y > 0 ? glm::min(wanted, glm::max(room, kWindowSize)) : kWindowSize;
+glm::ivec2 standardSize(const Screen& screen) {
+  const glm::ivec2 wanted(glm::round(glm::vec2(kWindowSize) * std::max(screen.scale, 1.0f)));
+  const bool known = screen.room.x > 0 && screen.room.y > 0;
+  return known ? glm::min(wanted, glm::max(screen.room, kWindowSize)) : kWindowSize;
 }
 
-/// Returns true if the panel stands beside the picture at first: both fit on the screen.
+/// Returns true if the panel stands next to the picture at first: both fit on the screen.
 bool startsWithPanel(const RenderOptions& options) {
-  const float scale = primaryScale(glfwGetPrimaryMonitor());
-  if (!options.camera.resolution)
-    return layoutOf(glm::vec2(standardSize(scale)), scale, {.panel = true}).docked;
-  const bool fits =
-      glm::all(glm::lessThanEqual(windowFor(*options.camera.resolution, scale, true), screenRoom()));
-  return fits && fitsPanel(glm::vec2(*options.camera.resolution), scale);
+  const Screen screen = primaryScreen();
+  const std::optional<glm::ivec2>& picture = options.camera.resolution;
+  if (!picture) return layoutOf(glm::vec2(standardSize(screen)), screen.scale, {.panel = true}).docked;
+  const bool fits = glm::all(glm::lessThanEqual(windowFor(*picture, screen.scale, true), screen.room));
+  return fits && fitsPanel(glm::vec2(*picture), screen.scale);
 }
 
 /// The size of the window in GLFW's units. A given resolution is that of the picture.
 glm::ivec2 startSize(const RenderOptions& options) {
-  const float scale = primaryScale(glfwGetPrimaryMonitor());
+  const Screen screen = primaryScreen();
   const std::optional<glm::ivec2>& picture = options.camera.resolution;
   const glm::ivec2 pixels =
-      picture ? windowFor(*picture, scale, startsWithPanel(options)) : standardSize(scale);
-  return onWayland() ? glm::ivec2(glm::round(glm::vec2(pixels) / scale)) : pixels;
+      picture ? windowFor(*picture, screen.scale, startsWithPanel(options)) : standardSize(screen);
+  return onWayland() ? glm::ivec2(glm::round(glm::vec2(pixels) / screen.scale)) : pixels;
 }
 
 }  // namespace
@@ -90,7 +87,8 @@ Window::Window(const WindowStart& start, Exchange& exchange)
   state_.edit = editOf(start.options);
   state_.edit.treeBoxes = start.options.output.treeLevel.has_value();
   state_.edit.treeLevel = start.options.output.treeLevel.value_or(state_.edit.treeLevel);
-  state_.panel = startsWithPanel(start.options);
+  state_.panel = start.panel && startsWithPanel(start.options);
+  if (!start.warning.empty()) notify(start.warning);
   exchange_.setWake([] { glfwPostEmptyEvent(); });
   try {
     facts_.remembered = readRemembered(rememberedFile());
@@ -123,7 +121,7 @@ void Window::open() {
   if (!start_.reference.empty()) exchange_.request(&Requests::reference, start_.reference);
   if (start_.options.scene.empty()) return;
   load(start_.options);
-  facts_.load = {true, start_.options.scene.filename().string(), kStarting, 0.0};
+  facts_.trace.load = {true, start_.options.scene.filename().string(), kStarting, 0.0};
 }
 
 void Window::run() {
@@ -131,21 +129,22 @@ void Window::run() {
     wait();
     const double begin = glfwGetTime();
     const bool came = take();
-    if (!came && frames_ == 0 && !input_.active() && !state_.playback.playing && !requestedMoving_ &&
+    if (!came && frames_ == 0 && !input_.active() && !state_.playback.playing && !requested_.moving &&
         !statusWaits_)
       continue;
     if (frames_ > 0 && !iconified()) draw();
     play(state_, glfwGetTime());
-    const bool held = input_.active() || Interface::holding();
+    const bool held = input_.active() || ImGui::IsAnyItemActive();
     if (!held && !state_.playback.playing && state_.scene) record(history_, state_);
     request();
     writeStatus();
     const double ms = 1000.0 * (glfwGetTime() - begin);
-    keepTime(report_.times.loopMs, ms);
-    report_.times.longestLoopMs = std::max(report_.times.longestLoopMs, ms);
+    keepTime(report_.loopMs, ms);
+    report_.longestLoopMs = std::max(report_.longestLoopMs, ms);
     if (!std::exchange(prepared_, true)) display_.prepare();
   }
-  if (!state_.scene && !start_.options.scene.empty() && !facts_.error.empty()) throw InputError(facts_.error);
+  if (!state_.scene && !start_.options.scene.empty() && !facts_.trace.error.empty())
+    throw InputError(facts_.trace.error);
 }
 
 bool Window::iconified() const { return glfwGetWindowAttrib(window_.get(), GLFW_ICONIFIED) != 0; }
@@ -156,7 +155,7 @@ void Window::wait() {
   const double now = glfwGetTime();
   const auto atMost = [&](double limit) { seconds = std::clamp(limit, 0.0, seconds); };
   if (input_.active() || state_.playback.playing) atMost(kFrameSeconds);
-  if (requestedMoving_) atMost(changed_ + kMovingSeconds - now);
+  if (requested_.moving) atMost(changed_ + kMovingSeconds - now);
   if (now >= again_) frames_ = std::max(frames_, 1);
   if (!skipped_) atMost(again_ - now);
   if (now >= fades_) frames_ = std::max(frames_, 2);  // the box of messages fits them one frame later
@@ -167,7 +166,7 @@ void Window::wait() {
     glfwWaitEventsTimeout(seconds);
   else
     glfwPollEvents();
-  if (input_.waiting() || interface_.waiting() || input_.active() || requestedMoving_)
+  if (input_.waiting() || interface_.waiting() || input_.active() || requested_.moving)
     frames_ = std::max(frames_, kFramesAfterEvent);
 }
 
@@ -179,8 +178,7 @@ void Window::notify(const std::string& message) {
 bool Window::take() {
   Results results = exchange_.take();
   const bool came =
-      !results.queue.empty() || !results.pictures.empty() || results.status.request != report_.seen;
-  throwFailure(results);
+      !results.queue.empty() || !results.pictures.empty() || results.status.request != facts_.trace.request;
   for (Result& result : results.queue) std::visit([this](auto& one) { take(std::move(one)); }, result);
   takePictures(std::move(results.pictures));
   if (const std::string errors = takeGlfwErrors(); !errors.empty()) notify("window: " + errors);
@@ -240,70 +238,64 @@ void Window::take(ViewedScene scene) {
   if (another) {
     remember([&](Remembered& r) { addRecent(r, wanted_.scene); });
   }
-  requestedSides_.clear();
-  picksAnswered_ = picksRequested_;
-  facts_.pick.reset();
-  state_.selected = {};
-  state_.selectedNode.reset();
+  requested_.sides.clear();
+  deselect();
   frames_ = kFramesAfterEvent;
 }
 
 void Window::takeStatus(const TraceStatus& status) {
-  report_.seen = status.request;
-  const bool changed = status.load != facts_.load || status.note != facts_.note ||
-                       status.error != facts_.error || status.resting != facts_.resting;
+  facts_.trace.request = status.request;
   // The tracing thread may not know of the first load yet.
   const bool silent = !status.load.busy && status.error.empty();
-  if (!changed || (silent && !state_.scene && facts_.load.step == kStarting)) return;
-  facts_.load = status.load;
-  facts_.note = status.note;
-  if (status.error != facts_.error) facts_.errorClosed = false;
-  facts_.error = status.error;
-  if (!facts_.error.empty() && !facts_.load.busy && state_.scene) {
-    wanted_ = state_.scene->options;
-    pasted_.reset();
-    revert(history_, state_);
+  if (status == facts_.trace || (silent && !state_.scene && facts_.trace.load.step == kStarting)) return;
+  if (status.error != facts_.trace.error) facts_.errorClosed = false;
+  facts_.trace = status;
+  if (!status.error.empty() && !status.load.busy) {
+    if (!state_.scene) forgetBrokenEnvironment();
+    endLoad();
   }
-  if (!facts_.error.empty() && !facts_.load.busy && !state_.scene) {
-    forgetBrokenEnvironment();
-    glfwSetWindowTitle(window_.get(), windowTitle({}).c_str());
-  }
-  facts_.resting = status.resting;
   frames_ = std::max(frames_, 2);
+}
+
+/// What was asked for is not loaded.
+void Window::endLoad() {
+  pasted_.reset();
+  revert(history_, state_);
+  if (state_.scene)
+    wanted_ = state_.scene->options;
+  else
+    glfwSetWindowTitle(window_.get(), windowTitle({}).c_str());
 }
 
 /// An environment that was dropped before a model would keep every model from being shown.
 void Window::forgetBrokenEnvironment() {
   const std::string file = wanted_.light.hdriFile.string();
-  if (file.empty() || facts_.error.find(file) == std::string::npos) return;
+  if (file.empty() || facts_.trace.error.find(file) == std::string::npos) return;
   wanted_.light.hdriFile.clear();
   notify(std::filesystem::path(file).filename().string() + " is left out from now on");
 }
 
 void Window::request() {
   if (!state_.scene || state_.size.x <= 0 || state_.size.y <= 0) return;
-  std::vector<RenderOptions> sides = tracedSides(state_);
-  bool turned = requestedSides_.empty() || state_.size != requestedSize_;
-  for (size_t i = 0; !turned && i < std::min(sides.size(), requestedSides_.size()); ++i)
-    turned = !drawsTheSame(sides[i], requestedSides_[i]);
-  const bool other = turned || sides.size() != requestedSides_.size();
+  TraceRequest next{requested_.number + 1, tracedSides(state_), state_.size};
+  const std::vector<RenderOptions>& before = requested_.sides;
+  bool turned = before.empty() || next.size != requested_.size;
+  for (size_t i = 0; !turned && i < std::min(next.sides.size(), before.size()); ++i)
+    turned = !drawsTheSame(next.sides[i], before[i]);
+  const bool other = turned || next.sides.size() != before.size();
   // A side that comes back showed another view long ago.
-  if (!requestedSides_.empty()) {
-    for (size_t i = requestedSides_.size(); i < sides.size(); ++i) display_.forget(i);
-  }
-  const bool more = !other && sides != requestedSides_;
+  for (size_t i = before.size(); !before.empty() && i < next.sides.size(); ++i) display_.forget(i);
   const double now = glfwGetTime();
   // A side that comes or goes moves nothing: the others keep their samples.
   if (turned) changed_ = now;
-  const bool moving = changed_ >= 0.0 && now - changed_ < kMovingSeconds;
-  if (!other && !more && moving == requestedMoving_) return;
-  exchange_.request(&Requests::trace, {++report_.asked, sides, state_.size, moving});
-  if (other) unanswered_.emplace_back(report_.asked, now);
-  requestedSides_ = std::move(sides);
-  requestedSize_ = state_.size;
-  requestedMoving_ = moving;
-  // A movement that goes on is drawn again and again.
-  if (moving) frames_ = std::max(frames_, 1);
+  next.moving = changed_ >= 0.0 && now - changed_ < kMovingSeconds;
+  if (!other && next.sides == before && next.moving == requested_.moving) return;
+  requested_ = std::move(next);
+  exchange_.request(&Requests::trace, requested_);
+  report_.asked = requested_.number;
+  if (other) unanswered_.emplace_back(requested_.number, now);
+  // A movement that continues is drawn again and again.
+  if (requested_.moving) frames_ = std::max(frames_, 1);
 }
 
 /// Only values that somebody looks at are read; frames are drawn until they are there.
@@ -328,8 +320,8 @@ void Window::draw() {
   interface_.begin();
   facts_.cursor =
       input_.update(state_, layout, [this](const Invocation& invocation) { execute(invocation); });
-  takeDrops();
-  facts_.places.clear();
+  if (const auto files = input_.takeDrops(); !files.empty()) openFiles(files);
+  places().clear();
   facts_.wantsHistogram = false;
   facts_.canUndo = !history_.past.empty();
   facts_.canRedo = !history_.future.empty();
@@ -340,14 +332,12 @@ void Window::draw() {
   for (const Invocation& invocation : std::exchange(facts_.commands, {})) execute(invocation);
   requestThumbnails();
   // Software would draw the same picture again, with the processors that trace the next one.
-  skipped_ = requestedMoving_ && !display_.hasNewPicture() && now - drawn_ < kSameSeconds;
-  if (skipped_) return Interface::discard();
+  skipped_ = requested_.moving && !display_.hasNewPicture() && now - drawn_ < kSameSeconds;
+  if (skipped_) return ImGui::EndFrame();
   drawn_ = now;
   ++report_.frames;
   display_.draw(state_, layout.picture, size);
   readValues();
-  facts_.focus = Interface::focus();
-  facts_.mouse = Interface::mouse();
   interface_.end();
   checkGl("drawing the window", driverLog_);
   glfwSwapBuffers(window_.get());
@@ -359,7 +349,7 @@ void Window::draw() {
 }
 
 void Window::end(const std::string& failure) {
-  facts_.error = failure.empty() ? facts_.error : failure;
+  facts_.trace.error = failure.empty() ? facts_.trace.error : failure;
   report_.end = failure.empty() ? "closed" : "failed";
   statusTime_ = -1.0;
   writeStatus();

@@ -9,14 +9,14 @@
 #include <utility>
 
 #include "base/errors.h"
-#include "gl/gl.h"
+#include "base/text.h"
 #include "image/image.h"
 #include "options/command_text.h"
 #include "options/option_row.h"
+#include "options/view_options.h"
 #include "scene/camera.h"
 #include "view/files.h"
 #include "view/shown_text.h"
-#include "view/view_state.h"
 #include "view/window/view_window.h"
 
 namespace fragtrace {
@@ -53,6 +53,7 @@ void Window::execute(const Invocation& invocation) {
   request();
   switch (invocation.command) {
     case Command::CenterOn:
+    case Command::FocusOn:
     case Command::Inspect:
     case Command::Measure:
     case Command::Level:
@@ -62,6 +63,13 @@ void Window::execute(const Invocation& invocation) {
                                {.node = uint32_t(invocation.argument), .number = ++picksRequested_});
     case Command::Deselect:
       return deselect();
+    case Command::KeepDefaults:
+      try {
+        keepDefaults(defaultsFile(), state_.options());
+        return notify("kept as default in " + defaultsFile().string());
+      } catch (const std::exception& error) {
+        return notify(std::string("not kept: ") + error.what());
+      }
     case Command::CopyCommand:
       return copyCommand();
     case Command::PasteCommand:
@@ -128,11 +136,11 @@ void Window::execute(const Invocation& invocation) {
 
 /// Closes what is open, one at a time. Quits when it is asked twice with nothing open.
 void Window::close() {
-  if (!facts_.error.empty() && !facts_.errorClosed) {
+  if (!facts_.trace.error.empty() && !facts_.errorClosed) {
     facts_.errorClosed = true;
     return;
   }
-  if (facts_.load.busy) return cancelLoad();
+  if (facts_.trace.load.busy) return cancelLoad();
   if (state_.scene && (facts_.pick || picksAnswered_ < picksRequested_)) return deselect();
   if (state_.fullscreen) return toggleFullscreen();
   // The press that has come here counts, too.
@@ -155,6 +163,7 @@ void Window::pick(const Invocation& invocation) {
   if (sideAt(state_, invocation.place) >= kMostSides) return;
   PickUse use = PickUse::Select;
   if (invocation.command == Command::CenterOn) use = PickUse::Center;
+  if (invocation.command == Command::FocusOn) use = PickUse::Focus;
   // If there is no first point, this is the first one.
   if (invocation.command == Command::Measure && facts_.pick && facts_.pick->hit) use = PickUse::Measure;
   if (invocation.command == Command::Level) {
@@ -198,7 +207,7 @@ void Window::load(RenderOptions options) {
   options.camera.resolution = state_.size;
   wanted_ = options;
   pasted_.reset();
-  facts_.error.clear();
+  facts_.trace.error.clear();
   exchange_.set(&TraceStatus::error, {});
   exchange_.request(&Requests::load, {options});
 }
@@ -213,11 +222,8 @@ void Window::loadStep() {
 void Window::cancelLoad() {
   exchange_.request(&Requests::load, {});
   exchange_.set(&TraceStatus::load, {});
-  facts_.load = {};
-  pasted_.reset();
-  revert(history_, state_);
-  if (state_.scene) wanted_ = state_.scene->options;
-  if (!state_.scene) glfwSetWindowTitle(window_.get(), windowTitle({}).c_str());
+  facts_.trace.load = {};
+  endLoad();
 }
 
 /// The options of the active side, with everything that its picture on the screen depends on.
@@ -337,13 +343,13 @@ void Window::takePictures(std::vector<TracedPicture> pictures) {
     facts_.lines[side] = std::move(picture.lines);
     report_.answered = std::max(report_.answered, picture.request);
     while (!unanswered_.empty() && unanswered_.front().first <= picture.request) {
-      keepTime(report_.times.answerMs, 1000.0 * (now - unanswered_.front().second));
+      keepTime(report_.answerMs, 1000.0 * (now - unanswered_.front().second));
       unanswered_.pop_front();
     }
     frames_ = std::max(frames_, 1);
   }
   while (!arrivals_.empty() && arrivals_.front() < now - 1.0) arrivals_.pop_front();
-  const bool moves = requestedMoving_ && arrivals_.size() > 1;
+  const bool moves = requested_.moving && arrivals_.size() > 1;
   facts_.picturesPerSecond =
       moves ? double(arrivals_.size() - 1) / (arrivals_.back() - arrivals_.front()) : 0.0;
   compareSizes();
@@ -359,8 +365,7 @@ void Window::take(const EnvironmentThumbnail& thumbnail) {
                       image.values.data());
   glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   checkGl("uploading a thumbnail");
-  facts_.thumbnails[thumbnail.file] = texture.name();
-  thumbnails_[thumbnail.file] = std::move(texture);
+  facts_.thumbnails[thumbnail.file] = std::move(texture);
   frames_ = std::max(frames_, 1);
 }
 
@@ -397,6 +402,16 @@ void Window::take(PickAnswer answer) {
     state_.edit.posed = true;
     return;
   }
+  if (answer.request.use == PickUse::Focus) {
+    const CameraPose& pose = state_.edit.pose;
+    LensOptions& lens = state_.edit.shared.camera.lens;
+    if (!answer.hit) return notify("nothing is there");
+    if (pose.type != CameraType::Perspective) return notify("only a perspective camera is focused");
+    lens.focusDistance =
+        glm::dot(answer.point - pose.position, glm::normalize(pose.focalPoint - pose.position));
+    if (!lens.fStop) lens.fStop = firstStop(pose);
+    return notify(formatted("sharp at %.4g m, f / %.3g", *lens.focusDistance, *lens.fStop));
+  }
   if (answer.request.use == PickUse::Measure) {
     if (!answer.hit) return notify("nothing is there");
     if (facts_.pick) facts_.pick->end = answer.point;
@@ -424,12 +439,7 @@ void Window::compareSizes() {
          text(state_.size) + ": it is scaled to compare");
 }
 
-// Files that the window opens and writes: dropped, chosen in a dialog, shown before.
-
-void Window::takeDrops() {
-  const std::vector<std::filesystem::path> files = input_.takeDrops();
-  if (!files.empty()) openFiles(files);
-}
+// Files that the window opens and writes.
 
 void Window::openFiles(const std::vector<std::filesystem::path>& files, bool isAsked) {
   std::vector<std::filesystem::path> toLoad;
@@ -446,7 +456,7 @@ void Window::openFiles(const std::vector<std::filesystem::path>& files, bool isA
   const bool hasScene =
       std::ranges::any_of(toLoad, [](const auto& file) { return kindOfDropped(file) == DroppedFile::Scene; });
   if (hasScene && !isAsked && !mayOpen()) return;
-  if (hasScene || state_.scene || facts_.load.busy) return load(*drop.load);
+  if (hasScene || state_.scene || facts_.trace.load.busy) return load(*drop.load);
   wanted_ = *drop.load;
   notify(wanted_.light.hdriFile.filename().string() + " will light the model that is dropped next");
 }
@@ -457,18 +467,19 @@ void Window::save(const std::filesystem::path& name) {
   const bool seen = isDisplayFormat(name);
   const bool all = (state_.compares() || state_.overview) && seen;
   const char* side = !state_.compares() || all ? "" : state_.edit.active == 0 ? " of side A" : " of side B";
-  if (!facts_.resting) notify("writing " + name.string() + side + " as soon as all of the picture is drawn");
-  SaveRequest request;
-  request.path = name;
-  request.side = state_.shownSide();
-  request.all = all;
-  request.composition = {state_.shownBar(), state_.showsDifference(), state_.differenceStops,
-                         o.output.exposure.value_or(0.0), o.output.toneMap};
-  exchange_.request([&](Requests& r) { r.saves.push_back(std::move(request)); });
+  if (!facts_.trace.resting)
+    notify("writing " + name.string() + side + " as soon as all of the picture is drawn");
+  exchange_.request([&](Requests& r) {
+    r.saves.push_back({name,
+                       state_.shownSide(),
+                       all,
+                       {state_.shownBar(), state_.showsDifference(), state_.differenceStops,
+                        o.output.exposure.value_or(0.0), o.output.toneMap}});
+  });
 }
 
-/// To open, beside the scene that is shown; to save a picture, where one was saved last; to save the model,
-/// beside it.
+/// To open, next to the scene that is shown; to save a picture, where one was saved last; to save the model,
+/// next to it.
 void Window::askForFile(const Invocation& invocation) {
   const RenderOptions& o = state_.edit.shared;
   std::error_code error;

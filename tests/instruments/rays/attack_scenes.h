@@ -20,7 +20,7 @@ Scene scattered();
 Scene slivers();
 /// Triangles without area, twenty identical ones, and some that overlap in one plane.
 Scene flatAndDouble();
-/// A triangle of ten kilometres beside one of a micrometre.
+/// A triangle of ten kilometres next to one of a micrometre.
 Scene hugeAndTiny();
 /// Meshes around one point. Each is smaller than the one before, down to a millionth of the first.
 Scene nested();

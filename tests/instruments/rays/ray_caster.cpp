@@ -11,7 +11,7 @@ namespace fragtrace {
 
 namespace {
 
-constexpr int32_t kUnfinished = -2;  // kRayUnfinished of shaders/rays.glsl
+constexpr int32_t kUnfinished = -2;  // as traceRay() of shaders/rays.glsl writes it
 /// llvmpipe ends all loops of an invocation after 65,535 iterations in total, and a step may take three of
 /// them.
 constexpr int kStepLimit = 20000;

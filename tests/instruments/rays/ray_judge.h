@@ -13,7 +13,7 @@ namespace fragtrace {
 /// well inside; or the ray has passed through such a primitive and met nothing.
 enum class RayFault : uint8_t { None, FalseHit, Behind, Missed };
 
-/// The largest distance at which a ray may pass beside a primitive that it hits, or inside one that it
+/// The largest distance at which a ray may pass next to a primitive that it hits, or inside one that it
 /// misses, in units of 2^-24 of the largest coordinate of ray, hit and primitive. The distance of a hit may
 /// be off by that times one plus the aspect of the triangle as the ray sees it (docs/design/numerics.md).
 inline constexpr double kRayRoundings = 16.0;

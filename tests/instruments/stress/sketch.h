@@ -50,7 +50,7 @@ struct SketchNode {
   glm::dmat4 local{1.0};
   int parent = -1;
   int mesh = -1;
-  double radius = 0.0;  ///< above 0: shows a sphere, in place of a mesh; scaled evenly
+  double radius = 0.0;  ///< above 0: shows a sphere instead of a mesh; scaled evenly
   size_t sphereMaterial = 0;
 };
 

@@ -18,7 +18,7 @@ namespace fragtrace {
 /// The data with which a row runs.
 struct StressSetting {
   const Context& context;
-  std::filesystem::path shaderFolder;  ///< shaders from disk in place of the built-in ones
+  std::filesystem::path shaderFolder;  ///< shaders from disk instead of the built-in ones
   bool quick = false;                  ///< about a hundredth of the cases
   bool watertight = true;              ///< else with the fast triangle test
   Schedule schedule = Schedule::Auto;  ///< schedule of path-traced rows

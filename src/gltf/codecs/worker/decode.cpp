@@ -70,8 +70,6 @@ std::unique_ptr<draco::Mesh> meshOf(std::span<const uint8_t> input) {
   return std::move(decoded).value();
 }
 
-}  // namespace
-
 void countDraco(std::span<const uint8_t> input, std::span<uint8_t> output) {
   const std::unique_ptr<draco::Mesh> mesh = meshOf(input);
   const StreamCounts counts{mesh->num_points(), uint64_t(mesh->num_faces()) * 3};
@@ -79,6 +77,7 @@ void countDraco(std::span<const uint8_t> input, std::span<uint8_t> output) {
   std::memcpy(output.data(), &counts, sizeof counts);
 }
 
+/// Decode into `output`, which they fill. Throw std::runtime_error if the bytes are not those of the request.
 void decodeDraco(const CodecRequest& request, std::span<const uint8_t> input, std::span<uint8_t> output) {
   const std::unique_ptr<draco::Mesh> decoded = meshOf(input);
   const draco::Mesh& mesh = *decoded;
@@ -100,8 +99,6 @@ void decodeDraco(const CodecRequest& request, std::span<const uint8_t> input, st
     used = (used + 3) / 4 * 4;
   }
 }
-
-namespace {
 
 int decode(const CodecRequest& request, std::span<const uint8_t> input, void* output) {
   switch (request.codec) {
@@ -142,8 +139,6 @@ void decodeColors(const CodecRequest& request, std::span<uint8_t> output) {
 #endif
 }
 
-}  // namespace
-
 void decodeMeshopt(const CodecRequest& request, std::span<const uint8_t> input, std::span<uint8_t> output) {
   if (decode(request, input, output.data()) != 0) refuse(request, input);
   switch (request.filter) {
@@ -159,6 +154,8 @@ void decodeMeshopt(const CodecRequest& request, std::span<const uint8_t> input, 
       return meshopt_decodeFilterExp(output.data(), request.count, request.stride);
   }
 }
+
+}  // namespace
 
 // The worker's module for compressed geometry.
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <span>
 
 namespace fragtrace {
 
@@ -45,10 +45,5 @@ struct CodecRequest {
   uint32_t attributeCount = 0;
   std::array<CodecAttribute, kMostCodecAttributes> attributes{};
 };
-
-/// Decode into `output`, which they fill. Throw std::runtime_error if the bytes are not those of the request.
-void decodeDraco(const CodecRequest& request, std::span<const uint8_t> input, std::span<uint8_t> output);
-void countDraco(std::span<const uint8_t> input, std::span<uint8_t> output);
-void decodeMeshopt(const CodecRequest& request, std::span<const uint8_t> input, std::span<uint8_t> output);
 
 }  // namespace fragtrace

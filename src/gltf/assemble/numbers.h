@@ -15,7 +15,7 @@
 
 namespace fragtrace {
 
-// Numbers in the JSON of a document that stand in place of the file's: those of an animation, or the user's.
+// Numbers in the JSON of a document that replace the file's: those of an animation, or the user's.
 
 /// Says what is wrong with a colour above 1, of a material's emission or of a light, that glTF does not
 /// allow; null: it is none.
@@ -52,13 +52,6 @@ bool matchesPattern(std::string_view pattern, std::string_view text);
 /// The values with places in that document: one that names materials becomes one for each of them. Throws
 /// UsageError where no material has the name, or materials have no such value.
 std::vector<SetNumber> placedValues(const nlohmann::json& root, std::span<const SetNumber> set);
-
-/// Returns true if a texture stands at that place of a material, or may stand there.
-bool isTextureAt(std::string_view pointer);
-
-/// Returns true if the user says a material's colour itself, at that place, where a texture is that it
-/// multiplies.
-bool tintsTexture(const nlohmann::json& root, const SetNumber& set, const std::string& place);
 
 /// The extension that holds a place of a material; empty: none does.
 std::string extensionIn(std::string_view pointer);

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/vectors.h"
-#include "gltf/build/nodes.h"
-#include "gltf/build/primitives.h"
+#include "gltf/assemble/nodes.h"
+#include "gltf/assemble/primitives.h"
 
 namespace fragtrace {
 
@@ -40,13 +40,6 @@ struct MeshToShare {
   std::vector<Place> places;
 };
 
-/// Bounds of all triangles, points and lines of a mesh in its own space; vertices that none uses do not
-/// count.
-BoundsDouble boundsOf(const std::vector<MeshPrimitive>& mesh);
-
-/// A box round what is in that box.
-BoundsDouble transformed(const BoundsDouble& box, const glm::dmat4& matrix);
-
 /// World bounds of all triangles, points and lines; vertices that none uses do not count.
 BoundsDouble boundsOf(std::span<const PrimitiveInstance> instances, std::span<const MeshToShare> shared);
 
@@ -56,7 +49,7 @@ BoundsDouble boundsOf(std::span<const PrimitiveInstance> instances, std::span<co
 /// indices.
 void flatten(std::span<const PrimitiveInstance> instances, std::span<const MeshToShare> shared, Scene& scene);
 
-// The meshes that the scene holds once, in place of a copy for each time that they stand in it.
+// The meshes that the scene holds once, instead of a copy for each time that they stand in it.
 
 /// The bytes that a scene takes while it is loaded, built and packed.
 struct SharingCost {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gltf/build/primitives.h"
+#include "gltf/assemble/primitives.h"
 
 #include <tiny_gltf.h>
 
@@ -16,6 +16,11 @@
 
 namespace fragtrace {
 
+namespace {
+
+enum class Topology { List, Strip, Fan };
+
+/// The topology of a glTF primitive mode that has triangles.
 std::optional<Topology> topologyOf(int mode) {
   switch (mode) {
     case TINYGLTF_MODE_TRIANGLES:
@@ -29,6 +34,8 @@ std::optional<Topology> topologyOf(int mode) {
   }
 }
 
+/// Pairs of line ends, or each point twice, of the other modes; what is left over of a list, or too short for
+/// a line, is dropped.
 std::vector<glm::uvec2> strokesOf(int mode, std::span<const uint32_t> indices) {
   std::vector<glm::uvec2> strokes;
   if (mode == TINYGLTF_MODE_POINTS) {
@@ -41,6 +48,8 @@ std::vector<glm::uvec2> strokesOf(int mode, std::span<const uint32_t> indices) {
   return strokes;
 }
 
+/// Triangles in the order and with the winding that the specification gives them; what is left over of a
+/// list, or too short for a triangle, is dropped.
 std::vector<glm::uvec3> trianglesOf(Topology topology, std::span<const uint32_t> indices) {
   std::vector<glm::uvec3> triangles;
   if (indices.size() < 3) return triangles;
@@ -62,8 +71,6 @@ std::vector<glm::uvec3> trianglesOf(Topology topology, std::span<const uint32_t>
   }
   return triangles;
 }
-
-namespace {
 
 /// Inverse bind matrices of a skin; none: the identity for all.
 std::vector<glm::dmat4> bindMatrices(Document& document, int skin) {
@@ -139,27 +146,8 @@ size_t influenceSets(const tinygltf::Primitive& primitive) {
   return sets;
 }
 
-}  // namespace
-
-std::vector<glm::dmat4> jointMatrices(Document& document, int node,
-                                      const std::vector<const PlacedNode*>& nodes) {
-  const int skin = document.model.nodes.at(size_t(node)).skin;
-  std::vector<glm::dmat4> matrices = bindMatrices(document, skin);
-  const std::vector<int>& joints = document.skins.at(size_t(skin)).joints;
-  matrices.resize(joints.size());
-  for (size_t i = 0; i < joints.size(); ++i) {
-    const PlacedNode* joint = nodes.at(size_t(joints[i]));
-    if (joint == nullptr) {
-      document.diagnostics.lose(pointerTo("nodes", node, "skin"),
-                                "its joint, node " + std::to_string(joints[i]) + ", is not in the scene");
-    }
-    matrices[i] = joint->world * matrices[i];
-    if (!isMultiplicable(matrices[i]))
-      document.diagnostics.lose(pointerTo("skins", skin, "joints", i), "its matrix overflows");
-  }
-  return matrices;
-}
-
+/// The influences of a primitive's vertices, equally many each, whose weights add up to 1; none if it has no
+/// joints. Throws a Loss for joints that are not among jointCount.
 std::vector<Influence> readInfluences(Document& document, const tinygltf::Primitive& primitive,
                                       size_t jointCount, const std::string& place) {
   constexpr size_t kInASet = 4;
@@ -202,8 +190,6 @@ std::vector<Influence> readInfluences(Document& document, const tinygltf::Primit
   if (sets > 0) normalizeAll(influences, perVertex, place + "/attributes/WEIGHTS_0", document.diagnostics);
   return influences;
 }
-
-namespace {
 
 /// True for what can be normalised: not zero, not NaN, and neither so small nor so large that its square is
 /// not a number.
@@ -577,6 +563,25 @@ class PrimitiveReader {
 };
 
 }  // namespace
+
+std::vector<glm::dmat4> jointMatrices(Document& document, int node,
+                                      const std::vector<const PlacedNode*>& nodes) {
+  const int skin = document.model.nodes.at(size_t(node)).skin;
+  std::vector<glm::dmat4> matrices = bindMatrices(document, skin);
+  const std::vector<int>& joints = document.skins.at(size_t(skin)).joints;
+  matrices.resize(joints.size());
+  for (size_t i = 0; i < joints.size(); ++i) {
+    const PlacedNode* joint = nodes.at(size_t(joints[i]));
+    if (joint == nullptr) {
+      document.diagnostics.lose(pointerTo("nodes", node, "skin"),
+                                "its joint, node " + std::to_string(joints[i]) + ", is not in the scene");
+    }
+    matrices[i] = joint->world * matrices[i];
+    if (!isMultiplicable(matrices[i]))
+      document.diagnostics.lose(pointerTo("skins", skin, "joints", i), "its matrix overflows");
+  }
+  return matrices;
+}
 
 MeshPrimitive decodePrimitive(Document& document, const std::vector<Material>& materials, int mesh,
                               int primitive, const MeshPose& pose) {

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "gltf/build/numbers.h"
+#include "gltf/assemble/numbers.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
-#include <optional>
-#include <string>
+#include <cstddef>
 #include <string_view>
-#include <vector>
 
 #include <glm/glm.hpp>
 #include <glm/gtc/constants.hpp>
@@ -17,9 +14,8 @@
 
 #include "base/errors.h"
 #include "base/text.h"
-#include "gltf/check/schema.h"
+#include "gltf/read/json.h"
 #include "scene/camera.h"
-#include "scene/parts.h"
 
 namespace fragtrace {
 
@@ -34,89 +30,62 @@ std::optional<size_t> indexIn(const json& array, std::string_view part) {
   return isIndex && *index < array.size() ? index : std::nullopt;
 }
 
-/// The first part of a pointer that the document does not have.
-struct Missing {
-  const json* parent;                    ///< the object that should have the part
-  std::optional<std::string_view> part;  ///< none: the document has all parts
-  std::string_view rest;                 ///< the pointer after this part
+/// A pointer cut at the first part that the document does not have, or else at its last part.
+struct CutPointer {
+  const json* parent;  ///< the object or array that has the part, or should have it
+  bool isMissing;
+  std::string place, part, rest;
 };
 
-Missing firstMissing(const json& root, std::string_view pointer) {
-  Missing at{&root, std::nullopt, pointer};
-  while (!at.rest.empty()) {
-    at.part = cutPart(at.rest);
-    if (at.parent->is_array()) {
-      const std::optional<size_t> index = indexIn(*at.parent, *at.part);
-      if (!index) return at;
-      at.parent = &(*at.parent)[*index];
-    } else {
-      const auto member = at.parent->is_object() ? at.parent->find(std::string(*at.part)) : at.parent->end();
-      if (!at.parent->is_object() || member == at.parent->end()) return at;
-      at.parent = &*member;
-    }
+CutPointer cut(const json& root, std::string_view pointer) {
+  CutPointer at{&root, false, "", "", ""};
+  std::string_view rest = pointer;
+  for (const json* value = &root; !rest.empty() && !at.isMissing;) {
+    at.parent = value;
+    const std::string_view part = cutPart(rest);
+    const std::optional<size_t> index = value->is_array() ? indexIn(*value, part) : std::nullopt;
+    at.isMissing = !index && (!value->is_object() || !value->contains(part));
+    if (!at.isMissing) value = index ? &(*value)[*index] : &(*value)[std::string(part)];
+    at.place = pointer.substr(0, pointer.size() - rest.size() - part.size() - 1);
+    at.part = part;
   }
-  at.part.reset();
+  at.rest = rest;
   return at;
 }
 
 /// Returns true if all but the last part of the pointer is in the document. A material has
 /// pbrMetallicRoughness in any case.
 bool isOfSomething(const json& root, std::string_view pointer) {
-  const Missing at = firstMissing(root, pointer);
-  if (!at.part) return true;
-  return at.parent->is_object() && (at.rest.empty() || at.part == "pbrMetallicRoughness");
-}
-
-/// A pointer cut at the first part that the document does not have, or else at its last part.
-struct CutPointer {
-  std::string place;
-  std::string part;
-  std::string rest;
-};
-
-CutPointer cutAt(const Missing& at, const std::string& pointer) {
-  const std::string rest(at.part ? at.rest : "");
-  const std::string part(at.part.value_or(std::string_view(pointer).substr(pointer.rfind('/') + 1)));
-  return {pointer.substr(0, pointer.size() - rest.size() - part.size() - 1), part, rest};
-}
-
-/// The names of an array's elements; empty where one has none.
-std::vector<std::string> namesIn(const json& array) {
-  std::vector<std::string> names;
-  for (const json& element : array) {
-    const bool isNamed = element.is_object() && element.contains("name") && element["name"].is_string();
-    names.push_back(isNamed ? element["name"].get<std::string>() : "");
-  }
-  return names;
+  const CutPointer at = cut(root, pointer);
+  return !at.isMissing || (at.parent->is_object() && (at.rest.empty() || at.part == "pbrMetallicRoughness"));
 }
 
 /// Brings a pointer to no number one step nearer to one that may be meant: to a member that is spelled much
 /// the same, to one that stands deeper, or to an element by its name. Returns nothing where none is near.
 std::string nearerPlace(const json& root, const std::string& pointer) {
-  const Missing at = firstMissing(root, pointer);
-  const CutPointer cut = cutAt(at, pointer);
-  if (!at.part || at.parent->is_object()) {
-    for (const std::string& below : numbersBelow(cut.place, pointer.substr(cut.place.size()))) {
+  const CutPointer at = cut(root, pointer);
+  if (!at.isMissing || at.parent->is_object()) {
+    for (const std::string& below : numbersBelow(at.place, pointer.substr(at.place.size()))) {
       if (numberRuleIn(root, below)) return below;
     }
-    const std::vector<std::string> members = numberMembersAt(cut.place);
-    if (std::ranges::find(members, cut.part) != members.end()) return "";
-    const auto isAlike = [&](const std::string& member) { return isSameButForCase(member, cut.part); };
+    const std::vector<std::string> members = numberMembersAt(at.place);
+    if (std::ranges::find(members, at.part) != members.end()) return "";
+    const auto isAlike = [&](const std::string& member) { return isSameButForCase(member, at.part); };
     auto alike = std::ranges::find_if(members, isAlike);
     // The name without its end, as panels and other programs have it.
     const auto begins = [&](const std::string& member) {
-      return isSameButForCase(member, cut.part + "Factor");
+      return isSameButForCase(member, at.part + "Factor");
     };
     if (alike == members.end()) alike = std::ranges::find_if(members, begins);
-    const std::string nearest = alike != members.end() ? *alike : nearestName(cut.part, members);
-    return nearest.empty() ? "" : cut.place + "/" + nearest + cut.rest;
+    const std::string nearest = alike != members.end() ? *alike : nearestName(at.part, members);
+    return nearest.empty() ? "" : at.place + "/" + nearest + at.rest;
   }
   if (!at.parent->is_array()) return "";
-  const std::vector<std::string> names = namesIn(*at.parent);
-  std::optional<size_t> index = findPart(cut.part, names);
-  if (!index) index = findPart(nearestName(cut.part, names), names);
+  const std::vector<std::string> names = namesOf(*at.parent);
+  std::optional<size_t> index = findPart(at.part, names);
+  if (!index) index = findPart(nearestName(at.part, names), names);
   const bool isNamed = index && !names[*index].empty();
-  return isNamed ? cut.place + "/" + std::to_string(*index) + cut.rest : "";
+  return isNamed ? at.place + "/" + std::to_string(*index) + at.rest : "";
 }
 
 /// Returns a place of numbers that may be meant by a pointer, or nothing: the pointer itself, where it is
@@ -152,18 +121,17 @@ std::string hintFor(const json& root, const std::string& pointer) {
   if (std::string whole = hintAtWhole(root, pointer); !whole.empty()) return whole;
   if (const std::string meant = placeMeantBy(root, pointer); !meant.empty())
     return "; did you mean " + meant + "?";
-  const Missing at = firstMissing(root, pointer);
-  if (!at.part) return "";
-  const auto [place, part, rest] = cutAt(at, pointer);
-  if (at.parent->is_object()) {
+  const auto [parent, isMissing, place, part, rest] = cut(root, pointer);
+  if (!isMissing) return "";
+  if (parent->is_object()) {
     const std::vector<std::string> members = numberMembersAt(place);
     const bool isKnown = std::ranges::find(members, part) != members.end();
     if (isKnown) return ": " + (place.empty() ? "it" : place) + " has no " + part;
     const std::vector<std::string> below = numbersBelow(place, pointer.substr(place.size()));
     return below.empty() ? "" : ": the file has no " + below.front();
   }
-  if (!at.parent->is_array()) return "";
-  return ": " + place + " has " + listOfParts(namesIn(*at.parent), part);
+  if (!parent->is_array()) return "";
+  return ": " + place + " has " + listOfParts(namesOf(*parent), part);
 }
 
 /// The mode at a place of a material, and whether it is one that takes the word.
@@ -178,6 +146,14 @@ std::optional<Mode> modeAt(const json& root, const SetNumber& set) {
     return std::nullopt;
   const bool isTruth = set.word == "true" || set.word == "false";
   return Mode{isFlag, !set.word.empty() && isTruth == isFlag};
+}
+
+/// A number that each use of a texture may have.
+constexpr const char* kTurn = "/extensions/KHR_texture_transform/rotation";
+
+/// Returns true if a texture stands at that place of a material, or may stand there.
+bool isTextureAt(std::string_view pointer) {
+  return pointer.ends_with("Texture") && numberRuleAt(std::string(pointer) + kTurn);
 }
 
 /// The rule of the user's number, which `creates` what holds it; none for a word that is of that place.
@@ -223,6 +199,22 @@ void writeValue(json& root, const SetNumber& set, const std::optional<NumberRule
   if (extension.empty()) return;
   json& used = root["extensionsUsed"];
   if (std::ranges::find(used, json(extension)) == used.end()) used.push_back(extension);
+}
+
+/// Returns true if the user says which colour the material has, not what its texture is multiplied by.
+bool isColorItself(std::string_view name) { return name == "color" || name == "colour"; }
+
+/// The texture that a colour at that place multiplies: baseColorTexture for baseColorFactor.
+std::string textureFor(const std::string& place) {
+  return place.substr(0, place.size() - std::string_view("Factor").size()) + "Texture";
+}
+
+/// Returns true if the user says a material's colour itself, at that place, where a texture is that it
+/// multiplies.
+bool tintsTexture(const json& root, const SetNumber& set, const std::string& place) {
+  return namesMaterials(set) && place.ends_with("Factor") &&
+         root.contains(json::json_pointer(textureFor(place))) &&
+         isColorItself(set.pointer.substr(set.pointer.rfind(':') + 1));
 }
 
 }  // namespace
@@ -326,8 +318,6 @@ constexpr auto kWords = std::to_array<std::pair<std::string_view, std::string_vi
 constexpr std::array kModes{"alphaMode", "doubleSided"};
 /// An older description of materials, whose members have the same names.
 constexpr std::string_view kOlder = "/KHR_materials_pbrSpecularGlossiness/";
-/// A number that each use of a texture may have.
-constexpr const char* kTurn = "/extensions/KHR_texture_transform/rotation";
 
 /// The place of a material's value by the name of a member, or by a word for it.
 std::optional<std::string> placeIn(const std::string& material, const std::string& name) {
@@ -364,9 +354,6 @@ std::vector<std::string> knownNames(const std::string& material) {
   return names;
 }
 
-/// Returns true if the user says which colour the material has, not what its texture is multiplied by.
-bool isColorItself(std::string_view name) { return name == "color" || name == "colour"; }
-
 /// The indices of the materials that a name or pattern says: those that it fits, else the one whose index it
 /// is, else those that it fits but for the case of letters, if all of these have the same name.
 std::vector<size_t> materialsCalled(const std::string& pattern, const std::vector<std::string>& names) {
@@ -399,11 +386,6 @@ SetNumber valueAt(const json& root, const std::string& place, const SetNumber& s
 /// Returns true if the material's texture, or colours of vertices, may say by alpha where there is something.
 bool holdsOutline(const json& material) { return material.value("alphaMode", "OPAQUE") != "OPAQUE"; }
 
-/// The texture that a colour at that place multiplies: baseColorTexture for baseColorFactor.
-std::string textureFor(const std::string& place) {
-  return place.substr(0, place.size() - std::string_view("Factor").size()) + "Texture";
-}
-
 /// Sets the colour itself of the material with that index. What would multiply it, its texture and the
 /// colours of vertices, is taken out, unless that may hold an outline.
 void appendColor(const json& root, size_t index, const SetNumber& set, std::vector<SetNumber>& placed) {
@@ -433,9 +415,7 @@ void appendPlaced(const json& root, const SetNumber& set, std::vector<SetNumber>
   const size_t colon = set.pointer.rfind(':');
   const std::string pattern = set.pointer.substr(0, colon);
   const std::string name = set.pointer.substr(colon + 1);
-  std::vector<std::string> names;
-  const json materials = root.value("materials", json::array());
-  for (const json& material : materials) names.push_back(material.value("name", std::string()));
+  const std::vector<std::string> names = namesOf(memberOf(root, "materials"));
   const std::vector<size_t> called = materialsCalled(pattern, names);
   for (const size_t i : called) {
     const std::string material = "/materials/" + std::to_string(i);
@@ -458,69 +438,9 @@ size_t nextLetter(std::string_view text, size_t at) {
   return at;
 }
 
-}  // namespace
-
-bool isTextureAt(std::string_view pointer) {
-  return pointer.ends_with("Texture") && numberRuleAt(std::string(pointer) + kTurn);
-}
-
-bool tintsTexture(const json& root, const SetNumber& set, const std::string& place) {
-  return namesMaterials(set) && place.ends_with("Factor") &&
-         root.contains(json::json_pointer(textureFor(place))) &&
-         isColorItself(set.pointer.substr(set.pointer.rfind(':') + 1));
-}
-
-bool namesMaterials(const SetNumber& set) { return !set.pointer.starts_with('/'); }
-
-bool matchesPattern(std::string_view pattern, std::string_view text) {
-  size_t at = 0;                         // in the pattern
-  size_t star = std::string_view::npos;  // after the last *
-  size_t taken = 0;                      // the end of what that one stands for
-  for (size_t i = 0; i < text.size() || at < pattern.size();) {
-    const bool isQuoted = at + 1 < pattern.size() && pattern[at] == '\\';
-    if (at < pattern.size() && pattern[at] == '*') {
-      star = ++at;
-      taken = i;
-    } else if (at < pattern.size() && i < text.size() && pattern[at] == '?') {
-      ++at;
-      i = nextLetter(text, i);
-    } else if (at < pattern.size() && i < text.size() && pattern[at + (isQuoted ? 1 : 0)] == text[i]) {
-      at += isQuoted ? 2 : 1;
-      ++i;
-    } else if (star != std::string_view::npos && taken < text.size()) {
-      at = star;
-      i = ++taken;
-    } else {
-      return false;
-    }
-  }
-  return true;
-}
-
-std::vector<SetNumber> placedValues(const json& root, std::span<const SetNumber> set) {
-  std::vector<SetNumber> placed;
-  for (const SetNumber& one : set) {
-    if (namesMaterials(one))
-      appendPlaced(root, one, placed);
-    else
-      placed.push_back(one);
-  }
-  return placed;
-}
-
-std::string extensionIn(std::string_view pointer) {
-  constexpr std::string_view kExtensions = "/extensions/";
-  const size_t at = pointer.rfind(kExtensions);
-  if (at == std::string_view::npos || !pointer.starts_with("/materials/")) return "";
-  const std::string_view rest = pointer.substr(at + kExtensions.size());
-  return std::string(rest.substr(0, rest.find('/')));
-}
-
-namespace {
-
 /// The array, for one more element; one of a wrong type is left to the checks, and gets none.
 json* arrayOf(json& object, const char* name) {
-  if (!object.contains(name)) object[name] = json::array();
+  if (object[name].is_null()) object[name] = json::array();
   return object[name].is_array() ? &object[name] : nullptr;
 }
 
@@ -555,14 +475,8 @@ json matrixOf(const glm::dvec3& place, const glm::dvec3& direction, const glm::d
 
 /// The bytes of floats as a data URI.
 std::string uriOf(std::span<const float> values) {
-  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::vector<uint8_t> bytes(values.size_bytes());
-  std::memcpy(bytes.data(), values.data(), bytes.size());
-  std::string text = "data:application/octet-stream;base64,";
-  for (size_t i = 0; i + 2 < bytes.size(); i += 3) {  // a multiple of three: triangles have nine floats
-    const uint32_t word = uint32_t(bytes[i]) << 16 | uint32_t(bytes[i + 1]) << 8 | bytes[i + 2];
-    for (const int shift : {18, 12, 6, 0}) text += kDigits[word >> shift & 63];
-  }
+  std::string text = "data:application/octet-stream,";
+  for (const std::byte byte : std::as_bytes(values)) text += formatted("%%%02x", unsigned(byte));
   return text;
 }
 
@@ -630,6 +544,52 @@ json nodeOf(json& root, const AddedLight& light, const std::string& name, const 
 }
 
 }  // namespace
+
+bool namesMaterials(const SetNumber& set) { return !set.pointer.starts_with('/'); }
+
+bool matchesPattern(std::string_view pattern, std::string_view text) {
+  size_t at = 0;                         // in the pattern
+  size_t star = std::string_view::npos;  // after the last *
+  size_t taken = 0;                      // the end of what that one stands for
+  for (size_t i = 0; i < text.size() || at < pattern.size();) {
+    const bool isQuoted = at + 1 < pattern.size() && pattern[at] == '\\';
+    if (at < pattern.size() && pattern[at] == '*') {
+      star = ++at;
+      taken = i;
+    } else if (at < pattern.size() && i < text.size() && pattern[at] == '?') {
+      ++at;
+      i = nextLetter(text, i);
+    } else if (at < pattern.size() && i < text.size() && pattern[at + (isQuoted ? 1 : 0)] == text[i]) {
+      at += isQuoted ? 2 : 1;
+      ++i;
+    } else if (star != std::string_view::npos && taken < text.size()) {
+      at = star;
+      i = ++taken;
+    } else {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::vector<SetNumber> placedValues(const json& root, std::span<const SetNumber> set) {
+  std::vector<SetNumber> placed;
+  for (const SetNumber& one : set) {
+    if (namesMaterials(one))
+      appendPlaced(root, one, placed);
+    else
+      placed.push_back(one);
+  }
+  return placed;
+}
+
+std::string extensionIn(std::string_view pointer) {
+  constexpr std::string_view kExtensions = "/extensions/";
+  const size_t at = pointer.rfind(kExtensions);
+  if (at == std::string_view::npos || !pointer.starts_with("/materials/")) return "";
+  const std::string_view rest = pointer.substr(at + kExtensions.size());
+  return std::string(rest.substr(0, rest.find('/')));
+}
 
 void addLights(json& root, std::span<const AddedLight> lights, const glm::dvec3& up) {
   for (size_t i = 0; i < lights.size(); ++i) {

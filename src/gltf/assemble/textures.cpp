@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gltf/build/textures.h"
+#include "gltf/assemble/textures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,16 +7,16 @@
 #include <utility>
 
 #include "gltf/read/container.h"
-#include "gltf/read/document.h"
 #include "image/files/header.h"
 #include "image/files/process.h"
 #include "image/format.h"
 #include "image/image.h"
-#include "scene/scene.h"
 
 namespace fragtrace {
 
 namespace {
+
+using nlohmann::json;
 
 constexpr const char* kBasisu = "KHR_texture_basisu";
 constexpr const char* kAvif = "EXT_texture_avif";
@@ -29,7 +29,7 @@ Wrap wrapOf(int mode) {
 
 /// The bytes of a picture where it stands, not decoded.
 std::vector<uint8_t> imageBytes(Document& document, int index) {
-  ImageSource& source = document.images.at(size_t(index));
+  ImageSource& source = document.bytes->images.at(size_t(index));
   if (source.bufferView >= 0) {
     const std::span<const uint8_t> bytes = bytesOf(document, source.bufferView);
     return {bytes.begin(), bytes.end()};
@@ -58,7 +58,7 @@ ImageHeader headerOf(const std::vector<uint8_t>& bytes, const std::string& file)
 }
 
 EncodedImage readImage(Document& document, int index) {
-  const ImageSource& source = document.images.at(size_t(index));
+  const ImageSource& source = document.bytes->images.at(size_t(index));
   const std::string place = pointerTo("images", index);
   EncodedImage result;
   const bool isFile = source.bufferView < 0 && !isDataUri(source.uri);
@@ -85,30 +85,31 @@ EncodedImage readImage(Document& document, int index) {
 }
 
 /// The picture that an extension of a texture names; else another one.
-int sourceIn(const tinygltf::Texture& texture, const char* extension, int otherwise) {
-  const auto found = texture.extensions.find(extension);
-  return found != texture.extensions.end() ? int(numberOf(found->second, "source", otherwise)) : otherwise;
+int sourceIn(const json& texture, const char* extension, int otherwise) {
+  return int(numberOf(extensionOf(texture, extension), "source", otherwise));
 }
+
+int webpOf(const json& texture) { return sourceIn(texture, "EXT_texture_webp", texture.value("source", -1)); }
 
 /// Returns the index of a texture's picture, or -1. The picture of EXT_texture_webp takes precedence over the
 /// fallback. Those of EXT_texture_avif and KHR_texture_basisu are used only without a fallback, since not
 /// every system decodes them, and the compression of the second has lost more.
-int sourceOf(const tinygltf::Texture& texture) {
-  const int source = sourceIn(texture, "EXT_texture_webp", texture.source);
+int imageOf(const json& texture) {
+  const int source = webpOf(texture);
   return source >= 0 ? source : sourceIn(texture, kAvif, sourceIn(texture, kBasisu, -1));
 }
 
 /// Returns true where the file does without the texture: it has only a KTX2 picture, and the file does not
 /// require that extension.
-bool isDispensable(const tinygltf::Model& model, const tinygltf::Texture& texture) {
+bool isDispensable(const tinygltf::Model& model, const json& texture) {
   const std::vector<std::string>& required = model.extensionsRequired;
-  return sourceIn(texture, "EXT_texture_webp", sourceIn(texture, kAvif, texture.source)) < 0 &&
+  return webpOf(texture) < 0 && sourceIn(texture, kAvif, -1) < 0 &&
          std::ranges::find(required, kBasisu) == required.end();
 }
 
 /// Returns true if a picture is a file that is not there.
 bool isMissing(const Document& document, int image) {
-  const ImageSource& source = document.images.at(size_t(image));
+  const ImageSource& source = document.bytes->images.at(size_t(image));
   return source.bufferView < 0 && source.bytes.empty() && isMissing(document.access, source.uri);
 }
 
@@ -123,14 +124,14 @@ std::string withoutName(const Document& document, const std::string& uri, const 
 }
 
 /// The picture to draw: the fallback of a KTX2 picture stays away where its file is missing.
-int drawnImage(Document& document, const tinygltf::Texture& texture) {
-  const int image = sourceOf(texture);
+int drawnImage(Document& document, const json& texture) {
+  const int image = imageOf(texture);
   const int ktx2 = sourceIn(texture, kBasisu, -1);
   const bool isAlone = image >= 0 && ktx2 >= 0 && isMissing(document, image) && !isMissing(document, ktx2);
   if (!isAlone || !whyNoKtx2().empty()) return image;
-  document.diagnostics.warn(
-      pointerTo("images", image),
-      inQuotes(document.images[size_t(image)].uri) + " is missing; the KTX2 picture beside it is drawn");
+  document.diagnostics.warn(pointerTo("images", image),
+                            inQuotes(document.bytes->images[size_t(image)].uri) +
+                                " is missing; the KTX2 picture beside it is drawn");
   return ktx2;
 }
 
@@ -140,16 +141,16 @@ TextureTable::TextureTable(Document& document, Scene& scene)
     : document_(document),
       scene_(scene),
       textures_(document.model.textures.size(), kMissIndex),
-      images_(document.images.size(), kMissIndex),
-      lost_(document.images.size()) {}
+      images_(document.bytes->images.size(), kMissIndex),
+      lost_(document.bytes->images.size()) {}
 
 TextureRef TextureTable::lose(int image, const std::string& place, const std::string& reason) {
   TextureRef ref;
   ref.lost = true;
-  const std::string uri = image >= 0 ? document_.images.at(size_t(image)).uri : "";
+  const std::string uri = image >= 0 ? document_.bytes->images.at(size_t(image)).uri : "";
   if (isDrawn_ && !document_.drawMissingTextures) {
     std::vector<std::string> uris;
-    for (const ImageSource& source : document_.images) uris.push_back(source.uri);
+    for (const ImageSource& source : document_.bytes->images) uris.push_back(source.uri);
     document_.diagnostics.refuse(place, reason + alsoMissing(document_.access, uris, uri) +
                                             " (--missing-textures magenta draws the scene without it)");
   }
@@ -207,7 +208,7 @@ TextureRef TextureTable::use(int texture) {
   uint32_t& known = textures_.at(size_t(texture));
   ref.texture = known;
   if (known != kMissIndex) return ref;
-  const tinygltf::Texture& source = document_.model.textures[size_t(texture)];
+  const json& source = jsonOf(document_, "textures", texture);
   const int image = drawnImage(document_, source);
   if (image < 0) {
     return lose(-1, pointerTo("textures", texture), "has no picture");
@@ -221,8 +222,8 @@ TextureRef TextureTable::use(int texture) {
   result.image = useImage(image);
   ref.lost = result.image == kMissIndex;
   if (ref.lost) return ref;
-  if (source.sampler >= 0) {
-    const tinygltf::Sampler& sampler = document_.model.samplers.at(size_t(source.sampler));
+  if (const int index = document_.model.textures.at(size_t(texture)).sampler; index >= 0) {
+    const tinygltf::Sampler& sampler = document_.model.samplers.at(size_t(index));
     result.wrapU = wrapOf(sampler.wrapS);
     result.wrapV = wrapOf(sampler.wrapT);
     result.linear = sampler.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST;

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "gltf/build/nodes.h"
+#include "gltf/assemble/nodes.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <optional>
-
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <numeric>
 
 #include "base/errors.h"
 #include "base/text.h"
 #include "gltf/read/accessor.h"
-#include "gltf/read/document.h"
 #include "scene/camera.h"
-#include "scene/parts.h"
 
 namespace fragtrace {
 
@@ -135,10 +131,8 @@ std::vector<int> rootsOf(Document& document, const std::vector<int>& parents) {
   return roots;
 }
 
-bool hidesItself(const tinygltf::Node& node) {
-  const auto extension = node.extensions.find("KHR_node_visibility");
-  if (extension == node.extensions.end() || !extension->second.Has("visible")) return false;
-  return !extension->second.Get("visible").Get<bool>();
+bool hidesItself(const nlohmann::json& node) {
+  return memberOf(extensionOf(node, "KHR_node_visibility"), "visible") == false;
 }
 
 /// Returns, by node, true if the user hides it.
@@ -216,7 +210,7 @@ std::vector<PlacedNode> placeNodes(Document& document, const SceneSelection& sel
         "the node", [&] { return worldTransform(source, node.world, place, document.diagnostics); });
     if (!world) continue;
     node.world = *world;
-    node.hiddenInFile = node.hiddenInFile || hidesItself(source);
+    node.hiddenInFile = node.hiddenInFile || hidesItself(jsonOf(document, "nodes", node.index));
     node.hidden = node.hidden || node.hiddenInFile || chosen[size_t(node.index)];
     placed.push_back(node);
     await(source.children, node, node.depth + 1);
@@ -265,7 +259,7 @@ size_t dropRepeated(std::vector<glm::dmat4>& places) {
 
 class InstanceReader {
  public:
-  InstanceReader(Document& document, const PlacedNode& node, const tinygltf::Value& attributes)
+  InstanceReader(Document& document, const PlacedNode& node, const nlohmann::json& attributes)
       : document_(document),
         node_(node),
         attributes_(attributes),
@@ -300,14 +294,13 @@ class InstanceReader {
   }
 
  private:
-  std::string placeOf(const std::string& name) const { return place_ + "/" + escapedForPointer(name); }
+  std::string placeOf(const std::string& name) const { return place_ + pointerTo(name); }
 
   /// Empty when it is not given.
   template <glm::length_t components>
   std::vector<glm::vec<components, float>> attribute(const char* name) {
-    const tinygltf::Value& member = memberOf(attributes_, name);
-    if (!member.IsNumber()) return {};
-    const int accessor = member.GetNumberAsInt();
+    if (!attributes_.contains(name)) return {};
+    const int accessor = attributes_[name].get<int>();
     checkType(name, components, document_.model.accessors.at(size_t(accessor)));
     const size_t count = accessorCount(document_, accessor);
     if (count_ && *count_ != count) {
@@ -341,7 +334,7 @@ class InstanceReader {
   }
 
   void warnOthers() {
-    for (const std::string& name : attributes_.Keys()) {
+    for (const auto& [name, accessor] : attributes_.items()) {
       const bool isKnown = name == "TRANSLATION" || name == "ROTATION" || name == "SCALE";
       if (!isKnown && !name.starts_with('_'))
         document_.diagnostics.warn(placeOf(name), "is no attribute of instances, and ignored");
@@ -350,7 +343,7 @@ class InstanceReader {
 
   Document& document_;
   const PlacedNode& node_;
-  const tinygltf::Value& attributes_;
+  const nlohmann::json& attributes_;
   std::string place_;
   std::optional<size_t> count_;
   std::string first_;  ///< the attribute that the count is of
@@ -359,17 +352,249 @@ class InstanceReader {
 }  // namespace
 
 std::vector<glm::dmat4> placesOfMesh(Document& document, const PlacedNode& node) {
-  const tinygltf::Node& source = document.model.nodes.at(size_t(node.index));
-  const auto extension = source.extensions.find("EXT_mesh_gpu_instancing");
-  if (extension == source.extensions.end()) return {node.world};
-  const tinygltf::Value& attributes = memberOf(extension->second, "attributes");
-  if (!attributes.IsObject()) return {node.world};
-  if (source.skin >= 0) {
+  const nlohmann::json& attributes =
+      memberOf(extensionOf(jsonOf(document, "nodes", node.index), "EXT_mesh_gpu_instancing"), "attributes");
+  if (!attributes.is_object()) return {node.world};
+  if (document.model.nodes.at(size_t(node.index)).skin >= 0) {
     document.diagnostics.warn(pointerTo("nodes", node.index, "extensions", "EXT_mesh_gpu_instancing"),
                               "is ignored: joints place the mesh");
     return {node.world};
   }
   return InstanceReader(document, node, attributes).read();
+}
+
+// What a node places other than a mesh.
+
+namespace {
+
+using nlohmann::json;
+
+/// The camera's axes without scale and shear; a node that flattens everything keeps the default view.
+void orient(Camera& camera, const glm::dmat4& world) {
+  const glm::dvec3 backward(world[2]);
+  const glm::dvec3 upward(world[1]);
+  if (glm::length(backward) > 0.0) camera.forward = -glm::normalize(backward);
+  const glm::dvec3 across = upward - glm::dot(upward, camera.forward) * camera.forward;
+  if (glm::length(across) > 0.0) {
+    camera.up = glm::normalize(across);
+  } else {
+    const glm::dvec3 axis =
+        std::abs(camera.forward.y) < std::abs(camera.forward.z) ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
+    camera.up = glm::normalize(axis - glm::dot(axis, camera.forward) * camera.forward);
+  }
+}
+
+constexpr float kRightAngle = 1.5707964f;
+
+const json& lightsOf(const Document& document) {
+  return memberOf(extensionOf(*document.root, "KHR_lights_punctual"), "lights");
+}
+
+LightSource sourceOf(const json& described) {
+  LightSource source{.name = described.value("name", std::string()),
+                     .intensity = numberOf(described, "intensity", 1.0)};
+  if (described["type"] == "directional") source.type = LightType::Directional;
+  if (described["type"] == "spot") source.type = LightType::Spot;
+  const std::vector<double> color = numbersOf(described, "color", {1.0, 1.0, 1.0});
+  source.color = {color.at(0), color.at(1), color.at(2)};
+  return source;
+}
+
+}  // namespace
+
+std::optional<Camera> cameraAt(const Document& document, const PlacedNode& node) {
+  const tinygltf::Node& source = document.model.nodes.at(size_t(node.index));
+  if (source.camera < 0) return std::nullopt;
+  const tinygltf::Camera& described = document.model.cameras.at(size_t(source.camera));
+  const std::string place = pointerTo("cameras", source.camera);
+  Camera camera;
+  camera.name = !described.name.empty() ? described.name : nameOrPlace(source.name, "nodes", node.index);
+  camera.position = glm::dvec3(node.world[3]);
+  orient(camera, node.world);
+  if (described.type == "perspective") {
+    camera.fovY = described.perspective.yfov;
+    camera.aspectRatio = described.perspective.aspectRatio;
+    if (!(camera.fovY > 0.0 && camera.fovY < 3.141592653589793)) {
+      document.diagnostics.lose(place + "/perspective/yfov", "is not between 0 and pi");
+    }
+    if (camera.aspectRatio < 0.0)
+      document.diagnostics.lose(place + "/perspective/aspectRatio", "is negative");
+    return camera;
+  }
+  // Negative magnifications are discouraged mirrors in the specification; only their size is taken.
+  camera.type = CameraType::Orthographic;
+  camera.halfHeight = std::abs(described.orthographic.ymag);
+  camera.aspectRatio = std::abs(described.orthographic.xmag) / camera.halfHeight;
+  if (!(camera.halfHeight > 0.0 && camera.aspectRatio > 0.0) || !std::isfinite(camera.aspectRatio)) {
+    document.diagnostics.lose(place + "/orthographic", "xmag and ymag must not be 0");
+  }
+  return camera;
+}
+
+std::vector<LightSource> lightSources(const Document& document) {
+  std::vector<LightSource> sources;
+  for (const json& described : lightsOf(document)) sources.push_back(sourceOf(described));
+  return sources;
+}
+
+std::optional<Light> lightAt(Document& document, const PlacedNode& node, const LocalSpace& space) {
+  const json& source = jsonOf(document, "nodes", node.index);
+  const json& extension = extensionOf(source, "KHR_lights_punctual");
+  if (!extension.is_object()) return std::nullopt;
+  const int index = extension["light"].get<int>();
+  const json& described = lightsOf(document).at(size_t(index));
+  const std::string place = pointerTo("extensions", "KHR_lights_punctual", "lights", index);
+
+  Light light;
+  LightSource bright = sourceOf(described);
+  light.type = bright.type;
+  if (light.type == LightType::Spot) {
+    light.innerConeAngle = float(numberOf(memberOf(described, "spot"), "innerConeAngle", 0.0));
+    light.outerConeAngle = float(numberOf(memberOf(described, "spot"), "outerConeAngle", 0.0));
+    // mendValues() has put the file's angles in order, but not those of --set and of animations.
+    if (!(light.innerConeAngle >= 0.0f && light.innerConeAngle <= light.outerConeAngle) ||
+        light.outerConeAngle > kRightAngle)
+      document.diagnostics.lose(place + "/spot", "the cone angles do not fulfil 0 <= inner <= outer <= pi/2");
+  }
+  light.source = uint32_t(index);
+  light.place = pointerTo("nodes", node.index);
+  light.node = nameOrPlace(source.value("name", std::string()), "nodes", node.index);
+  const double brightest = std::max({bright.color.r, bright.color.g, bright.color.b}) * bright.intensity;
+  if (brightest > double(kBrightest)) {
+    document.diagnostics.warn(place + "/intensity",
+                              "times its colour is out of range, the nearest possible value is taken: 1e+20");
+    bright.intensity *= double(kBrightest) / brightest;
+  }
+  light.intensity = intensityOf(bright, space);
+  for (int c = 0; c < 3; ++c) {
+    if (!std::isfinite(light.intensity[c]) || light.intensity[c] < 0.0f) {
+      document.diagnostics.lose(place, "colour times intensity is negative or too large");
+    }
+  }
+  const double range = numberOf(described, "range", 0.0);
+  if (range < 0.0) document.diagnostics.lose(place + "/range", "is negative");
+  if (range > 0.0) light.range = float(range / space.unit);
+  light.position = glm::vec3(space.localOf(glm::dvec3(node.world[3])));
+  const glm::vec3& p = light.position;
+  if (light.type != LightType::Directional && !std::isfinite(glm::dot(p, p))) {
+    document.diagnostics.warn(pointerTo("nodes", node.index),
+                              "its light is too far away for a scene of this size, and left out");
+    return std::nullopt;
+  }
+  const glm::dvec3 backward(node.world[2]);
+  if (glm::length(backward) > 0.0) light.direction = glm::vec3(-glm::normalize(backward));
+  return light;
+}
+
+namespace {
+
+constexpr const char* kName = "fragtrace_volume";
+constexpr std::string_view kMembers[] = {"volume", "position",   "scale",   "density",
+                                         "color",  "anisotropy", "emission"};
+
+/// Columns may be this far from perpendicular and from the same length: TRS in single precision stays well
+/// below.
+constexpr double kUniformScaleTolerance = 1e-4;
+
+bool isUniform(const glm::dmat3& axes, double scale) {
+  for (int c = 0; c < 3; ++c) {
+    if (std::abs(glm::length(axes[c]) - scale) > kUniformScaleTolerance * scale) return false;
+    if (std::abs(glm::dot(axes[c], axes[(c + 1) % 3])) > kUniformScaleTolerance * scale * scale) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<Volume> volumeAt(Document& document, const PlacedNode& node) {
+  const json& object = memberOf(memberOf(jsonOf(document, "nodes", node.index), "extras"), kName);
+  if (!object.is_object()) return std::nullopt;
+  const std::string place = pointerTo("nodes", node.index, "extras", kName);
+  const auto checked = [&](const char* name, double value, double least, double most) {
+    if (!(value >= least && value <= most))
+      document.diagnostics.refuse(place + "/" + name,
+                                  "is not in the range " + shortText(least) + " to " + shortText(most));
+    return value;
+  };
+  const auto number = [&](const char* name, double least, double most) -> std::optional<double> {
+    if (!object.contains(name)) return std::nullopt;
+    return checked(name, numberOf(object, name, 0.0), least, most);
+  };
+  const auto vector = [&](const char* name, double least, double most) -> std::optional<glm::dvec3> {
+    if (!object.contains(name)) return std::nullopt;
+    glm::dvec3 result;
+    for (int i = 0; i < 3; ++i) result[i] = checked(name, object[name][size_t(i)], least, most);
+    return result;
+  };
+  for (const auto& [key, member] : object.items()) {
+    if (std::ranges::find(kMembers, key) == std::end(kMembers))
+      document.diagnostics.warn(pointerTo("nodes", node.index, "extras", kName, key),
+                                "is no member of a volume and is ignored");
+  }
+  Volume volume;
+  volume.source = volumeFile(object["volume"].get<std::string>());
+  if (volume.source.file.empty()) document.diagnostics.refuse(place + "/volume", "names no file");
+  volume.source.position = vector("position", -kFarthest, kFarthest);
+  volume.source.scale = number("scale", kLeastVolumeScale, kMostVolumeScale);
+  volume.source.density = number("density", 0.0, kMostVolumeFactor);
+  if (const auto color = vector("color", 0.0, 1.0)) volume.source.color = glm::vec3(*color);
+  volume.source.anisotropy = number("anisotropy", -kMostAnisotropy, kMostAnisotropy);
+  volume.source.emission = number("emission", 0.0, kMostVolumeFactor);
+  volume.toWorld = node.world;
+  const std::string uri = volume.source.file.string();
+  volume.file = document.diagnostics.attempt(place + "/volume",
+                                             [&] { return readUri(document.access, uri, document.memory); });
+  takeMemory(document, place + "/volume", volume.file.size());
+  volume.source.file = isDataUri(uri) ? std::filesystem::path(place) : pathOfUri(document.access, uri);
+  return volume;
+}
+
+std::optional<PlacedSphere> sphereAt(Document& document, const PlacedNode& node) {
+  const json& source = jsonOf(document, "nodes", node.index);
+  const json& shapes = memberOf(extensionOf(*document.root, "KHR_implicit_shapes"), "shapes");
+  const json& chosen = memberOf(memberOf(source, "extras"), "shape");
+  if (!shapes.is_array() || !chosen.is_number_integer()) return std::nullopt;
+
+  const std::string place = pointerTo("nodes", node.index);
+  const auto checked = [&](const json& index, const char* member, size_t count, const char* what) {
+    if (!index.is_number_unsigned() || index.get<size_t>() >= count)
+      document.diagnostics.refuse(place + "/extras/" + member, "index " + index.dump() + " is past the " +
+                                                                   std::to_string(count) + " " + what);
+    return index.get<size_t>();
+  };
+  const size_t index = checked(chosen, "shape", shapes.size(), "shapes");
+  document.diagnostics.need(pointerTo("extensions", "KHR_implicit_shapes", "shapes", index));
+  const json& shape = shapes[index];
+  const auto& type = shape["type"].get_ref<const std::string&>();
+  if (type != "sphere") {
+    document.diagnostics.warn(place + "/extras/shape", "a shape of type " + inQuotes(type) + " is left out");
+    return std::nullopt;
+  }
+
+  PlacedSphere sphere;
+  sphere.node = nameOrPlace(source.value("name", std::string()), "nodes", node.index);
+  sphere.nodeIndex = uint32_t(node.index);
+  const size_t materialCount = memberOf(*document.root, "materials").size();
+  const json& material = memberOf(source["extras"], "material");
+  sphere.material =
+      uint32_t(material.is_number_integer() ? checked(material, "material", materialCount, "materials")
+                                            : materialCount);
+
+  glm::dmat3 axes(node.world);
+  const double scale = glm::length(axes[0]);
+  if (!isUniform(axes, scale)) document.diagnostics.lose(place, "scales a sphere unevenly");
+  const double radius = numberOf(memberOf(shape, "sphere"), "radius", 0.5);  // the extension's default
+  sphere.radius = radius * scale;
+  if (!(sphere.radius >= kSmallest)) document.diagnostics.lose(place, "its sphere has no radius above 0");
+  sphere.center = glm::dvec3(node.world[3]);
+  if (!(glm::length(sphere.center) + sphere.radius <= kFarthest))
+    document.diagnostics.lose(place, "its sphere reaches farther than 1e30 m from the origin");
+  if (glm::determinant(axes) < 0.0) {
+    document.diagnostics.warn(place, "a mirrored sphere shows its textures unmirrored");
+    axes = -axes;
+  }
+  sphere.rotation = glm::normalize(glm::quat_cast(axes * (1.0 / scale)));
+  return sphere;
 }
 
 }  // namespace fragtrace

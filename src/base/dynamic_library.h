@@ -36,4 +36,32 @@ class DynamicLibrary {
   std::string error_;
 };
 
+/// Functions of a library, as members that find() initialises: `int (*f)(int) = find("f");`.
+class LibraryFunctions {
+ public:
+  explicit LibraryFunctions(const DynamicLibrary& library) : library_(library) {}
+  /// Returns true if the library is there, and has all of them.
+  bool complete() const { return library_.loaded() && missing_ == nullptr; }
+  /// The first that it lacks.
+  const char* missing() const { return missing_; }
+
+ protected:
+  struct Symbol {
+    void* address = nullptr;
+    template <typename Function>
+    operator Function*() const {
+      return reinterpret_cast<Function*>(address);
+    }
+  };
+  Symbol find(const char* name) {
+    Symbol symbol;
+    if (library_.loaded() && !library_.find(name, symbol.address) && missing_ == nullptr) missing_ = name;
+    return symbol;
+  }
+
+ private:
+  DynamicLibrary library_;
+  const char* missing_ = nullptr;
+};
+
 }  // namespace fragtrace

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "gltf/build/animation.h"
+#include "gltf/assemble/animation.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "base/text.h"
-#include "gltf/build/numbers.h"
+#include "gltf/assemble/numbers.h"
 #include "gltf/read/accessor.h"
 #include "gltf/read/json.h"
 
@@ -230,7 +229,8 @@ std::optional<NodeMember> nodeMemberAt(std::string_view pointer) {
 }
 
 void applyChannel(Document& document, const Channel& channel, double seconds,
-                  const std::optional<OpenShutter>& shutter, const json& root, json* changed) {
+                  const std::optional<OpenShutter>& shutter, bool inModel) {
+  json& root = *document.root;
   document.diagnostics.need(channel.place);
   const std::optional<NumberRule> rule =
       channel.target.empty() ? std::nullopt : numberRuleIn(root, channel.target);
@@ -251,17 +251,68 @@ void applyChannel(Document& document, const Channel& channel, double seconds,
     document.diagnostics.warn(channel.place + "/sampler", "a quaternion of zeros is read as no rotation");
     values = {0.0, 0.0, 0.0, 1.0};
   }
-  if (changed == nullptr) {
-    const std::optional<NodeMember> driven = nodeMemberAt(channel.target);
-    *numbersOfNode(document.model.nodes.at(driven->node), driven->member) = std::move(values);
+  if (inModel && isMemberOfNode(channel.target, root)) {
+    const NodeMember driven = *nodeMemberAt(channel.target);
+    *numbersOfNode(document.model.nodes.at(driven.node), driven.member) = std::move(values);
     return;
   }
-  if (decomposeMatrixAt(*changed, channel.target))
+  if (decomposeMatrixAt(root, channel.target))
     document.diagnostics.warn(place, "has a node with a matrix, which is taken apart to be animated");
-  writeNumbers(*changed, channel.target, *rule, values);
+  writeNumbers(root, channel.target, *rule, values);
+}
+
+/// The paths of nodes are short forms of pointers (KHR_animation_pointer).
+std::string targetOf(const json& target) {
+  const json::json_pointer pointer("/extensions/KHR_animation_pointer/pointer");
+  const auto& path = target["path"].get_ref<const std::string&>();
+  if (path == "pointer")
+    return target.contains(pointer) && !target.contains("node") ? target[pointer].get<std::string>() : "";
+  return target.contains("node") ? pointerTo("nodes", target["node"].get<size_t>(), path) : "";
+}
+
+Channel channelOf(const json& channel, const json& samplers, const std::string& animation,
+                  const std::string& place) {
+  const auto index = channel["sampler"].get<size_t>();
+  Channel result;
+  result.place = place;
+  result.target = targetOf(channel["target"]);
+  result.sampler = animation + "/samplers/" + std::to_string(index);
+  if (index >= samplers.size()) return result;
+  const json& sampler = samplers[index];
+  result.interpolation = sampler.value("interpolation", std::string("LINEAR"));
+  result.input = sampler.value("input", -1);
+  result.output = sampler.value("output", -1);
+  return result;
 }
 
 }  // namespace
+
+std::vector<Animation> takeAnimations(json& root) {
+  std::vector<Animation> animations;
+  for (const json& animation : root["animations"]) {
+    const std::string place = pointerTo("animations", animations.size());
+    Animation result{animation.value("name", std::string()), {}};
+    const json& channels = animation["channels"];
+    for (size_t i = 0; i < channels.size(); ++i) {
+      result.channels.push_back(
+          channelOf(channels[i], animation["samplers"], place, place + "/channels/" + std::to_string(i)));
+    }
+    animations.push_back(std::move(result));
+  }
+  root.erase("animations");
+  return animations;
+}
+
+std::optional<double> durationOf(const json& animation, const json& accessors) {
+  std::optional<double> duration;
+  for (const json& sampler : animation["samplers"]) {
+    if (!sampler.contains("input")) continue;  // it is lost
+    const json& times = accessors[sampler["input"].get<size_t>()];
+    if (!times.contains("max") || times["max"].empty() || !times["max"][0].is_number()) return std::nullopt;
+    duration = std::max(duration.value_or(0.0), times["max"][0].get<double>());
+  }
+  return duration;
+}
 
 std::vector<double> valuesAt(const Keyframes& keys, double seconds) {
   const auto next = std::upper_bound(keys.times.begin(), keys.times.end(), seconds);
@@ -299,20 +350,18 @@ std::vector<double> valuesWhileOpen(const Keyframes& keys, double seconds, const
   return mirroredAt(keys, valuesAt(piece, at), valuesAt(piece, 2.0 * at - seconds));
 }
 
-bool drivesNodesAlone(const Animation& animation, const json& root) {
-  return std::ranges::all_of(animation.channels, [&](const Channel& channel) {
-    tinygltf::Node none;
-    const std::optional<NodeMember> driven = nodeMemberAt(channel.target);
-    return driven && numbersOfNode(none, driven->member) != nullptr &&
-           !elementOf(root, "nodes", json(driven->node)).contains("matrix");
-  });
+bool isMemberOfNode(const std::string& pointer, const json& root) {
+  tinygltf::Node none;
+  const std::optional<NodeMember> driven = nodeMemberAt(pointer);
+  return driven && numbersOfNode(none, driven->member) != nullptr &&
+         !elementOf(root, "nodes", json(driven->node)).contains("matrix");
 }
 
 void applyAnimation(Document& document, const Animation& animation, double seconds,
-                    const std::optional<OpenShutter>& shutter, const json& root, json* changed) {
+                    const std::optional<OpenShutter>& shutter, bool inModel) {
   for (const Channel& channel : animation.channels) {
     document.diagnostics.keepRest("the channel", [&] {
-      applyChannel(document, channel, seconds, shutter, changed != nullptr ? *changed : root, changed);
+      applyChannel(document, channel, seconds, shutter, inModel);
       return true;
     });
   }

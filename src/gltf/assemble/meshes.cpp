@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "gltf/build/meshes.h"
+#include "gltf/assemble/meshes.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <utility>
 
-#include "base/vectors.h"
 #include "bvh/bvh.h"
-#include "gltf/build/nodes.h"
 #include "scene/strokes.h"
 #include "scene/tangents.h"
 
@@ -159,6 +155,27 @@ void forEachCorner(const MeshPrimitive& primitive, const Use& use) {
   }
 }
 
+/// Bounds of all triangles, points and lines of a mesh in its own space; vertices that none uses do not
+/// count.
+BoundsDouble boundsOf(const std::vector<MeshPrimitive>& mesh) {
+  Bounds box;
+  for (const MeshPrimitive& primitive : mesh)
+    forEachCorner(primitive, [&](uint32_t vertex) { box.include(primitive.vertices.position[vertex]); });
+  return {glm::dvec3(box.minimum), glm::dvec3(box.maximum)};
+}
+
+/// A box round what is in that box.
+BoundsDouble transformed(const BoundsDouble& box, const glm::dmat4& matrix) {
+  BoundsDouble result;
+  for (unsigned i = 0; i < 8; ++i) {
+    const glm::dvec3 corner((i & 1u) != 0 ? box.maximum.x : box.minimum.x,
+                            (i & 2u) != 0 ? box.maximum.y : box.minimum.y,
+                            (i & 4u) != 0 ? box.maximum.z : box.minimum.z);
+    result.include(glm::dvec3(matrix * glm::dvec4(corner, 1.0)));
+  }
+  return result;
+}
+
 /// Appends an instance's strokes, but none if it is scaled to a single point: files hide things in this way.
 void appendStrokes(const PrimitiveInstance& instance, uint32_t firstVertex, Scene& scene) {
   if (instance.joints.empty() && glm::dmat3(instance.world) == glm::dmat3(0.0)) return;
@@ -229,67 +246,6 @@ void appendShared(const MeshToShare& shared, Scene& scene) {
     scene.instances.push_back({toLocal, mesh, place.node, place.nodeIndex});
   }
 }
-
-}  // namespace
-
-BoundsDouble boundsOf(const std::vector<MeshPrimitive>& mesh) {
-  Bounds box;
-  for (const MeshPrimitive& primitive : mesh)
-    forEachCorner(primitive, [&](uint32_t vertex) { box.include(primitive.vertices.position[vertex]); });
-  return {glm::dvec3(box.minimum), glm::dvec3(box.maximum)};
-}
-
-BoundsDouble transformed(const BoundsDouble& box, const glm::dmat4& matrix) {
-  BoundsDouble result;
-  for (unsigned i = 0; i < 8; ++i) {
-    const glm::dvec3 corner((i & 1u) != 0 ? box.maximum.x : box.minimum.x,
-                            (i & 2u) != 0 ? box.maximum.y : box.minimum.y,
-                            (i & 4u) != 0 ? box.maximum.z : box.minimum.z);
-    result.include(glm::dvec3(matrix * glm::dvec4(corner, 1.0)));
-  }
-  return result;
-}
-
-BoundsDouble boundsOf(std::span<const PrimitiveInstance> instances, std::span<const MeshToShare> shared) {
-  BoundsDouble bounds;
-  for (const PrimitiveInstance& instance : instances) {
-    MeshPlacement placement(instance);
-    forEachCorner(*instance.primitive, [&](uint32_t vertex) {
-      bounds.include(placement.of(vertex).positionOf(instance.primitive->vertices.position[vertex]));
-    });
-  }
-  for (const MeshToShare& mesh : shared) {
-    std::vector<glm::vec3> points;
-    for (const MeshPrimitive& primitive : *mesh.mesh) appendUsed(primitive, points);
-    BoundsDouble box;
-    for (const glm::vec3& point : points) box.include(glm::dvec3(point));
-    for (const MeshToShare::Place& place : mesh.places) {
-      const Transform transform(place.world);
-      // Most instances lie between others; only the outer ones are looked at closely.
-      if (contains(bounds, transformed(box, place.world))) continue;
-      for (const glm::vec3& point : points) bounds.include(transform.positionOf(point));
-    }
-  }
-  return bounds;
-}
-
-void flatten(std::span<const PrimitiveInstance> instances, std::span<const MeshToShare> shared,
-             Scene& scene) {
-  std::vector<const MeshPrimitive*> primitives;
-  primitives.reserve(instances.size());
-  for (const PrimitiveInstance& instance : instances) primitives.push_back(instance.primitive);
-  size_t places = 0;
-  for (const MeshToShare& mesh : shared) {
-    for (const MeshPrimitive& primitive : *mesh.mesh) primitives.push_back(&primitive);
-    places += mesh.places.size();
-  }
-  reserveAll(primitives, scene);
-  for (const PrimitiveInstance& instance : instances) appendPrimitive(instance, scene.space, scene);
-  scene.instances.reserve(places);
-  for (const MeshToShare& mesh : shared) appendShared(mesh, scene);
-}
-
-namespace {
 
 // The scene's own copy, the tree over it, and what is packed for the device, which are not all there at once.
 constexpr uint64_t kBytesOfAVertex = 100;
@@ -394,6 +350,45 @@ std::string megabytes(uint64_t bytes) { return std::to_string((bytes + 500000) /
 
 }  // namespace
 
+BoundsDouble boundsOf(std::span<const PrimitiveInstance> instances, std::span<const MeshToShare> shared) {
+  BoundsDouble bounds;
+  for (const PrimitiveInstance& instance : instances) {
+    MeshPlacement placement(instance);
+    forEachCorner(*instance.primitive, [&](uint32_t vertex) {
+      bounds.include(placement.of(vertex).positionOf(instance.primitive->vertices.position[vertex]));
+    });
+  }
+  for (const MeshToShare& mesh : shared) {
+    std::vector<glm::vec3> points;
+    for (const MeshPrimitive& primitive : *mesh.mesh) appendUsed(primitive, points);
+    BoundsDouble box;
+    for (const glm::vec3& point : points) box.include(glm::dvec3(point));
+    for (const MeshToShare::Place& place : mesh.places) {
+      const Transform transform(place.world);
+      // Most instances lie between others; only the outer ones are looked at closely.
+      if (contains(bounds, transformed(box, place.world))) continue;
+      for (const glm::vec3& point : points) bounds.include(transform.positionOf(point));
+    }
+  }
+  return bounds;
+}
+
+void flatten(std::span<const PrimitiveInstance> instances, std::span<const MeshToShare> shared,
+             Scene& scene) {
+  std::vector<const MeshPrimitive*> primitives;
+  primitives.reserve(instances.size());
+  for (const PrimitiveInstance& instance : instances) primitives.push_back(instance.primitive);
+  size_t places = 0;
+  for (const MeshToShare& mesh : shared) {
+    for (const MeshPrimitive& primitive : *mesh.mesh) primitives.push_back(&primitive);
+    places += mesh.places.size();
+  }
+  reserveAll(primitives, scene);
+  for (const PrimitiveInstance& instance : instances) appendPrimitive(instance, scene.space, scene);
+  scene.instances.reserve(places);
+  for (const MeshToShare& mesh : shared) appendShared(mesh, scene);
+}
+
 bool paysToShare(const SharingCost& cost, uint64_t limit) {
   constexpr uint64_t kSmall = uint64_t(64) << 20;
   return cost.flat > kSmall && cost.shared < cost.flat && (cost.flat / 2 > cost.shared || cost.flat > limit);
@@ -429,7 +424,7 @@ PlacedMeshes chooseSharing(std::vector<PrimitiveInstance> instances, Instancing 
   }
 
   // Step: the choice for all of them.
-  const std::string amounts = megabytes(cost.shared) + " in place of " + megabytes(cost.flat);
+  const std::string amounts = megabytes(cost.shared) + " instead of " + megabytes(cost.flat);
   bool isShared = false;
   if (wanted == Instancing::Flatten) {
     placed.reason = "--instancing flatten";

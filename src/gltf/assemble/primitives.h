@@ -3,32 +3,15 @@
 
 #include <compare>
 #include <cstdint>
-#include <optional>
-#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
 
-#include "gltf/build/nodes.h"
+#include "gltf/assemble/nodes.h"
 #include "gltf/read/document.h"
 #include "scene/scene.h"
 
 namespace fragtrace {
-
-// Lists, strips, fans and loops of triangles, lines and points, all made into lists.
-
-enum class Topology { List, Strip, Fan };
-
-/// The topology of a glTF primitive mode that has triangles.
-std::optional<Topology> topologyOf(int mode);
-
-/// Pairs of line ends, or each point twice, of the other modes; what is left over of a list, or too short for
-/// a line, is dropped.
-std::vector<glm::uvec2> strokesOf(int mode, std::span<const uint32_t> indices);
-
-/// Triangles in the order and with the winding that the specification gives them; what is left over of a
-/// list, or too short for a triangle, is dropped.
-std::vector<glm::uvec3> trianglesOf(Topology topology, std::span<const uint32_t> indices);
 
 // Skins: how joints bend a mesh (glTF 2.0, section 3.7.3).
 
@@ -43,11 +26,6 @@ struct Influence {
 /// that are not in the scene. Throws InputError for joints that are not, and for matrices that are missing.
 std::vector<glm::dmat4> jointMatrices(Document& document, int node,
                                       const std::vector<const PlacedNode*>& nodes);
-
-/// The influences of a primitive's vertices, equally many each, whose weights add up to 1; none if it has no
-/// joints. Throws InputError for joints that are not among jointCount.
-std::vector<Influence> readInfluences(Document& document, const tinygltf::Primitive& primitive,
-                                      size_t jointCount, const std::string& place);
 
 /// A mesh primitive as a list of triangles, or of points and lines, in the mesh's own space. An attribute
 /// that the material does not need, or that is not given, is empty; all others have one entry a vertex.
