@@ -177,10 +177,16 @@ class Viewer:
 
     def click(self, name):
         """Clicks the middle of the place with that name in the status file."""
-        place = self.until(lambda s: s.get("places", {}).get(name), f"a place of {name}")["places"][name]
-        place = [round(place[0] + place[2] / 2), round(place[1] + place[3] / 2)]
-        self.at(*place)
-        self.until(lambda s: s["mouse"] == place, "the mouse")
+        def middle(status):
+            place = status.get("places", {}).get(name)
+            return place and [round(place[0] + place[2] / 2), round(place[1] + place[3] / 2)]
+        place = middle(self.until(middle, f"a place of {name}"))
+        while True:
+            self.at(*place)
+            found = middle(self.until(lambda s: s["mouse"] == place and middle(s), f"the mouse at {name}"))
+            if found == place:
+                break
+            place = found  # it moved until it had its size
         self.xdotool("click", 1)
 
     def drag(self, start, end, button=1, steps=8):
