@@ -44,10 +44,8 @@ Path extend(Path p) {
 /// Traces the path's ray, or its shadow ray, as far as the budget lets it.
 Path traced(Path p, bool connects, int budget, TreeFrame tree) {
   if (kTestsAlpha) p = withChances(p);
-  vec3 origin = connects ? p.connection.origin : p.ray.origin;
-  vec3 direction = connects ? p.connection.direction : p.ray.direction;
   float limit = connects ? p.connection.limit : kFarAway;
-  p.traversal = traverse(origin, direction, limit, p.traversal, tree, budget, connects);
+  p.traversal = traverse(p.ray.origin, p.ray.direction, limit, p.traversal, tree, budget, connects);
   return p;
 }
 
@@ -104,7 +102,9 @@ Path connectTraced(Path p) {
   if (!isDone(p.traversal)) return p;
   p.rays += 1;
   countShadowRay();
-  return connect(p);
+  p = connect(swapRays(p));
+  if (p.phase == kPhaseConnect) p = swapRays(p);
+  return p;
 }
 
 /// One round of a path. A traversal that the budget ends leaves it in its phase.
@@ -129,6 +129,7 @@ Path advance(Path p, int budget, TreeFrame tree) {
   if (kGpu && connects) p = connectTraced(p);
   if (p.phase == kPhaseMeet) {
     p = meet(p);
+    if (kShadows && p.phase == kPhaseConnect) p = swapRays(p);
     p.traversal.steps += kCandidateIterations / 3;  // a step is three
   }
   if (!kGpu && kShadows && p.phase == kPhaseConnect) p = connectTraced(traced(p, true, budget, tree));
