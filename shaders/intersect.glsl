@@ -11,8 +11,8 @@ struct RayShear {
 };
 
 vec3 rotateToAxis(vec3 v, int axis) {
-  return vec3(axis == 0 ? v.y : (axis == 1 ? v.z : v.x), axis == 0 ? v.z : (axis == 1 ? v.x : v.y),
-              axis == 0 ? v.x : (axis == 1 ? v.y : v.z));
+  vec3 other = mix(v, vec3(v.z, v.x, v.y), bvec3(axis == 1));
+  return mix(other, vec3(v.y, v.z, v.x), bvec3(axis == 0));
 }
 
 RayShear makeShear(vec3 direction) {

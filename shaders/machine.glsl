@@ -44,8 +44,11 @@ Path extend(Path p) {
 /// Traces the path's ray, or its shadow ray, as far as the budget lets it.
 Path traced(Path p, bool connects, int budget, TreeFrame tree) {
   if (kTestsAlpha) p = withChances(p);
+  bool apart = connects && !kGpu;
+  vec3 origin = apart ? p.connection.origin : p.ray.origin;
+  vec3 direction = apart ? p.connection.direction : p.ray.direction;
   float limit = connects ? p.connection.limit : kFarAway;
-  p.traversal = traverse(p.ray.origin, p.ray.direction, limit, p.traversal, tree, budget, connects);
+  p.traversal = traverse(origin, direction, limit, p.traversal, tree, budget, connects);
   return p;
 }
 
@@ -102,8 +105,9 @@ Path connectTraced(Path p) {
   if (!isDone(p.traversal)) return p;
   p.rays += 1;
   countShadowRay();
-  p = connect(swapRays(p));
-  if (p.phase == kPhaseConnect) p = swapRays(p);
+  if (kGpu) p = swapRays(p);
+  p = connect(p);
+  if (kGpu && p.phase == kPhaseConnect) p = swapRays(p);
   return p;
 }
 
@@ -129,7 +133,7 @@ Path advance(Path p, int budget, TreeFrame tree) {
   if (kGpu && connects) p = connectTraced(p);
   if (p.phase == kPhaseMeet) {
     p = meet(p);
-    if (kShadows && p.phase == kPhaseConnect) p = swapRays(p);
+    if (kGpu && kShadows && p.phase == kPhaseConnect) p = swapRays(p);
     p.traversal.steps += kCandidateIterations / 3;  // a step is three
   }
   if (!kGpu && kShadows && p.phase == kPhaseConnect) p = connectTraced(traced(p, true, budget, tree));

@@ -17,8 +17,8 @@ Path beginTraversal(Path p, float limit) {
   return p;
 }
 
-/// Exchanges the path's ray and its shadow ray: what is traced lies in p.ray, and the other one waits. A choice between
-/// both in each round takes 8 registers and more on GPUs.
+/// Exchanges the path's ray and its shadow ray (kGpu): there what is traced lies in p.ray, and the other one waits. A
+/// choice between both in each round takes 8 registers and more.
 Path swapRays(Path p) {
   vec3 origin = p.ray.origin;
   vec3 direction = p.ray.direction;
@@ -85,7 +85,10 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int earlier, int steps) 
     vec2 jitter = drawPair(sampler, kCameraDimensions);
     // A coarse picture's first sample is in the middle: edges with chance would be ragged.
     bool middle = frame.firstInMiddle > 0.0 && sampleIndex == uint(frame.firstSample);
-    if (!middle) place += samplePixelFilter(kPixelFilter, jitter.x, jitter.y);
+    // The text of the other filters is left out with the branch.
+    vec2 offset = jitter - 0.5;
+    if (kPixelFilter != kBoxFilter) offset = samplePixelFilter(kPixelFilter, jitter.x, jitter.y);
+    if (!middle) place += offset;
   }
   vec2 point = place / vec2(frame.pictureSize) * 2.0 - 1.0;
   if (kLensShift) point += frame.lensShift;

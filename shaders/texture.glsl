@@ -5,15 +5,15 @@
 #include "texels.glsl"
 #include "cones/level.glsl"
 
-/// Brings a texel coordinate from -1 to twice the size into 0..size-1 by repeating, clamping or mirroring. It does not
+/// Brings a texel's place from -1 to twice the size into 0..size-1 by repeating, clamping or mirroring. It does not
 /// divide, because llvmpipe divides integers lane by lane.
-int wrapTexel(int x, int size, bool clamped, bool mirrored) {
-  int period = mirrored ? 2 * size : size;
-  int m = x < 0 ? x + period : x;
-  m = m >= period ? m - period : m;
-  m = m >= period ? m - period : m;
-  m = m >= size ? period - 1 - m : m;
-  return clamped ? clamp(x, 0, size - 1) : m;
+ivec2 wrapTexel(ivec2 place, ivec2 size, bvec2 clamped, bvec2 mirrored) {
+  ivec2 period = mix(size, 2 * size, mirrored);
+  ivec2 m = mix(place, place + period, lessThan(place, ivec2(0)));
+  m = mix(m, m - period, greaterThanEqual(m, period));
+  m = mix(m, m - period, greaterThanEqual(m, period));
+  m = mix(m, period - 1 - m, greaterThanEqual(m, size));
+  return mix(m, clamp(place, ivec2(0), size - 1), clamped);
 }
 
 /// Samples the texture of a slot row (layout.glsl), whose colours are encoded by sRGB or linear. A slot without a
@@ -21,7 +21,7 @@ int wrapTexel(int x, int size, bool clamped, bool mirrored) {
 vec4 sampleTexture(uvec4 slot, vec4 texcoords, bool srgb) {
   uint flags = slot.z;
   if ((flags & kTexturePresent) == 0u) return vec4(1.0);
-  vec2 uv = (flags & kTextureTexcoord1) != 0u ? texcoords.zw : texcoords.xy;
+  vec2 uv = mix(texcoords.xy, texcoords.zw, bvec2((flags & kTextureTexcoord1) != 0u));
   if (kTextureTransforms && slot.w != 0u) {
     vec3 place = vec3(clamp(uv, -1e30, 1e30), 1.0);
     int row = int(slot.w);
@@ -31,21 +31,16 @@ vec4 sampleTexture(uvec4 slot, vec4 texcoords, bool srgb) {
   if (kRayCones) slot = slotOfLevel(slot);
   ivec2 size = ivec2(slot.y & 0xffffu, slot.y >> 16);
   bool linear = (flags & kTextureLinear) != 0u;
-  bool clampU = (flags & kTextureClampU) != 0u;
-  bool clampV = (flags & kTextureClampV) != 0u;
-  bool mirrorU = (flags & kTextureMirrorU) != 0u;
-  bool mirrorV = (flags & kTextureMirrorV) != 0u;
+  bvec2 clamped = notEqual(uvec2(flags) & uvec2(kTextureClampU, kTextureClampV), uvec2(0u));
+  bvec2 mirrored = notEqual(uvec2(flags) & uvec2(kTextureMirrorU, kTextureMirrorV), uvec2(0u));
   // Whole periods are subtracted first, so that far coordinates keep their digits and fit an int.
-  uv.x = clampU ? clamp(uv.x, -1.0, 2.0) : uv.x - 2.0 * floor(0.5 * uv.x);
-  uv.y = clampV ? clamp(uv.y, -1.0, 2.0) : uv.y - 2.0 * floor(0.5 * uv.y);
-  vec2 position = uv * vec2(size) - (linear ? 0.5 : 0.0);
+  uv = mix(uv - 2.0 * floor(0.5 * uv), clamp(uv, -1.0, 2.0), clamped);
+  vec2 position = uv * vec2(size) - mix(0.0, 0.5, linear);
   vec2 base = floor(position);
-  vec2 f = linear ? position - base : vec2(0.0);
-  int x0 = wrapTexel(int(base.x), size.x, clampU, mirrorU);
-  int x1 = linear ? wrapTexel(int(base.x) + 1, size.x, clampU, mirrorU) : x0;
-  int y0 = wrapTexel(int(base.y), size.y, clampV, mirrorV);
-  int y1 = linear ? wrapTexel(int(base.y) + 1, size.y, clampV, mirrorV) : y0;
-  vec4 top = mix(readTexel(slot, ivec2(x0, y0), srgb), readTexel(slot, ivec2(x1, y0), srgb), f.x);
-  vec4 bottom = mix(readTexel(slot, ivec2(x0, y1), srgb), readTexel(slot, ivec2(x1, y1), srgb), f.x);
+  vec2 f = mix(vec2(0.0), position - base, bvec2(linear));
+  ivec2 low = wrapTexel(ivec2(base), size, clamped, mirrored);
+  ivec2 high = mix(low, wrapTexel(ivec2(base) + 1, size, clamped, mirrored), bvec2(linear));
+  vec4 top = mix(readTexel(slot, low, srgb), readTexel(slot, ivec2(high.x, low.y), srgb), f.x);
+  vec4 bottom = mix(readTexel(slot, ivec2(low.x, high.y), srgb), readTexel(slot, high, srgb), f.x);
   return mix(top, bottom, f.y);
 }

@@ -29,24 +29,24 @@ Traversal stepNode(Traversal s, TreeRay ray, float rayLimit, TreeFrame tree, boo
   vec4 far = slabMin(slabMin(n.farX * scale.x + to.x, n.farY * scale.y + to.y),
                      slabMin(n.farZ * scale.z + to.z, vec4(limit)));
   bvec4 hit = slabHits(near, far);
-  uint hits = (hit.x ? kFirstChild : 0u) | (hit.y ? kFirstChild << 1 : 0u) | (hit.z ? kFirstChild << 2 : 0u) |
-              (hit.w ? kFirstChild << 3 : 0u) | kBaseMask;
+  uvec4 bits = mix(uvec4(0u), uvec4(kFirstChild, kFirstChild << 1, kFirstChild << 2, kFirstChild << 3), hit);
+  uint hits = bits.x | bits.y | bits.z | bits.w | kBaseMask;
   uint inner = n.inner & hits;
   // Step: the nearest inner child. Its number replaces the last two bits of its distance.
   ivec4 order = slabOrder(near);
-  int first = (inner & kFirstChild) != 0u ? order.x & -4 : 0x7fffffff;
-  first = (inner & kFirstChild << 1) != 0u ? min(first, (order.y & -4) | 1) : first;
-  first = (inner & kFirstChild << 2) != 0u ? min(first, (order.z & -4) | 2) : first;
-  first = (inner & kFirstChild << 3) != 0u ? min(first, (order.w & -4) | 3) : first;
+  int first = mix(0x7fffffff, order.x & -4, (inner & kFirstChild) != 0u);
+  first = mix(first, min(first, (order.y & -4) | 1), (inner & kFirstChild << 1) != 0u);
+  first = mix(first, min(first, (order.z & -4) | 2), (inner & kFirstChild << 2) != 0u);
+  first = mix(first, min(first, (order.w & -4) | 3), (inner & kFirstChild << 3) != 0u);
   // Step: the next node. A group that waits goes onto the stack, or comes from it.
   bool found = inner >= kFirstChild;
   bool left = s.group >= kFirstChild;
   uint group = found ? inner : (left ? s.group : topOf(s.stack));
   s.stack = stepStack(s.stack, there && found && left, there && !found && !left, s.group);
-  int child = found && kFrontToBack ? first & 3 : firstOf(group);
-  s.node = there ? baseOf(group) + child : s.node;
-  s.group = there ? group ^ kFirstChild << child : s.group;
-  s.leaves = there ? n.leaves & hits : s.leaves;
+  int child = mix(firstOf(group), first & 3, found && kFrontToBack);
+  s.node = mix(s.node, baseOf(group) + child, there);
+  s.group = mix(s.group, group ^ kFirstChild << child, there);
+  s.leaves = mix(s.leaves, n.leaves & hits, there);
   return s;
 }
 

@@ -28,12 +28,12 @@ WideNode loadNode(int index, vec3 inverse) {
   WideNode n;
   n.origin = uintBitsToFloat(uvec3(a));
   n.cell = powersOf(a.w);
-  n.nearX = bytesOf(backX ? b.y : b.x);
-  n.farX = bytesOf(backX ? b.x : b.y);
-  n.nearY = bytesOf(backY ? b.w : b.z);
-  n.farY = bytesOf(backY ? b.z : b.w);
-  n.nearZ = bytesOf(backZ ? c.y : c.x);
-  n.farZ = bytesOf(backZ ? c.x : c.y);
+  n.nearX = bytesOf(mix(b.x, b.y, backX));
+  n.farX = bytesOf(mix(b.y, b.x, backX));
+  n.nearY = bytesOf(mix(b.z, b.w, backY));
+  n.farY = bytesOf(mix(b.w, b.z, backY));
+  n.nearZ = bytesOf(mix(c.x, c.y, backZ));
+  n.farZ = bytesOf(mix(c.y, c.x, backZ));
   n.inner = c.z;
   n.leaves = c.w;
   return n;

@@ -18,7 +18,7 @@ Path connected(Path p) {
 }
 
 /// Returns true if the sample of a finished path has more camera rays.
-bool hasMoreRays(Path p) { return isShort(earlierRays(p)); }
+bool hasMoreRays(Path p) { return kCameraRays > 1 && isShort(earlierRays(p)); }
 
 /// The next camera ray of a finished path's sample.
 Path nextRay(Path p, ivec2 pixel, uint samples) {

@@ -169,7 +169,9 @@ bool hasMoreRays(Path p) { return fromLight.waiting > 0.0; }
 Path nextRay(Path p, ivec2 pixel, uint samples) {
   p.connection.light *= fromLight.waiting;
   fromLight.waiting = -1.0;
-  return swapRays(traceSplat(p));
+  p = traceSplat(p);
+  if (kGpu) p = swapRays(p);
+  return p;
 }
 
 /// Returns true if rays do not see the back of the surface.

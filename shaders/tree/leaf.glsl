@@ -49,7 +49,7 @@ PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear sh
       vec4 plane = kMoving ? planeThrough(v0, v1, v2) : planeOf(slot);
       h.t = distanceToPlane(origin, direction, shear, v0, v1, v2, vec3(plane), plane.w, h.t);
     }
-    r.t = h.hit && (h.front || hasBack(s, word)) ? h.t : -1.0f;
+    r.t = mix(-1.0f, h.t, h.hit && (h.front || hasBack(s, word)));
     if (kCoincident && s.extends && r.t > 0.0f) r.t = beforeCoincident(r.t, h.front, word);
     if (kCreases) r.t -= r.t * (h.front ? s.tie : -s.tie);
     if (kWeights) r.weights = vec2(h.weight1, h.weight2);
@@ -58,7 +58,7 @@ PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear sh
     float tMin = isOrdered() ? s.tMin : 0.0f;
     float t = intersectSphere(origin, direction, v0, v1.x, hasBack(s, word), tMin, isOrdered() && slot > s.tMinSlot);
     bool isSphere = (word & kPrimitiveSphere) != 0u && word != kPrimitiveNone;
-    r.t = isSphere ? t : r.t;
+    r.t = mix(r.t, t, isSphere);
   }
   return r;
 }
@@ -78,13 +78,13 @@ Traversal intersectLeaf(Traversal s, int leaf, vec3 origin, vec3 direction, RayS
   bool passesa = (l.worda & kPrimitivePasses) != 0u;
   bool passesb = (l.wordb & kPrimitivePasses) != 0u;
   bool stops = isStopped(s) || (hita && !passesa) || (metb && !passesb);
-  s.t = hita ? a.t : s.t;
-  s.slot = hita ? 2 * leaf : s.slot;
-  if (kWeights) s.weights = hita ? a.weights : s.weights;
+  s.t = mix(s.t, a.t, hita);
+  s.slot = mix(s.slot, 2 * leaf, hita);
+  if (kWeights) s.weights = mix(s.weights, a.weights, bvec2(hita));
   bool hitb = isNearer(s, b.t, 2 * leaf + 1);
-  s.t = hitb ? b.t : s.t;
-  s.slot = hitb ? 2 * leaf + 1 : s.slot;
-  if (kWeights) s.weights = hitb ? b.weights : s.weights;
+  s.t = mix(s.t, b.t, hitb);
+  s.slot = mix(s.slot, 2 * leaf + 1, hitb);
+  if (kWeights) s.weights = mix(s.weights, b.weights, bvec2(hitb));
   if (kTestsAlpha) {
     bool spheres = kSpheres && ((l.worda | l.wordb) & kPrimitiveSphere) != 0u;
     s.tested = (hita || hitb) && (hitb ? passesb : passesa);

@@ -3,7 +3,8 @@
 
 /// A direction component that is safe to divide by: |d| is at least 2^-60, far below what 24 bits of it can show.
 float awayFromZero(float d) {
-  return abs(d) < 8.6736173798840355e-19f ? (d < 0.0f ? -8.6736173798840355e-19f : 8.6736173798840355e-19f) : d;
+  float least = mix(8.6736173798840355e-19f, -8.6736173798840355e-19f, d < 0.0f);
+  return mix(d, least, abs(d) < 8.6736173798840355e-19f);
 }
 
 /// A ray in the space of an instance's mesh, of which no part lies before its origin. direction is as long as makes

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <span>
@@ -99,7 +100,8 @@ std::string readableTextOf(std::string_view text, const std::vector<Token>& toke
   return left + '\n';
 }
 
-/// The values of `const bool`, `const int` and `const uint` at the top of a shader, as far as they are known.
+/// The values of `const bool`, `const int` and `const uint` at the top of a shader, and those that a bool function
+/// returns whatever its arguments, as far as they are known.
 using ShaderConstants = std::map<std::string_view, int>;
 
 using Tokens = std::span<const Token>;
@@ -119,6 +121,10 @@ size_t findOutside(Tokens tokens, std::string_view wanted) {
 /// One pair of brackets encloses all tokens.
 bool isInBrackets(Tokens tokens) {
   return !tokens.empty() && tokens[0].text == "(" && findOutside(tokens, ")") == tokens.size() - 1;
+}
+
+bool isCall(Tokens tokens) {
+  return tokens.size() > 2 && isName(tokens[0]) && isInBrackets(tokens.subspan(1));
 }
 
 std::optional<int> numberOf(const Token& token, const ShaderConstants& constants) {
@@ -166,11 +172,13 @@ std::optional<bool> conditionValue(Tokens condition, const ShaderConstants& cons
   }
   const std::string_view first = condition[0].text;
   const Tokens rest = condition.subspan(1);
-  if (first == "!" && (rest.size() == 1 || isInBrackets(rest))) {
+  if (first == "!" && (rest.size() == 1 || isInBrackets(rest) || isCall(rest))) {
     const auto value = conditionValue(rest, constants);
     return value ? std::optional(!*value) : std::nullopt;
   }
   if (isInBrackets(condition)) return conditionValue(rest.first(rest.size() - 1), constants);
+  if (isCall(condition) && constants.contains(first) && !mayAct(rest.subspan(1)))
+    return constants.at(first) != 0;
   if (condition.size() == 1) {
     const auto value = numberOf(condition[0], constants);
     return value ? std::optional(*value != 0) : std::nullopt;
@@ -210,14 +218,15 @@ struct TokenRange {
 
 class Settler {
  public:
-  Settler(std::vector<Token>& tokens, const ShaderConstants& constants)
-      : tokens_(tokens), constants_(constants) {}
+  Settler(std::vector<Token>& tokens, ShaderConstants constants)
+      : tokens_(tokens), constants_(std::move(constants)) {}
 
   void settle() {
     std::vector<size_t> blocks;  // braces round the token at hand
     for (size_t i = 0; i < tokens_.size(); ++i) {
       if (is(i, "{")) blocks.push_back(i);
       if (is(i, "}") && !blocks.empty()) blocks.pop_back();
+      if (is(i, "}") && blocks.empty()) keepResult(tokens_[i].partner);
       if (is(i, "if") || is(i, "while"))
         settleBranch(i, blocks.empty() ? kNowhere : tokens_[blocks.back()].partner);
       if (is(i, "?")) settleChoice(i);
@@ -232,6 +241,20 @@ class Settler {
 
   void drop(TokenRange range) {
     for (size_t i = range.first; i < range.last; ++i) tokens_[i].live = false;
+  }
+
+  /// Keeps what the function whose body begins there returns, if that is known. It comes before its callers.
+  void keepResult(size_t body) {
+    if (body < 4 || !is(body - 1, ")")) return;
+    const size_t name = tokens_[body - 1].partner - 1;
+    std::vector<Token> left;
+    std::ranges::copy_if(std::span(tokens_).subspan(body + 1, tokens_[body].partner - body - 1),
+                         std::back_inserter(left), &Token::live);
+    const Tokens words(left);
+    const bool returns = words.size() > 2 && words[0].text == "return" &&
+                         findOutside(words, ";") == words.size() - 1 && is(name - 1, "bool");
+    const auto value = returns ? conditionValue(words.subspan(1, words.size() - 2), constants_) : std::nullopt;
+    if (value) constants_.emplace(tokens_[name].text, *value);
   }
 
   std::optional<bool> valueOf(TokenRange range) const {
@@ -332,13 +355,11 @@ class Settler {
   }
 
   std::vector<Token>& tokens_;
-  const ShaderConstants& constants_;
+  ShaderConstants constants_;
 };
 
 /// Takes out the branches that are never taken, and the conditions of those that always are.
-void dropSettled(std::vector<Token>& tokens, const ShaderConstants& constants) {
-  Settler(tokens, constants).settle();
-}
+void dropSettled(std::vector<Token>& tokens) { Settler(tokens, constantsOf(tokens)).settle(); }
 
 using Names = std::unordered_set<std::string_view>;
 
@@ -412,7 +433,7 @@ std::string liveTextBy(std::string (*textOfTokens)(std::string_view, const std::
                        const std::string& text) {
   std::vector<Token> tokens = tokensOf(text);
   if (tokens.empty()) return text;
-  dropSettled(tokens, constantsOf(tokens));
+  dropSettled(tokens);
   dropUnused(tokens);
   return textOfTokens(text, tokens);
 }

@@ -17,7 +17,7 @@ std::string line(int i, const std::string& statement) {
 std::string pushLine(int i) {
   const std::string e = member(i);
   const std::string from = i == 0 ? "value" : member(i - 1) + ".w";
-  return line(i, e + " = push ? pushed(" + e + ", " + from + ") : " + e);
+  return line(i, e + " = mix(" + e + ", pushed(" + e + ", " + from + "), bvec4(push))");
 }
 
 std::string popLine(int i, int vectors) {
@@ -27,7 +27,7 @@ std::string popLine(int i, int vectors) {
     next = member(i + 1) + ".x";
     if (i > 0) next = "(kStackSize > " + std::to_string(4 * i + 4) + " ? " + next + " : kEndGroup)";
   }
-  return line(i, e + " = pop ? popped(" + e + ", " + next + ") : " + e);
+  return line(i, e + " = mix(" + e + ", popped(" + e + ", " + next + "), bvec4(pop))");
 }
 
 }  // namespace

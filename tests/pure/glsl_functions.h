@@ -5,6 +5,8 @@
 
 using uint = uint32_t;
 using glm::bitfieldReverse;
+using glm::bvec2;
+using glm::bvec3;
 using glm::bvec4;
 using glm::ivec2;
 using glm::ivec3;
@@ -29,6 +31,9 @@ inline float min(float a, float b) { return b < a ? b : a; }
 inline float max(float a, float b) { return a < b ? b : a; }
 inline float clamp(float x, float low, float high) { return min(max(x, low), high); }
 inline float mix(float a, float b, float t) { return a * (1 - t) + b * t; }
+inline float mix(float a, float b, bool second) { return second ? b : a; }
+inline int mix(int a, int b, bool second) { return second ? b : a; }
+inline uint mix(uint a, uint b, bool second) { return second ? b : a; }
 inline int min(int a, int b) { return b < a ? b : a; }
 inline int max(int a, int b) { return a < b ? b : a; }
 inline int clamp(int x, int low, int high) { return min(max(x, low), high); }

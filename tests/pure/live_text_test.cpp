@@ -59,6 +59,22 @@ TEST(LiveText, ConditionsOfSeveralParts) {
   EXPECT_EQ(mainOf("if (x && kOn) a();"), "if (x && kOn) a();");
 }
 
+TEST(LiveText, CallsOfFunctionsWhoseResultIsKnown) {
+  const std::string head =
+      "const bool kOff = false; int n; bool never(int a) { return kOff && a > n; } "
+      "bool maybe(int a) { return kOff || a > n; } bool acts(int a) { n = a; return kOff; } ";
+  const auto after = [&](const std::string& body) {
+    const std::string text = live(head + "void main() { " + body + " }");
+    return text.substr(text.find("main() {") + 9);
+  };
+  EXPECT_EQ(after("if (never(2)) a(); b();"), "b(); }");
+  EXPECT_EQ(after("if (!never(x)) a();"), "a(); }");
+  EXPECT_EQ(after("y = x && never(1) ? 1 : 2;"), "y = 2; }");
+  EXPECT_EQ(after("if (never(acts(1) ? 1 : 2)) a();"), "if (never(acts(1) ? 1 : 2)) a(); }");
+  EXPECT_EQ(after("if (maybe(2)) a();"), "if (maybe(2)) a(); }");
+  EXPECT_EQ(after("if (acts(2)) a();"), "if (acts(2)) a(); }");
+}
+
 TEST(LiveText, WhatMayActInAConditionStays) {
   for (const char* body :
        {"if (f(x) && kOff) a();", "if (x++ > 1 || kOn) a();", "if ((x = y) > 1 && kOff) a();"})
