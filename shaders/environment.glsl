@@ -111,10 +111,10 @@ float invertTable(int firstRow, uint count, uint bits) {
   bool afterFirst = place.within >= first;
   bool afterSecond = place.within >= second;
   // A change at 0 is no change: the step begins at its own place.
-  float begin = afterSecond ? second : afterFirst ? first : 0.0f;
-  float end = afterSecond ? 1.0f : afterFirst ? second : first;
-  float low = begin == 0.0f ? uintBitsToFloat(row.x) : afterSecond ? secondPlace : firstPlace;
-  float high = afterSecond ? uintBitsToFloat(row.y) : afterFirst ? secondPlace : firstPlace;
+  float begin = mix(mix(0.0f, first, afterFirst), second, afterSecond);
+  float end = mix(mix(first, second, afterFirst), 1.0f, afterSecond);
+  float low = mix(mix(firstPlace, secondPlace, afterSecond), uintBitsToFloat(row.x), begin == 0.0f);
+  float high = mix(mix(firstPlace, secondPlace, afterFirst), uintBitsToFloat(row.y), afterSecond);
   return mix(low, high, (place.within - begin) / (end - begin));
 }
 

@@ -159,8 +159,8 @@ vec3 offsetOrigin(vec3 point, float error, vec3 normal, vec3 direction) {
 /// The fraction of the way to a triangle's centroid, where the weight is `middle`, that raises the weight to
 /// times * 2^-code, or to a quarter if that is less. A code of 0 asks for nothing.
 float insetPart(float weight, float middle, uint code, float times) {
-  float least = code == 0u ? 0.0f : min(times * uintBitsToFloat((127u - code) << 23), 0.25f);
-  return weight < least ? (least - weight) / (middle - weight) : 0.0f;
+  float least = mix(min(times * uintBitsToFloat((127u - code) << 23), 0.25f), 0.0f, code == 0u);
+  return mix(0.0f, (least - weight) / (middle - weight), weight < least);
 }
 
 /// The factor of the insets of a point that a ray has reached at distance t, if its offset there is `error`, 2^-19 m:

@@ -44,10 +44,9 @@ vec2 unitCircle(float u) {
   float quarter = floor(4.0f * u + 0.5f);
   vec2 p = cosSinOctant(2.0f * kPi * (u - 0.25f * quarter));
   bool turned = quarter == 1.0f || quarter == 3.0f;
-  float c = turned ? -p.y : p.x;
-  float s = turned ? p.x : p.y;
+  vec2 q = mix(p, vec2(-p.y, p.x), bvec2(turned));
   bool opposite = quarter == 2.0f || quarter == 3.0f;
-  return opposite ? vec2(-c, -s) : vec2(c, s);
+  return mix(q, -q, bvec2(opposite));
 }
 
 /// A point of the unit disk, uniform by area (Shirley and Chiu, 1997: concentric map).
@@ -55,11 +54,11 @@ vec2 sampleDisk(float u, float v) {
   float x = 2.0f * u - 1.0f;
   float y = 2.0f * v - 1.0f;
   bool wide = abs(x) > abs(y);
-  float radius = wide ? x : y;
-  float ratio = radius == 0.0f ? 0.0f : (wide ? y / x : x / y);
+  float radius = mix(y, x, wide);
+  float ratio = mix(mix(x / y, y / x, wide), 0.0f, radius == 0.0f);
   // In the steep half, the angle is pi/2 minus this one.
   vec2 p = cosSinOctant(0.25f * kPi * ratio);
-  return wide ? vec2(radius * p.x, radius * p.y) : vec2(radius * p.y, radius * p.x);
+  return radius * mix(vec2(p.y, p.x), p, bvec2(wide));
 }
 
 /// A direction about +z with pdf cos(theta) / pi (Malley's method).

@@ -22,9 +22,9 @@ vec3 channelChances(vec3 throughput) {
 float flightDistance(Medium m, vec3 chances, float u) {
   bool red = u < chances.x;
   bool green = !red && u < chances.x + chances.y;
-  float first = red ? 0.0f : green ? chances.x : chances.x + chances.y;
-  float chance = red ? chances.x : green ? chances.y : chances.z;
-  float extinction = red ? m.extinction.x : green ? m.extinction.y : m.extinction.z;
+  float first = mix(mix(chances.x + chances.y, chances.x, green), 0.0f, red);
+  float chance = mix(mix(chances.z, chances.y, green), chances.x, red);
+  float extinction = mix(mix(m.extinction.z, m.extinction.y, green), m.extinction.x, red);
   float rest = 1.0f - clamp((u - first) / max(chance, float(1e-12)), 0.0f, float(0.99999994));
   return extinction > 0.0f ? -log(rest) / extinction : kFarAway;
 }
