@@ -21,7 +21,8 @@ bool keepsTree(const RenderOptions& options, const Scene& scene) {
 
 /// Opens a context for `paths` camera paths in all. Throws ContextError.
 void openContext(const RenderOptions& options, double paths, Device& device, Statistics& stats) {
-  const bool quick = preferQuickCompilation(paths);
+  // Paths of global illumination have about twice the rays.
+  const bool quick = preferQuickCompilation(has(options.stages, Stage::Gi) ? 2.0 * paths : paths);
   PhaseTimer timer("context");
   device.context = makeContext(options.device);
   device.driverLog.emplace();

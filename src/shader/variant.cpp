@@ -262,10 +262,10 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   v.traversal = named ? options.device.traversal : TraversalMethod::FrontToBack;
   if (v.traversal == TraversalMethod::Iterative) drop(v.traits, {Trait::Instances});
   v.stackSize = stackNeed <= kMaxBvhDepth ? int(kMaxBvhDepth) : int(kMaxTwoLevelDepth);
-  for (int size : {24, 20, 16, 12, 8}) {
+  for (int size : {24, 20, 16, 12, 8, 4}) {
     if (stackNeed <= uint32_t(size)) v.stackSize = size;
   }
-  if (v.traversal == TraversalMethod::Iterative) v.stackSize = 8;
+  if (v.traversal == TraversalMethod::Iterative) v.stackSize = 4;
 
   v.uniformLights = has(v.traits, Trait::LightTree) && options.light.selection == LightSelection::Uniform;
   const bool drawsLight = has(v.stages, Stage::Gi) && hasLight(v.traits);

@@ -440,6 +440,8 @@ class QuickCompilation(Case):
     def test_many_paths_are_not(self):
         self.assertFalse(self.picture(BOX, "--resolution", "513,512", "--spp", "1", "--stage", "flat")[1])
         self.assertTrue(self.picture(BOX, "--resolution", "512,512", "--spp", "1", "--stage", "flat")[1])
+        self.assertFalse(self.picture(BOX, "--resolution", "257,256", "--spp", "2")[1])
+        self.assertTrue(self.picture(BOX, "--resolution", "256,256", "--spp", "2")[1])
         self.assertFalse(self.picture(BOX, "--resolution", "8,8", "--time", "0.1", "--stage", "flat")[1])
 
 
