@@ -46,24 +46,18 @@ Renewal Session::renewalOf(const RenderOptions& options) const {
   return renewal;
 }
 
-void Session::load(const RenderOptions& options, Statistics& stats, Renewal renewal) {
+void Session::load(const RenderOptions& options, Statistics& stats) {
   SceneBefore before;
   if (pictures_ > 1.0) before.document = &document_;
-  Environment environment;
-  Volume volume;
-  if (renewal == Renewal::Pose && loaded_) {
-    if (loaded_->environment.kind == Surroundings::Map) {
-      environment = std::move(loaded_->environment);
-      before.environment = &environment;
-    }
-    volume = loaded_->scene.volume;
-    before.volume = &volume;
+  if (loaded_) {
+    before.environment = &loaded_->environment;
+    before.volume = &loaded_->scene.volume;
     before.light = loaded_->light;
     if (tree_) before.tree = &*tree_;
   }
-  loaded_.reset();
-  released_ = false;
   loaded_ = loadScene(options, stats, {}, FilmOf::Part, before);
+  options_ = options;
+  released_ = false;
   if (stats.treeRefitted) return;
   tree_.reset();
   if (document_ && !alwaysHashes_ && keepsTree(options, loaded_->scene))
@@ -78,18 +72,24 @@ Renewal Session::set(const RenderOptions& options, Device& device, Statistics& s
   // Programs that hold the scene in their text are made for each scene.
   const bool repacks = renewal == Renewal::Pose && tracer_ && sameBesidePose(options_, options) &&
                        tracer_->variant.traversal != TraversalMethod::Literals;
-  // Before the load, which may fail: what is on the device is of other options, and takes its memory.
+  // Before the load: what is of other options takes memory.
   if (renewal != Renewal::None && !repacks) tracer_.reset();
-  if (renewal == Renewal::Scene && isSet_) {
-    document_.reset();
+  if (renewal == Renewal::Scene) {
+    if (isSet_) document_.reset();
     tree_.reset();
+    loaded_.reset();
   }
-  options_ = options;
   isSet_ = true;
   if (renewal >= Renewal::Pose) {
-    load(options, stats, renewal);
+    if (loaded_) {
+      std::shared_ptr<const VolumeGrid> grid = loaded_->scene.volume.grid;
+      releaseGeometry();
+      loaded_->scene.volume.grid = std::move(grid);
+    }
+    load(options, stats);
     if (change.change) change.change(*loaded_);
   } else {
+    options_ = options;
     stats = prepared_;
     stats.phases.clear();
     if (renewal != Renewal::None) stats.skipped.clear();

@@ -47,8 +47,7 @@ class Session {
 
   /// Makes scene and tracer as the options ask, and says which step was the earliest that had to be done
   /// again; steps that were not take no time in the statistics. The device's context is opened where there is
-  /// none. Throws as loadScene(), openContext() and makeTracer(); then the next call does again what is
-  /// missing.
+  /// none. Throws as loadScene(), makeContext() and makeTracer(); then the next call does what is missing.
   Renewal set(const RenderOptions& options, Device& device, Statistics& stats,
               const SceneChange& change = {});
 
@@ -65,12 +64,12 @@ class Session {
 
  private:
   Renewal renewalOf(const RenderOptions& options) const;
-  void load(const RenderOptions& options, Statistics& stats, Renewal renewal);
+  void load(const RenderOptions& options, Statistics& stats);
 
   double pictures_;
   bool alwaysHashes_;
   std::shared_ptr<KeptDocument> document_;  ///< the animated file that is posed
-  RenderOptions options_;                   ///< those of the latest call
+  RenderOptions options_;                   ///< those of the scene that is loaded
   bool isSet_ = false;
   bool released_ = false;
   std::optional<LoadedScene> loaded_;

@@ -416,16 +416,14 @@ void addByCamera(LoadedScene& loaded, const RenderOptions& options) {
   checkCameraPlane(options, loaded);
 }
 
-}  // namespace
-
-LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress,
-                      FilmOf film, SceneBefore before) {
+/// loadScene() into `loaded`, which has the environment of before already, if there is one.
+void loadInto(LoadedScene& loaded, const RenderOptions& options, Statistics& stats,
+              const LoadProgress& progress, FilmOf film, SceneBefore before) {
   const auto step = [&](const std::string& name, double fraction) {
     if (progress) progress(name, fraction);
   };
   Stopwatch watch;
   step("reading the scene", 0.0);
-  LoadedScene loaded;
   // Another process decodes the environment, so this thread loads the scene meanwhile.
   Phase reading;  // outlives the thread that sets it
   std::future<LinearImage> map;
@@ -448,10 +446,8 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   };
   const auto settleEnvironment = [&] {
     PhaseTimer timer("sky");
-    loaded.environment =
-        before.environment
-            ? std::move(*before.environment)
-            : makeEnvironment(options, map, countedLight(options, loaded.light), ofEnvironment);
+    if (!before.environment)
+      loaded.environment = makeEnvironment(options, map, countedLight(options, loaded.light), ofEnvironment);
     if (!options.light.sky.on) return;
     stats.phases.push_back(timer.end());
     stats.sun = sunOf(options.light.sky);
@@ -489,6 +485,20 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   stats.region = options.camera.region;
   stats.loadMs += watch.lap();
   addLight(options, loaded, film, stats);
+}
+
+}  // namespace
+
+LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress,
+                      FilmOf film, SceneBefore before) {
+  LoadedScene loaded;
+  if (before.environment) loaded.environment = std::move(*before.environment);
+  try {
+    loadInto(loaded, options, stats, progress, film, before);
+  } catch (...) {
+    if (before.environment) *before.environment = std::move(loaded.environment);
+    throw;
+  }
   return loaded;
 }
 

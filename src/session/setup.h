@@ -48,8 +48,8 @@ enum class FilmOf : uint8_t { Picture, Part };
 
 /// Results that one picture of an animation leaves to the next; each may be none.
 struct SceneBefore {
-  Environment* environment =
-      nullptr;  ///< the map of the options; it is moved into the next scene, if there is one
+  /// The map of the options; it is moved into the next scene, if there is one.
+  Environment* environment = nullptr;
   const RefittableTree* tree = nullptr;
   const Volume* volume = nullptr;
   std::shared_ptr<KeptDocument>* document = nullptr;  ///< passed to loadGltf()
