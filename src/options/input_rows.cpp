@@ -129,7 +129,7 @@ OptionRow setRow() {
       "as /materials/0/alphaCutoff=0.25; several with commas where the file has an array; can be given "
       "several "
       "times",
-      FRAGTRACE_MEMBER(selection.set), {.effect = Effect::Picture, .renewal = Renewal::Pose});
+      FRAGTRACE_MEMBER(selection.set), {.effect = Effect::Picture, .renewal = Renewal::Surfaces});
   row.examples = {"/materials/0/pbrMetallicRoughness/roughnessFactor=0.25", "Wood*:roughness=0.25",
                   "b:c:alphaMode=BLEND", "b:baseColorTexture=none"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {

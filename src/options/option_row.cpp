@@ -12,13 +12,19 @@ namespace fragtrace {
 
 namespace {
 
-/// Sets those to the default whose row `chosen` is true of.
+/// Copies those whose row `chosen` is true of.
+template <typename Chosen>
+void take(RenderOptions& options, const RenderOptions& from, const Chosen& chosen) {
+  for (const OptionRow& row : optionRows()) {
+    if (chosen(row)) row.copy(options, from);
+  }
+}
+
+/// Sets those to the default.
 template <typename Chosen>
 void reset(RenderOptions& options, const Chosen& chosen) {
   static const RenderOptions standard;
-  for (const OptionRow& row : optionRows()) {
-    if (chosen(row)) row.copy(options, standard);
-  }
+  take(options, standard, chosen);
 }
 
 }  // namespace
@@ -87,15 +93,29 @@ Renewal renewalBetween(const RenderOptions& before, const RenderOptions& now) {
     };
     return part(before) != part(now);
   };
-  for (const Renewal renewal : {Renewal::Scene, Renewal::Pose}) {
+  for (const Renewal renewal : {Renewal::Scene, Renewal::Pose, Renewal::Surfaces, Renewal::Surroundings}) {
     if (differ(renewal)) return renewal;
   }
   return programOptions(before) == programOptions(now) ? Renewal::None : Renewal::Program;
 }
 
+void takeStep(RenderOptions& options, const RenderOptions& from, Renewal step) {
+  take(options, from, [&](const OptionRow& row) { return row.traits.renewal == step; });
+}
+
+void takePose(RenderOptions& options, const RenderOptions& from) {
+  for (const Renewal step : {Renewal::Surfaces, Renewal::Pose}) takeStep(options, from, step);
+}
+
+bool differIn(Renewal step, const RenderOptions& a, const RenderOptions& b) {
+  RenderOptions taken = a;
+  takeStep(taken, b, step);
+  return taken != a;
+}
+
 bool sameBesidePose(const RenderOptions& a, const RenderOptions& b) {
   RenderOptions posed = a;
-  takePose(posed.selection, b.selection);
+  takePose(posed, b);
   return programOptions(posed) == programOptions(b);
 }
 

@@ -23,10 +23,12 @@ struct RawRender;
 
 /// The earliest step that has to be done again for a picture of a scene when the option changes.
 enum class Renewal : uint8_t {
-  None,     ///< aim() and drawing
-  Program,  ///< makeTracer(): the program, and what it reads of the scene
-  Pose,     ///< the same file in another pose, or with other numbers: surroundings and light stay
-  Scene     ///< loadScene()
+  None,          ///< aim() and drawing
+  Program,       ///< makeTracer(): the program, and what it reads of the scene
+  Surroundings,  ///< the sky
+  Surfaces,      ///< numbers of materials and lights; where they need other geometry, as a pose
+  Pose,          ///< the same file in another pose: surroundings and light stay
+  Scene          ///< loadScene()
 };
 
 /// The commands that have an option.
@@ -98,7 +100,17 @@ RenderOptions programOptions(RenderOptions options);
 /// The earliest step that has to be done again where options change; the later ones follow it.
 Renewal renewalBetween(const RenderOptions& before, const RenderOptions& now);
 
-/// Returns true if both need the same program, for whatever pose of the same scene.
+/// Gives options the values of the others where this step would renew them; a later or an earlier one does
+/// not count.
+void takeStep(RenderOptions& options, const RenderOptions& from, Renewal step);
+
+/// The same of pose and numbers.
+void takePose(RenderOptions& options, const RenderOptions& from);
+
+/// Returns true if they differ in an option of this very step.
+bool differIn(Renewal step, const RenderOptions& a, const RenderOptions& b);
+
+/// Returns true if both need the same program, for whatever pose and numbers of the same scene.
 bool sameBesidePose(const RenderOptions& a, const RenderOptions& b);
 
 /// All options of `render`, in the order of --help, in one list for each part of RenderOptions.

@@ -445,10 +445,10 @@ std::vector<OptionRow> lightRows() {
 
 namespace {
 
-constexpr OptionTraits kOfMap{.effect = Effect::Picture, .renewal = Renewal::Scene};
+constexpr OptionTraits kOfSky{.effect = Effect::Picture, .renewal = Renewal::Surroundings};
 
 OptionTraits named(const char* attribute) {
-  OptionTraits traits = kOfMap;
+  OptionTraits traits = kOfSky;
   traits.attribute = attribute;
   return traits;
 }
@@ -490,7 +490,8 @@ std::vector<OptionRow> skyRows() {
   return {
       flag("--sky",
            "light the scene with a clear sky and its sun; north is -Z, and --hdri-rotation turns both",
-           FRAGTRACE_MEMBER(light.sky.on), named("sky")),
+           FRAGTRACE_MEMBER(light.sky.on),
+           {.effect = Effect::Picture, .renewal = Renewal::Scene, .attribute = "sky"}),
       number<double>("--sun-elevation",
                      "height of the sun of --sky above the horizon, in degrees; negative after sunset",
                      FRAGTRACE_MEMBER(light.sky.sun.elevation), {-90.0, 90.0}, named("sun_elevation")),
@@ -502,7 +503,7 @@ std::vector<OptionRow> skyRows() {
       numbers<double>(
           "--sun-place", "LAT,LON of --sun-time: latitude and longitude in degrees, north and east positive",
           FRAGTRACE_MEMBER(light.sky.place), 2, latitudeLongitudeOf,
-          [](const glm::dvec2& p) { return numbersText(p.x, p.y); }, {"52.52,13.405"}, kOfMap),
+          [](const glm::dvec2& p) { return numbersText(p.x, p.y); }, {"52.52,13.405"}, kOfSky),
       number<double>("--sky-turbidity", "haze in the air of --sky: 1 has none, 3 is a clear day, 10 is hazy",
                      FRAGTRACE_MEMBER(light.sky.turbidity), {1.0, 10.0}, named("sky_turbidity")),
       number<double>("--ground-albedo",

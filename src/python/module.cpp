@@ -99,7 +99,7 @@ void await(DrawJob& job, const nb::object& told) {
 }
 
 const char* nameOf(Renewal renewal) {
-  constexpr std::array kNames = {"nothing", "program", "pose", "scene"};
+  constexpr std::array kNames = {"nothing", "program", "scene", "pose", "pose", "scene"};
   return kNames[size_t(renewal)];
 }
 

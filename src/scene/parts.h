@@ -59,13 +59,6 @@ struct SceneSelection {
   bool operator==(const SceneSelection&) const = default;
 };
 
-inline void takePose(SceneSelection& selection, const SceneSelection& from) {
-  selection.animation = from.animation;
-  selection.animationTime = from.animationTime;
-  selection.hiddenNodes = from.hiddenNodes;
-  selection.set = from.set;
-}
-
 // Parts of a file that the user names: scenes, animations, material variants, cameras.
 
 /// Text from a file may hold line ends, commands to a terminal, or marks that turn the direction of writing.

@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "base/vectors.h"
 #include "bvh/bvh.h"
+#include "options/option_row.h"
 #include "pack/pack_environment.h"
 #include "scene/camera.h"
 #include "scene/creases.h"
@@ -118,7 +119,7 @@ FileLight fileLightOf(const RenderOptions& options, const Scene& scene, const Bv
   RenderOptions plain;
   plain.scene = options.scene;
   plain.selection = options.selection;
-  takePose(plain.selection, {});
+  takePose(plain, {});
   plain.selection.lights.clear();
   plain.limits = options.limits;
   plain.limits.strict = false;

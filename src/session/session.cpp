@@ -40,6 +40,8 @@ bool seesStrokesAlike(const RenderOptions& a, const RenderOptions& b) {
 Renewal Session::renewalOf(const RenderOptions& options) const {
   if (!isSet_) return Renewal::Scene;
   Renewal renewal = renewalBetween(options_, options);
+  if (differIn(Renewal::Surroundings, options_, options)) renewal = Renewal::Scene;
+  if (renewal == Renewal::Surfaces) renewal = Renewal::Pose;
   const bool strokes = loaded_ && !loaded_->scene.strokes.empty();
   if (!loaded_ || (strokes && !seesStrokesAlike(options_, options)))
     renewal = std::max(renewal, Renewal::Pose);

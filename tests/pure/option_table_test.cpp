@@ -135,10 +135,11 @@ TEST(OptionTable, EachRowRenewsWhatItSays) {
     const bool alone = std::ranges::all_of(optionRows(), [&](const OptionRow& other) {
       return other.traits.renewal != Renewal::Scene || other.isDefault(options) == other.isDefault(others);
     });
-    if (row.traits.renewal == Renewal::Pose && alone) {
-      EXPECT_EQ(renewalBetween(others, options), Renewal::Pose);
-      EXPECT_TRUE(sameBesidePose(others, options));
-    }
+    const Renewal renewal = row.traits.renewal;
+    if (renewal < Renewal::Surroundings || !alone) return;
+    EXPECT_EQ(renewalBetween(others, options), renewal);
+    EXPECT_TRUE(differIn(renewal, others, options));
+    EXPECT_EQ(sameBesidePose(others, options), renewal == Renewal::Surfaces || renewal == Renewal::Pose);
   });
 }
 

@@ -67,7 +67,7 @@ RenderOptions programPart(const RenderOptions& options) {
   if (part.output.debugView == DebugView::Samples || part.output.debugView == DebugView::Variance)
     part.output.debugView = DebugView::None;  // drawn by the picture's own
   part.sampling.clampIndirect = part.sampling.clampIndirect > 0.0 ? 1.0 : 0.0;
-  part.light.sky = {.on = part.light.sky.on};  // Renewed::Surroundings
+  takeStep(part, {}, Renewal::Surroundings);
   part.output.aovs.clear();
   part.output.lightGroups.clear();
   part.selection.camera.clear();
@@ -174,7 +174,7 @@ void ViewPrograms::show(Renewed renewed, const RenderOptions& options) {
       replaceSurroundings(program->tracer, loaded_);
       continue;
     }
-    takePose(program->options.selection, options.selection);
+    takePose(program->options, options);
     if (posed && !sameTree(treeOptions_, program->options))
       loaded_.bvh = buildTree(loaded_.scene, program->options);
     if (posed) treeOptions_ = program->options;

@@ -39,17 +39,11 @@ std::string whatFailed(const std::exception_ptr& error, bool isFirst, const std:
   }
 }
 
-/// A sky without its sun's azimuth, by which the environment is turned later.
-SkyOptions airOf(SkyOptions sky) {
-  placeSun(sky, {sunOf(sky).elevation, 0.0});
-  return sky;
-}
-
 /// The option by which `render` lights the file that holds the numbers as it is shown; empty: none is needed.
 std::string lightToName(const RenderOptions& options, const LoadedScene& loaded) {
   if (hasMap(options) || options.light.defaultLight == DefaultLight::None) return "";
   RenderOptions saved = options;
-  takePose(saved.selection, {});
+  takePose(saved, {});
   const bool shines = fileLightOf(saved, loaded.scene, nullptr, nullptr).own == OwnLight::Enough;
   if (loaded.environment.kind == Surroundings::Map) return shines ? "--studio" : "";
   return loaded.environment.kind == Surroundings::None && !shines ? "--no-default-light" : "";
@@ -303,7 +297,6 @@ void ViewTracer::takeLoaded() {
   loadedOptions_ = result->viewed.options;
   posed_ = loadedOptions_;
   posed_.selection.set.clear();
-  posed_.light.sky = airOf(posed_.light.sky);
   posed_.camera.resolution = loaded_->size;
   wasText_ = false;
   fileMaterials_ = result->viewed.materials;
@@ -360,21 +353,16 @@ RenderOptions ViewTracer::asPosed(RenderOptions options) const {
 
 void ViewTracer::renew(const TraceRequest& request) {
   const RenderOptions& wanted = request.sides[0];
+  const bool relit = posed_.light.sky.on && differIn(Renewal::Surroundings, posed_, wanted);
+  if (relit) relight(wanted.light.sky);
   RenderOptions next = posed_;
-  if (next.light.sky.on && wanted.light.sky.on) next.light.sky = airOf(wanted.light.sky);
-  takePose(next.selection, wanted.selection);
-  Renewal renewal = renewalBetween(posed_, next);
-  const bool relit = renewal == Renewal::Scene;  // of whose options the sky alone may differ here
-  if (relit) {
-    relight(next.light.sky);
-    renewal = renewalBetween(posed_, next);
-  }
+  takePose(next, wanted);
   next.camera.overrides = wanted.camera.overrides;
   next.camera.index = wanted.camera.index;
   next.camera.resolution = request.size;
   const bool otherStrokes =
       !loaded_->scene.strokes.empty() && !request.moving && !seesStrokesAlike(posed_, next);
-  const bool posed = renewal == Renewal::Pose || otherStrokes;
+  const bool posed = renewalBetween(posed_, next) > Renewal::Surroundings || otherStrokes;
   if (posed && !setSurfaces(next, request.sides)) pose(next);
   if (!relit && !posed) return;
   for (Side& side : sides_) side.stale = true;
@@ -450,10 +438,8 @@ bool ViewTracer::setSurfaces(const RenderOptions& wanted, const std::vector<Rend
   const auto isText = [](const RenderOptions& side) {
     return side.device.traversal == TraversalMethod::Literals;
   };
-  RenderOptions still = posed_;
-  still.selection.set = wanted.selection.set;
   // An animation may drive the same numbers, and lines are built again for another camera.
-  if (wanted.selection.animationTime || renewalBetween(still, wanted) == Renewal::Pose ||
+  if (wanted.selection.animationTime || differIn(Renewal::Pose, posed_, wanted) ||
       !loaded_->scene.strokes.empty() || std::ranges::any_of(sides, isText))
     return false;
   const auto traits = [&](const Scene& scene) { return traitsOf(scene, loaded_->environment); };
@@ -462,7 +448,7 @@ bool ViewTracer::setSurfaces(const RenderOptions& wanted, const std::vector<Rend
   if (!setByEye(loaded_->scene, fileMaterials_, fileLights_, wanted.selection.set) ||
       traits(loaded_->scene) != before)
     return false;
-  posed_ = still;
+  takeStep(posed_, wanted, Renewal::Surfaces);
   programs_->show(Renewed::Surfaces, posed_);
   return true;
 }
