@@ -3,8 +3,12 @@
 
 #include <algorithm>
 
+#include "base/vectors.h"
 #include "gl/driver_choice.h"
+#include "gltf/edit/factors.h"
+#include "session/environment.h"
 #include "session/outputs.h"
+#include "session/say.h"
 
 namespace fragtrace {
 
@@ -48,7 +52,7 @@ Renewal Session::renewalOf(const RenderOptions& options) const {
   return renewal;
 }
 
-void Session::load(const RenderOptions& options, Statistics& stats) {
+void Session::load(const RenderOptions& options, FilmOf film, Statistics& stats) {
   SceneBefore before;
   if (pictures_ > 1.0) before.document = &document_;
   if (loaded_) {
@@ -57,13 +61,13 @@ void Session::load(const RenderOptions& options, Statistics& stats) {
     before.light = loaded_->light;
     if (tree_) before.tree = &*tree_;
   }
-  loaded_ = loadScene(options, stats, {}, FilmOf::Part, before);
-  options_ = options;
+  loaded_ = loadScene(options, stats, {}, film, before);
   released_ = false;
   if (stats.treeRefitted) return;
   tree_.reset();
-  if (document_ && !alwaysHashes_ && keepsTree(options, loaded_->scene))
-    tree_ = refittable(loaded_->bvh, loaded_->scene);
+  const bool keeps = programs_ ? loaded_->scene.instances.empty()
+                               : document_ && !alwaysHashes_ && keepsTree(options, loaded_->scene);
+  if (keeps) tree_ = refittable(loaded_->bvh, loaded_->scene);
 }
 
 Renewal Session::set(const RenderOptions& options, Device& device, Statistics& stats,
@@ -88,7 +92,8 @@ Renewal Session::set(const RenderOptions& options, Device& device, Statistics& s
       releaseGeometry();
       loaded_->scene.volume.grid = std::move(grid);
     }
-    load(options, stats);
+    load(options, FilmOf::Part, stats);
+    options_ = options;
     if (change.change) change.change(*loaded_);
   } else {
     options_ = options;
@@ -119,6 +124,87 @@ Renewal Session::set(const RenderOptions& options, Device& device, Statistics& s
 void Session::releaseGeometry() {
   fragtrace::releaseGeometry(*loaded_);
   released_ = true;
+}
+
+void Session::open(LoadedScene loaded, std::shared_ptr<KeptDocument> document, const RenderOptions& options) {
+  forgetTracer();
+  tree_.reset();
+  loaded_ = std::move(loaded);
+  document_ = std::move(document);
+  options_ = options;
+  options_.selection.set.clear();
+  options_.camera.resolution = loaded_->size;
+  fileMaterials_ = loaded_->scene.materials;
+  fileLights_ = loaded_->scene.lightSources;
+}
+
+void Session::openPrograms(const Context& context, std::optional<CompileAside> aside) {
+  programs_ = std::make_unique<ScenePrograms>(context, *loaded_, options_, std::move(aside));
+}
+
+RenderOptions Session::asPosed(RenderOptions options) const {
+  const SceneSelection& s = options.selection;
+  const bool changes = s.animationTime || !s.hiddenNodes.empty() || !loaded_->scene.strokes.empty() ||
+                       (!s.set.empty() && programs_ && programs_->heldText());
+  if (changes && options.device.traversal == TraversalMethod::Auto)
+    options.device.traversal = TraversalMethod::FrontToBack;
+  return options;
+}
+
+Renewal Session::renewScene(const RenderOptions& options, bool keepsStrokes) {
+  const bool relit =
+      options_.light.sky.on && options.light.sky.on && differIn(Renewal::Surroundings, options_, options);
+  const bool set = differIn(Renewal::Surfaces, options_, options);
+  const bool hasStrokes = !loaded_->scene.strokes.empty();
+  const bool posed = differIn(Renewal::Pose, options_, options) ||
+                     (hasStrokes && !keepsStrokes && !seesStrokesAlike(options_, options));
+  if (!relit && !set && !posed) return Renewal::None;
+  std::vector<std::string> repeated;
+  const SaidHere silence(repeated);  // loading the scene has said it
+  programs_->waitForCompiler();
+  if (relit) relight(options);
+  if (!set && !posed) return Renewal::Surroundings;
+  if (!posed && setSurfaces(options)) return Renewal::Surfaces;
+  if (options_.selection.hiddenNodes != options.selection.hiddenNodes) tree_.reset();
+  takePose(options_, options);
+  options_.camera.overrides = options.camera.overrides;
+  options_.camera.index = options.camera.index;
+  options_.camera.resolution = options.camera.resolution;
+  RenderOptions loading = asPosed(options_);
+  loading.camera.sceneOrigin = loaded_->scene.space.origin;
+  Statistics stats;
+  load(loading, FilmOf::Picture, stats);
+  programs_->show(Renewal::Pose, loading);
+  return Renewal::Pose;
+}
+
+void Session::relight(const RenderOptions& options) {
+  options_.light.sky = options.light.sky;
+  const auto shines = [&] {
+    const std::optional<SunDisc>& sun = loaded_->environment.sun;
+    return sun && luminance(sun->irradiance) > 0.0;
+  };
+  const bool shone = shines();
+  std::vector<std::string> warnings;
+  loaded_->environment = skyOf(options_, warnings);
+  // When the sun rises or sets, programs change: light paths begin at it (Trait::Caustics).
+  programs_->show(shines() == shone ? Renewal::Surroundings : Renewal::Program, options_);
+}
+
+/// Returns false if more may have to change than the numbers of surfaces and lights: the scene is then to be
+/// posed.
+bool Session::setSurfaces(const RenderOptions& options) {
+  // An animation may drive the same numbers, and lines are built again for another camera.
+  if (options.selection.animationTime || !loaded_->scene.strokes.empty() ||
+      options.device.traversal == TraversalMethod::Literals)
+    return false;
+  const auto traits = [&] { return traitsOf(loaded_->scene, loaded_->environment); };
+  const TraitSet before = traits();
+  if (!setByEye(loaded_->scene, fileMaterials_, fileLights_, options.selection.set) || traits() != before)
+    return false;
+  takeStep(options_, options, Renewal::Surfaces);
+  programs_->show(Renewal::Surfaces, options_);
+  return true;
 }
 
 }  // namespace fragtrace

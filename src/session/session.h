@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A scene on a device that is told new options: what renders, sequences and Python do between two pictures.
+// A scene on a device that is told new options: what all front ends do between two pictures.
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "bvh/scene_tree.h"
 #include "gl/context.h"
@@ -13,6 +14,7 @@
 #include "image/denoise/oidn.h"
 #include "options/option_row.h"
 #include "render/denoise.h"
+#include "session/scene_programs.h"
 #include "session/setup.h"
 #include "session/tracer.h"
 
@@ -60,11 +62,39 @@ class Session {
   /// Frees what only packing needs. Other programs need the scene to be loaded again.
   void releaseGeometry();
   /// The context is lost, and all that was on it.
-  void forgetTracer() { tracer_.reset(); }
+  void forgetTracer() {
+    tracer_.reset();
+    programs_.reset();
+  }
+
+  // The viewer draws a scene by several programs, loads it in another thread, and calls these instead of
+  // set().
+
+  /// Takes over a scene of these options that is loaded without the numbers that they set, and the document
+  /// that was read for it. There are no programs yet.
+  void open(LoadedScene loaded, std::shared_ptr<KeptDocument> document, const RenderOptions& options);
+  /// From now on programs can be had, in this context, which must outlive them; the session is not moved any
+  /// more.
+  void openPrograms(const Context& context, std::optional<CompileAside> aside);
+  ScenePrograms& programs() { return *programs_; }
+  bool hasPrograms() const { return programs_ != nullptr; }
+  /// The options that the scene has now; all but sky, numbers and pose, and of the camera what gives strokes
+  /// their width, are those of open().
+  const RenderOptions& options() const { return options_; }
+  /// Gives the scene, which its programs then draw, the sky, the numbers and the pose of these options. With
+  /// `keepsStrokes` another camera alone does not renew its strokes. Returns Renewal::None, or the last step
+  /// that was done. Throws as loadScene() and ScenePrograms::show(); where that is the former, the scene
+  /// stays, until it is asked for another one.
+  Renewal renewScene(const RenderOptions& options, bool keepsStrokes);
+  /// The options, with front-to-back instead of an automatic traversal for a scene that is posed again: its
+  /// triangles are no shader text, which would be compiled each time.
+  RenderOptions asPosed(RenderOptions options) const;
 
  private:
   Renewal renewalOf(const RenderOptions& options) const;
-  void load(const RenderOptions& options, Statistics& stats);
+  void load(const RenderOptions& options, FilmOf film, Statistics& stats);
+  void relight(const RenderOptions& options);
+  bool setSurfaces(const RenderOptions& options);
 
   double pictures_;
   bool alwaysHashes_;
@@ -74,8 +104,11 @@ class Session {
   bool released_ = false;
   std::optional<LoadedScene> loaded_;
   std::optional<Tracer> tracer_;
-  std::optional<RefittableTree> tree_;  ///< the latest tree, where the next pose may refit it
-  Statistics prepared_;                 ///< of the latest renewal
+  std::optional<RefittableTree> tree_;   ///< the latest tree, where the next pose may refit it
+  Statistics prepared_;                  ///< of the latest renewal
+  std::vector<Material> fileMaterials_;  ///< those of open(), without what the user sets
+  std::vector<LightSource> fileLights_;
+  std::unique_ptr<ScenePrograms> programs_;
 };
 
 }  // namespace fragtrace

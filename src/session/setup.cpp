@@ -384,7 +384,7 @@ void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film) {
   loaded.strays = points.strays;
   loaded.framed = overrides.fit ? points.bounds : scene.bounds;
   loaded.camera =
-      chooseCamera(scene.cameras, loaded.cameraIndex, overrides, loaded.framed, framedAspect(options));
+      chooseCamera(scene.cameras, loaded.cameraIndex, overrides, loaded.framed, framedAspect(options.camera));
   loaded.size = chooseSize(loaded.camera, options);
   if (overrides.fit) {
     for (std::vector<glm::dvec3>* some : {&points.scene, &points.shadow}) {

@@ -442,7 +442,7 @@ RenderOptions placedForAllPoses(RenderOptions options, std::shared_ptr<KeptDocum
   filled.points.catcherHeight = lowest;
   Camera camera = chooseCamera(first.cameras,
                                cameraIndexOf(options.camera.index, options.selection.camera, first.cameras),
-                               overrides, filled.bounds, framedAspect(options));
+                               overrides, filled.bounds, framedAspect(options.camera));
   const glm::ivec2 size = chooseSize(camera, options);
   if (overrides.fit) camera = fitCamera(camera, filled.points, overrides, size);
   const glm::dvec2 fade = shadowFadeOf(options, overrides, camera, filled.points.scene, size);

@@ -432,8 +432,8 @@ inline bool keepsAlpha(const RenderOptions& o) { return !o.light.background || p
 
 /// Width / height of the picture that a scene without a camera is framed for; without --resolution it is
 /// wide, as good as square.
-inline double framedAspect(const RenderOptions& options) {
-  const std::optional<glm::ivec2>& resolution = options.camera.resolution;
+inline double framedAspect(const CameraOptions& camera) {
+  const std::optional<glm::ivec2>& resolution = camera.resolution;
   return resolution ? double(resolution->x) / resolution->y : 1.0;
 }
 

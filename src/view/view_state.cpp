@@ -257,7 +257,7 @@ void takeOptions(ViewState& state, const RenderOptions& options) {
   const std::optional<int> index =
       cameraIndexOf(options.camera.index, options.selection.camera, state.scene->cameras);
   const Camera camera = chooseCamera(state.scene->cameras, index, options.camera.overrides,
-                                     state.scene->bounds, framedAspect(state.scene->options));
+                                     state.scene->bounds, framedAspect(state.scene->options.camera));
   state.side() = sideOf(options);
   state.edit.shared = options;
   state.edit.shared.camera.index = index;

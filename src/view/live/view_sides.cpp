@@ -76,10 +76,10 @@ RenderOptions ViewTracer::withFilter(RenderOptions options) {
 
 void ViewTracer::setSide(Side& side, const RenderOptions& asked) {
   RenderOptions options = withFilter(asked);
-  std::shared_ptr<ViewProgram> program = side.program;
+  std::shared_ptr<SceneProgram> program = side.program;
   side.awaited.reset();
   if (!program || !drawsTheSame(side.options, options)) {
-    if (!program && !programs_->has(options)) preview(side, options);
+    if (!program && !session_.programs().has(options)) preview(side, options);
     program = programFor(options, side.program != nullptr);
     if (!program) {
       program = side.program;
@@ -98,7 +98,7 @@ void ViewTracer::setSide(Side& side, const RenderOptions& asked) {
                          side.options.output.denoise != options.output.denoise;
   if (differInCameraAlone(side.options, options)) {
     side.memory.turn();
-    if (!side.awaited) programs_->addCones(program);
+    if (!side.awaited) session_.programs().addCones(program);
   } else if (!same) {
     side.memory.forget();
   }
@@ -119,27 +119,27 @@ void ViewTracer::setSide(Side& side, const RenderOptions& asked) {
 /// Returns the view of the options' camera, or of the scene's first one if that does not exist, as when the
 /// file has changed.
 View ViewTracer::viewOf(const RenderOptions& options) {
-  Camera camera = loaded_->camera;
+  Camera camera = session_.loaded().camera;
   try {
-    camera = chooseCamera(loaded_->scene.cameras, options.camera.index, options.camera.overrides,
-                          loaded_->scene.bounds, framedAspect(loadedOptions_));
+    camera = chooseCamera(session_.loaded().scene.cameras, options.camera.index, options.camera.overrides,
+                          session_.loaded().scene.bounds, framedAspect(loadedCamera_));
   } catch (const UsageError& error) {
     exchange_.set(&TraceStatus::error, error.what());
   }
-  return makeView(options, *loaded_, camera);
+  return makeView(options, session_.loaded(), camera);
 }
 
 /// Shows the stage that compiles soonest, so that the window is not empty while the side's program compiles.
 void ViewTracer::preview(Side& side, const RenderOptions& wanted) {
   const bool quick = !has(wanted.stages, Stage::Shadows) && !has(wanted.stages, Stage::Gi);
-  if (quick || loaded_->scene.triangles.size() > kMostPreviewed) return;
+  if (quick || session_.loaded().scene.triangles.size() > kMostPreviewed) return;
   RenderOptions o = wanted;
   o.stages = stagesUpTo(Stage::Phong);
   o.output.denoise = Denoise::None;
   o.output.debugView = DebugView::None;
   o.sampling.clampIndirect = 0.0;
   o.light.shadowCatcher = false;
-  const std::shared_ptr<ViewProgram> program = programFor(o, false);
+  const std::shared_ptr<SceneProgram> program = programFor(o, false);
   if (!program->error.empty()) return;
   side.options = o;
   side.program = program;
@@ -162,9 +162,10 @@ void ViewTracer::reportWork(const std::string& what) {
                                                   : " (the last picture stays meanwhile)"));
 }
 
-std::shared_ptr<ViewProgram> ViewTracer::programFor(const RenderOptions& options, bool aside) {
-  if (!programs_->has(options)) reportWork("compiling");
-  std::shared_ptr<ViewProgram> program = aside ? programs_->soon(options) : programs_->of(options);
+std::shared_ptr<SceneProgram> ViewTracer::programFor(const RenderOptions& options, bool aside) {
+  if (!session_.programs().has(options)) reportWork("compiling");
+  std::shared_ptr<SceneProgram> program =
+      aside ? session_.programs().soon(options) : session_.programs().of(options);
   if (!program) return program;
   for (const std::string& message : std::exchange(program->driverLog, {}))
     exchange_.deliver("driver: " + message);
@@ -180,7 +181,7 @@ bool ViewTracer::awaitsProgram() const {
 }
 
 void ViewTracer::takeCompiled() {
-  if (!programs_ || !programs_->takeCompiled()) return;
+  if (!session_.hasPrograms() || !session_.programs().takeCompiled()) return;
   for (Side& side : sides_) {
     if (side.awaited) setSide(side, RenderOptions(*side.awaited));
   }
@@ -287,7 +288,7 @@ bool ViewTracer::work() {
   const bool still = isStill();
   // A film that has just become this large holds nothing yet.
   const bool whole = std::ranges::all_of(sides_, [](const Side& s) { return !s.program || s.samples > 0; });
-  if (still && whole && !awaitsProgram() && !programs_->compiling()) {
+  if (still && whole && !awaitsProgram() && !session_.programs().compiling()) {
     saving_ = !saves_.empty();
     for (const SaveRequest& request : saves_) save(request);
     saves_.clear();
@@ -489,13 +490,13 @@ void ViewTracer::save(const SaveRequest& request) {
     const Layers layers{!options.light.background, options.output.aovSamples, options.output.aovVariance};
     // An .exr holds the unfiltered samples, other files the picture as shown.
     Image image = exr ? shownPicture(options, pixels, layers) : seenOf(side);
-    loaded_->camera = side.view.camera;
-    loaded_->size = pixels.size;
+    session_.loaded().camera = side.view.camera;
+    session_.loaded().size = pixels.size;
     if (exr && options.output.debugView == DebugView::None)
       setProvenance(
-          image, {settingsText(options, *loaded_, side.program->tracer), options.sampling.seed,
+          image, {settingsText(options, session_.loaded(), side.program->tracer), options.sampling.seed,
                   options.sampling.sampleOffset, side.samples, totals.fewestSamples == totals.mostSamples});
-    writePicture(options, image, treeLines(options, *loaded_, side.view.camera, pixels.size));
+    writePicture(options, image, treeLines(options, session_.loaded(), side.view.camera, pixels.size));
     exchange_.deliver("wrote " + request.path.string());
   } catch (const RenderError& error) {
     exchange_.set(&TraceStatus::error, error.what());

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "base/timeline.h"
-#include "base/vectors.h"
 #include "bvh/exact_tracer.h"
 #include "gl/driver_choice.h"
 #include "gltf/edit/changed_file.h"
@@ -168,7 +167,7 @@ void ViewTracer::run(const SharedContexts& shared) {
         takeLoaded();
         takeCompiled();
         watchFiles();
-        if (loaded_ && sides_.empty() && !request_.sides.empty()) setRequest(request_);
+        if (session_.isLoaded() && sides_.empty() && !request_.sides.empty()) setRequest(request_);
         working = work();
       } catch (const ContextLost& error) {
         recover(error);
@@ -221,7 +220,7 @@ void ViewTracer::recover(ContextLost error) {
     try {
       leaveContext();
       enterContext({});
-      if (loaded_) makePrograms();
+      if (session_.isLoaded()) makePrograms();
       return;
     } catch (const ContextLost& again) {
       error = again;
@@ -232,14 +231,14 @@ void ViewTracer::recover(ContextLost error) {
 void ViewTracer::makePrograms() {
   std::optional<CompileAside> aside;
   if (compiles_) aside = CompileAside{*compiles_, [this] { exchange_.wakeTracer(); }};
-  programs_ = std::make_unique<ViewPrograms>(*context_, *loaded_, loadedOptions_, std::move(aside));
+  session_.openPrograms(*context_, std::move(aside));
 }
 
 /// Called in the thread that owns the context.
 void ViewTracer::leaveContext() {
   sides_.clear();
   shown_ = {};
-  programs_.reset();
+  session_.forgetTracer();
   clock_.forgetDevice();
   maker_.reset();
   driverLog_.reset();
@@ -254,7 +253,7 @@ void ViewTracer::carryOut(Requests requests) {
     loading_.cancel();
     exchange_.set(&TraceStatus::load, {});
   }
-  if (requests.trace && loaded_) setRequest(*requests.trace);
+  if (requests.trace && session_.isLoaded()) setRequest(*requests.trace);
   if (requests.thumbnails) {
     thumbnails_.emplace_back().start("thumbnails",
                                      [files = *requests.thumbnails, limit = start_.render.limits.memoryBytes,
@@ -265,8 +264,8 @@ void ViewTracer::carryOut(Requests requests) {
   }
   if (requests.reference) takeReference(*requests.reference);
   for (SaveRequest& save : requests.saves) saves_.push_back(std::move(save));
-  if (requests.model && loaded_) saveModel(*requests.model);
-  if (requests.pick && loaded_) answer(*requests.pick);
+  if (requests.model && session_.isLoaded()) saveModel(*requests.model);
+  if (requests.pick && session_.isLoaded()) answer(*requests.pick);
 }
 
 /// A load before it is cancelled, and ends at its next step.
@@ -284,24 +283,16 @@ void ViewTracer::takeLoaded() {
   if (!result) return;
   exchange_.set(&TraceStatus::load, {});
   if (result->error) {
-    loadError_ = whatFailed(result->error, !loaded_, result->viewed.options.scene);
+    loadError_ = whatFailed(result->error, !session_.isLoaded(), result->viewed.options.scene);
     exchange_.set(&TraceStatus::error, loadError_);
     return;
   }
   sides_.clear();
-  programs_.reset();
-  tree_.reset();
   selected_ = {};
-  loaded_ = std::move(result->scene);
-  document_ = std::move(result->document);
-  loadedOptions_ = result->viewed.options;
-  posed_ = loadedOptions_;
-  posed_.selection.set.clear();
-  posed_.camera.resolution = loaded_->size;
-  wasText_ = false;
-  fileMaterials_ = result->viewed.materials;
-  fileLights_ = result->viewed.lights;
-  loaded_->decoding = [this](size_t decoded, size_t count) {
+  const RenderOptions options = result->viewed.options;
+  loadedCamera_ = options.camera;
+  session_.open(std::move(*result->scene), std::move(result->document), options);
+  session_.loaded().decoding = [this](size_t decoded, size_t count) {
     reportWork("compiling, " + std::to_string(decoded) + " of " + std::to_string(count) +
                " textures decoded");
   };
@@ -310,19 +301,20 @@ void ViewTracer::takeLoaded() {
   exchange_.set(&TraceStatus::error, {});
   exchange_.deliver(std::move(result->viewed));
   if (!start_.watch) return;
-  std::vector<std::filesystem::path> files = inputsOf(loadedOptions_);
-  for (const auto& file : inputsOf(loaded_->scene)) files.push_back(file);
-  for (const auto& file : filesIn(loadedOptions_.scene.parent_path(), ".bin")) files.push_back(file);
+  std::vector<std::filesystem::path> files = inputsOf(options);
+  for (const auto& file : inputsOf(session_.loaded().scene)) files.push_back(file);
+  for (const auto& file : filesIn(options.scene.parent_path(), ".bin")) files.push_back(file);
   sceneFiles_ = FileWatch(files);
   shaderFiles_ = FileWatch(filesUnder(start_.render.device.shaderFolder));
 }
 
 void ViewTracer::watchFiles() {
-  if (!start_.watch || !loaded_ || steadyMilliseconds() - watched_ < 1000.0 * kWatchSeconds) return;
+  if (!start_.watch || !session_.isLoaded() || steadyMilliseconds() - watched_ < 1000.0 * kWatchSeconds)
+    return;
   watched_ = steadyMilliseconds();
   if (sceneFiles_.changed()) {
-    RenderOptions again = posed_;
-    again.camera = loadedOptions_.camera;
+    RenderOptions again = session_.options();
+    again.camera = loadedCamera_;
     load(again);
   }
   if (shaderFiles_.changed()) rebuildPrograms();
@@ -330,101 +322,49 @@ void ViewTracer::watchFiles() {
 
 /// The shaders have changed; what cannot be compiled now stays as it was.
 void ViewTracer::rebuildPrograms() {
-  programs_->forget();
+  session_.programs().forget();
   maker_ = std::make_unique<PictureMaker>(start_.render.device.shaderFolder, oidn_, clock_);
   for (Side& side : sides_) {
-    const std::shared_ptr<ViewProgram> wanted = programFor(side.options, false);
+    const std::shared_ptr<SceneProgram> wanted = programFor(side.options, false);
     if (!wanted->error.empty()) return;
     side.program = wanted;
     side.stale = true;
   }
 }
 
-/// The options for a scene that is posed again: its triangles are no shader text, which would be compiled
-/// each time.
-RenderOptions ViewTracer::asPosed(RenderOptions options) const {
-  const SceneSelection& s = options.selection;
-  const bool changes = s.animationTime || !s.hiddenNodes.empty() || !loaded_->scene.strokes.empty() ||
-                       (!s.set.empty() && wasText_);
-  if (changes && options.device.traversal == TraversalMethod::Auto)
-    options.device.traversal = TraversalMethod::FrontToBack;
-  return options;
-}
-
 void ViewTracer::renew(const TraceRequest& request) {
-  const RenderOptions& wanted = request.sides[0];
-  const bool relit = posed_.light.sky.on && differIn(Renewal::Surroundings, posed_, wanted);
-  if (relit) relight(wanted.light.sky);
-  RenderOptions next = posed_;
-  takePose(next, wanted);
-  next.camera.overrides = wanted.camera.overrides;
-  next.camera.index = wanted.camera.index;
-  next.camera.resolution = request.size;
-  const bool otherStrokes =
-      !loaded_->scene.strokes.empty() && !request.moving && !seesStrokesAlike(posed_, next);
-  const bool posed = renewalBetween(posed_, next) > Renewal::Surroundings || otherStrokes;
-  if (posed && !setSurfaces(next, request.sides)) pose(next);
-  if (!relit && !posed) return;
-  for (Side& side : sides_) side.stale = true;
-}
-
-void ViewTracer::pose(const RenderOptions& wanted) {
-  const bool sameNodes = posed_.selection.hiddenNodes == wanted.selection.hiddenNodes;
-  posed_ = wanted;
-  RenderOptions options = asPosed(wanted);
-  options.camera.sceneOrigin = loaded_->scene.space.origin;
+  const RenderOptions& before = session_.options();
+  RenderOptions wanted = request.sides[0];
+  wanted.camera.resolution = request.size;
+  const bool hasSky = before.light.sky.on && wanted.light.sky.on;
+  if (hasSky && whyDark(before.light.sky).empty() && !whyDark(wanted.light.sky).empty())
+    exchange_.deliver(whyDark(wanted.light.sky));
+  const bool sameNodes = before.selection.hiddenNodes == wanted.selection.hiddenNodes;
   if (!sameNodes) reportWork("updating the scene");
-  std::vector<std::string> repeated;
-  const SaidHere silence(repeated);  // loading the scene has said it
+  Renewal renewed = Renewal::Pose;
   try {
-    Statistics stats;
-    SceneBefore before;
-    before.environment = &loaded_->environment;
-    before.light = loaded_->light;
-    if (tree_ && sameNodes) before.tree = &*tree_;
-    before.document = &document_;
-    before.volume = &loaded_->scene.volume;
-    programs_->waitForCompiler();
-    *loaded_ = loadScene(options, stats, {}, FilmOf::Picture, before);
-    if (!stats.treeRefitted && loaded_->scene.instances.empty())
-      tree_ = refittable(loaded_->bvh, loaded_->scene);
-    programs_->show(Renewed::Pose, options);
-    exchange_.deliver(PosedScene{loaded_->scene.bounds, loaded_->environment.kind});
-    selected_.outlined.reset();
-    if (!selected_.nodes.empty()) selected_.bounds = boundsOfNodes(loaded_->scene, selected_.nodes);
+    renewed = session_.renewScene(wanted, request.moving);
+    const LoadedScene& loaded = session_.loaded();
+    if (renewed == Renewal::Pose) {
+      exchange_.deliver(PosedScene{loaded.scene.bounds, loaded.environment.kind});
+      selected_.outlined.reset();
+      if (!selected_.nodes.empty()) selected_.bounds = boundsOfNodes(loaded.scene, selected_.nodes);
+    }
   } catch (const ContextLost&) {
     throw;
   } catch (const std::exception& error) {
     exchange_.set(&TraceStatus::error, error.what());  // the picture shown stays
   }
   if (!sameNodes) exchange_.set(&TraceStatus::note, {});
-}
-
-void ViewTracer::relight(const SkyOptions& sky) {
-  if (whyDark(posed_.light.sky).empty() && !whyDark(sky).empty()) exchange_.deliver(whyDark(sky));
-  posed_.light.sky = sky;
-  const auto shines = [&] {
-    const std::optional<SunDisc>& sun = loaded_->environment.sun;
-    return sun && luminance(sun->irradiance) > 0.0;
-  };
-  const bool shone = shines();
-  std::vector<std::string> repeated;
-  const SaidHere silence(repeated);  // it is reported above
-  programs_->waitForCompiler();
-  loaded_->environment = skyOf(posed_, repeated);
-  // When the sun rises or sets, programs change: light paths begin at it (Trait::Caustics).
-  programs_->show(shines() == shone ? Renewed::Surroundings : Renewed::Pose, posed_);
+  if (renewed == Renewal::None) return;
+  for (Side& side : sides_) side.stale = true;
 }
 
 void ViewTracer::setRequest(const TraceRequest& request) {
   // The window does not know of the scene that has just been loaded.
-  if (request.sides.front().scene != loadedOptions_.scene) return;
+  if (request.sides.front().scene != session_.options().scene) return;
   request_ = request;
-  const auto isText = [](const Side& side) {
-    return side.program && side.program->tracer.variant.traversal == TraversalMethod::Literals;
-  };
-  wasText_ = wasText_ || std::ranges::any_of(sides_, isText);
-  for (RenderOptions& side : request_.sides) side = asPosed(side);
+  for (RenderOptions& side : request_.sides) side = session_.asPosed(side);
   renew(request_);
   if (request.moving) keepMoving(resolution_, request.size);
   sides_.resize(request.sides.size());
@@ -432,34 +372,13 @@ void ViewTracer::setRequest(const TraceRequest& request) {
   noteAnswered();
 }
 
-// Numbers of the file that the viewer's user sets: their way into the scene that is drawn, and into a file.
-
-bool ViewTracer::setSurfaces(const RenderOptions& wanted, const std::vector<RenderOptions>& sides) {
-  const auto isText = [](const RenderOptions& side) {
-    return side.device.traversal == TraversalMethod::Literals;
-  };
-  // An animation may drive the same numbers, and lines are built again for another camera.
-  if (wanted.selection.animationTime || differIn(Renewal::Pose, posed_, wanted) ||
-      !loaded_->scene.strokes.empty() || std::ranges::any_of(sides, isText))
-    return false;
-  const auto traits = [&](const Scene& scene) { return traitsOf(scene, loaded_->environment); };
-  const TraitSet before = traits(loaded_->scene);
-  programs_->waitForCompiler();
-  if (!setByEye(loaded_->scene, fileMaterials_, fileLights_, wanted.selection.set) ||
-      traits(loaded_->scene) != before)
-    return false;
-  takeStep(posed_, wanted, Renewal::Surfaces);
-  programs_->show(Renewed::Surfaces, posed_);
-  return true;
-}
-
 void ViewTracer::saveModel(const std::filesystem::path& path) {
   const std::vector<SetNumber>& set = request_.sides.front().selection.set;
   try {
-    writeChanged(loadedOptions_.scene, path, set);
+    writeChanged(session_.options().scene, path, set);
     exchange_.deliver(SavedModel{set});
     exchange_.deliver("wrote " + path.string());
-    if (const std::string light = lightToName(posed_, *loaded_); !light.empty())
+    if (const std::string light = lightToName(session_.options(), session_.loaded()); !light.empty())
       exchange_.deliver("the emission that was set decides how that file is lit: render it with " + light +
                         " to see it as here");
   } catch (const std::exception& error) {
@@ -474,7 +393,7 @@ void ViewTracer::answer(const PickRequest& request) {
   PickAnswer answer;
   answer.request = request;
   Selected chosen;
-  const Scene& scene = loaded_->scene;
+  const Scene& scene = session_.loaded().scene;
   const auto choose = [&](uint32_t node, NodeSet nodes) {
     answer.node = node;
     answer.bounds = boundsOfNodes(scene, nodes);
@@ -491,7 +410,7 @@ void ViewTracer::answer(const PickRequest& request) {
     if (!side || !side->program) return;
     const Projection projection = projectionOf(side->view.camera, double(request_.size.x) / request_.size.y);
     const glm::dvec2 place(2.0 * request.place.x - 1.0, 1.0 - 2.0 * request.place.y);
-    if (const std::optional<Pick> pick = pickAt(scene, loaded_->bvh, projection, place)) {
+    if (const std::optional<Pick> pick = pickAt(scene, session_.loaded().bvh, projection, place)) {
       answer.hit = true;
       answer.point = pick->point;
       answer.lines = pickLines(scene, *pick);
@@ -517,13 +436,14 @@ void ViewTracer::select(Selected selected) {
 }
 
 std::vector<PictureLine> ViewTracer::linesOver(const Side& side) {
-  std::vector<PictureLine> lines = treeLines(side.options, *loaded_, side.view.camera, request_.size);
+  std::vector<PictureLine> lines =
+      treeLines(side.options, session_.loaded(), side.view.camera, request_.size);
   // Straight edges are curves in a panorama and a fisheye, which have no outline.
   if (selected_.bounds.empty() || !isRectilinear(side.view.camera.type)) return lines;
-  const LocalSpace& space = loaded_->scene.space;
+  const LocalSpace& space = session_.loaded().scene.space;
   const Projection projection = projectionOf(side.view.camera, double(request_.size.x) / request_.size.y);
   if (selected_.outlined != std::pair(projection, request_.size)) {
-    selected_.outline = outlineOfNodes(loaded_->scene, selected_.nodes, projection, request_.size);
+    selected_.outline = outlineOfNodes(session_.loaded().scene, selected_.nodes, projection, request_.size);
     selected_.outlined = {projection, request_.size};
   }
   std::vector<PictureLine> around = selected_.outline;

@@ -9,6 +9,7 @@
 #include <deque>
 #include <exception>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -25,7 +26,6 @@
 #include "view/exchange.h"
 #include "view/files.h"
 #include "view/live/view_picture.h"
-#include "view/live/view_programs.h"
 #include "view/resolution_controller.h"
 
 namespace fragtrace {
@@ -74,7 +74,7 @@ class ViewTracer {
  private:
   struct Side {
     RenderOptions options;
-    std::shared_ptr<ViewProgram> program;
+    std::shared_ptr<SceneProgram> program;
     std::optional<RenderOptions> awaited;  ///< options to draw once their program is compiled
     bool previews = false;                 ///< draws in Blinn-Phong until then
     bool guessesLightPaths = false;        ///< the film's View::pixelsPerPath was not measured
@@ -108,24 +108,16 @@ class ViewTracer {
   void watchFiles();
   void rebuildPrograms();
   void setRequest(const TraceRequest& request);
-  /// The options, with front-to-back instead of an automatic traversal if the scene is posed again.
-  RenderOptions asPosed(RenderOptions options) const;
   /// Renews what the request needs otherwise of the scene: its sky, its pose, numbers of surfaces and lights.
+  /// Tells the window why if it cannot.
   void renew(const TraceRequest& request);
-  /// Gives the scene that pose: the time of its animation, and lines as wide as that camera needs. Tells the
-  /// window why if it cannot.
-  void pose(const RenderOptions& wanted);
-  /// The scene gets the numbers that are set for surfaces and lights. Returns false if more than these may
-  /// have to change: the scene is then to be posed.
-  bool setSurfaces(const RenderOptions& wanted, const std::vector<RenderOptions>& sides);
-  void relight(const SkyOptions& sky);
   /// The options with a filter that is available. Tells the window why if it is not the one asked for.
   RenderOptions withFilter(RenderOptions options);
   void setSide(Side& side, const RenderOptions& options);
   void preview(Side& side, const RenderOptions& wanted);
   View viewOf(const RenderOptions& options);
   /// Null while the program is compiled next to other drawing.
-  std::shared_ptr<ViewProgram> programFor(const RenderOptions& options, bool aside);
+  std::shared_ptr<SceneProgram> programFor(const RenderOptions& options, bool aside);
   /// Sides draw what was compiled aside.
   void takeCompiled();
   /// Returns true if a side draws something else meanwhile.
@@ -176,15 +168,8 @@ class ViewTracer {
   std::deque<Background<bool>> thumbnails_;  ///< one for each request; true when they are made
   std::unique_ptr<Context> context_;
   std::unique_ptr<DebugLog> driverLog_;
-  std::unique_ptr<LoadedScene> loaded_;
-  std::shared_ptr<KeptDocument> document_;  ///< the document that is posed
-  RenderOptions loadedOptions_;             ///< options of the scene
-  RenderOptions posed_;  ///< the same with the pose, the sky, and the camera that gives lines their width
-  std::vector<Material> fileMaterials_;  ///< those of the file, without what the user sets
-  std::vector<LightSource> fileLights_;
-  bool wasText_ = false;                ///< a program's text has held the whole scene
-  std::optional<RefittableTree> tree_;  ///< the latest tree of a moving scene
-  std::unique_ptr<ViewPrograms> programs_;
+  Session session_{std::numeric_limits<double>::infinity()};
+  CameraOptions loadedCamera_;       ///< that of the options that the scene was loaded with
   std::optional<OidnLibrary> oidn_;  ///< opened later where a pasted command asks for it
   PassClock clock_;
   std::unique_ptr<PictureMaker> maker_;

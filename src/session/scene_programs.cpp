@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/live/view_programs.h"
+#include "session/scene_programs.h"
 
 #include <algorithm>
 
@@ -8,7 +8,6 @@
 #include "gl/gl.h"
 #include "options/option_row.h"
 #include "pack/textures/pack_textures.h"
-#include "session/picture/denoising.h"
 
 namespace fragtrace {
 
@@ -45,7 +44,7 @@ constexpr size_t kMostKept = 6;
 constexpr size_t kMostKeptBytes = size_t(1) << 29;
 
 /// The picture's program, if it can be had, and those of its features; the picture's draws what comes next.
-void compileAll(ViewProgram& program, const View& view) {
+void compileAll(SceneProgram& program, const View& view) {
   if (!program.error.empty()) return;
   Tracer& tracer = program.tracer;
   try {
@@ -78,12 +77,12 @@ RenderOptions programPart(const RenderOptions& options) {
 
 }  // namespace
 
-bool ViewPrograms::has(const RenderOptions& options) const {
+bool ScenePrograms::has(const RenderOptions& options) const {
   return std::ranges::any_of(programs_,
                              [part = programPart(options)](const auto& p) { return p->options == part; });
 }
 
-std::shared_ptr<ViewProgram> ViewPrograms::of(const RenderOptions& options) {
+std::shared_ptr<SceneProgram> ScenePrograms::of(const RenderOptions& options) {
   const RenderOptions part = programPart(options);
   const auto found = std::ranges::find_if(programs_, [&](const auto& p) { return p->options == part; });
   if (found != programs_.end()) {
@@ -99,7 +98,7 @@ std::shared_ptr<ViewProgram> ViewPrograms::of(const RenderOptions& options) {
   return programs_.front();
 }
 
-std::shared_ptr<ViewProgram> ViewPrograms::soon(const RenderOptions& options) {
+std::shared_ptr<SceneProgram> ScenePrograms::soon(const RenderOptions& options) {
   const RenderOptions part = programPart(options);
   if (!aside_ || has(options) || !sameTree(treeOptions_, part)) return of(options);
   if (compiling()) return nullptr;
@@ -107,7 +106,7 @@ std::shared_ptr<ViewProgram> ViewPrograms::soon(const RenderOptions& options) {
   return nullptr;
 }
 
-void ViewPrograms::addCones(const std::shared_ptr<ViewProgram>& program) {
+void ScenePrograms::addCones(const std::shared_ptr<SceneProgram>& program) {
   if (!aside_ || compiling() || program->asksForCones || program->tracer.cones.empty()) return;
   program->asksForCones = true;
   startAside([this, program] {
@@ -116,8 +115,8 @@ void ViewPrograms::addCones(const std::shared_ptr<ViewProgram>& program) {
   });
 }
 
-void ViewPrograms::startAside(std::function<std::shared_ptr<ViewProgram>()> make) {
-  std::packaged_task<std::shared_ptr<ViewProgram>()> task(std::move(make));
+void ScenePrograms::startAside(std::function<std::shared_ptr<SceneProgram>()> make) {
+  std::packaged_task<std::shared_ptr<SceneProgram>()> task(std::move(make));
   coming_ = task.get_future();
   compiler_ = std::jthread([task = std::move(task), came = aside_->came]() mutable {
     nameThread("compile");
@@ -126,27 +125,28 @@ void ViewPrograms::startAside(std::function<std::shared_ptr<ViewProgram>()> make
   });
 }
 
-bool ViewPrograms::takeCompiled() {
+bool ScenePrograms::takeCompiled() {
   if (compiling() && coming_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
     waitForCompiler();
   return std::exchange(compiled_, false);
 }
 
-void ViewPrograms::waitForCompiler() {
+void ScenePrograms::waitForCompiler() {
   if (!compiling()) return;
   compiled_ = true;
-  const std::shared_ptr<ViewProgram> program = coming_.get();
+  const std::shared_ptr<SceneProgram> program = coming_.get();
   compileAll(*program, loaded_.view);
   if (program->asksForCones) program->hasCones = program->error.empty();
   keep(program);
 }
 
-void ViewPrograms::forget() {
+void ScenePrograms::forget() {
   waitForCompiler();
   programs_.clear();
 }
 
-void ViewPrograms::keep(std::shared_ptr<ViewProgram> program) {
+void ScenePrograms::keep(std::shared_ptr<SceneProgram> program) {
+  heldText_ = heldText_ || program->tracer.variant.traversal == TraversalMethod::Literals;
   programs_.remove(program);
   programs_.push_front(std::move(program));
   size_t bytes = 0;
@@ -160,17 +160,17 @@ void ViewPrograms::keep(std::shared_ptr<ViewProgram> program) {
   }
 }
 
-void ViewPrograms::show(Renewed renewed, const RenderOptions& options) {
+void ScenePrograms::show(Renewal renewed, const RenderOptions& options) {
   // The thread that compiles aside packs the scene.
   if (compiling()) throw std::logic_error("the scene was changed while a program was made for it");
-  const bool posed = renewed == Renewed::Pose;
+  const bool posed = renewed >= Renewal::Pose;
   std::erase_if(programs_, [&](const auto& p) {
     const bool isText = p->tracer.variant.traversal == TraversalMethod::Literals;
-    return p.use_count() == 1 || !p->error.empty() || (renewed == Renewed::Surfaces && isText);
+    return p.use_count() == 1 || !p->error.empty() || (renewed == Renewal::Surfaces && isText);
   });
   if (posed) treeOptions_ = options;
-  for (const std::shared_ptr<ViewProgram>& program : programs_) {
-    if (renewed == Renewed::Surroundings) {
+  for (const std::shared_ptr<SceneProgram>& program : programs_) {
+    if (renewed == Renewal::Surroundings) {
       replaceSurroundings(program->tracer, loaded_);
       continue;
     }
@@ -178,11 +178,11 @@ void ViewPrograms::show(Renewed renewed, const RenderOptions& options) {
     if (posed && !sameTree(treeOptions_, program->options))
       loaded_.bvh = buildTree(loaded_.scene, program->options);
     if (posed) treeOptions_ = program->options;
-    replace(*program, !posed);
+    replace(*program, renewed == Renewal::Surfaces);
   }
 }
 
-void ViewPrograms::replace(ViewProgram& program, bool surfacesAlone) const {
+void ScenePrograms::replace(SceneProgram& program, bool surfacesAlone) const {
   Statistics stats;
   const std::vector<TexturePlace> places = program.tracer.textures.places;
   replaceScene(program.tracer, context_, loaded_, program.options, stats, surfacesAlone);
@@ -201,8 +201,8 @@ void ViewPrograms::replace(ViewProgram& program, bool surfacesAlone) const {
   if (!keepsCones) program.asksForCones = program.hasCones = false;
 }
 
-std::shared_ptr<ViewProgram> ViewPrograms::makeAside(const RenderOptions& part) const {
-  std::shared_ptr<ViewProgram> program;
+std::shared_ptr<SceneProgram> ScenePrograms::makeAside(const RenderOptions& part) const {
+  std::shared_ptr<SceneProgram> program;
   runIn(aside_->context, [&] {
     DebugLog log;
     program = make(part);
@@ -216,7 +216,7 @@ std::shared_ptr<ViewProgram> ViewPrograms::makeAside(const RenderOptions& part) 
 }
 
 /// Fills the levels, and compiles the variants for the driver's cache: an empty scene will do.
-void ViewPrograms::makeCones(const ViewProgram& program) const {
+void ScenePrograms::makeCones(const SceneProgram& program) const {
   const Tracer& tracer = program.tracer;
   addLevels(tracer.textures, tracer.renderer->textures().memory());
   Renderer renderer(context_, GpuScene{}, tracer.reads, program.options.device.shaderFolder);
@@ -230,8 +230,8 @@ void ViewPrograms::makeCones(const ViewProgram& program) const {
   }
 }
 
-std::shared_ptr<ViewProgram> ViewPrograms::make(const RenderOptions& part) const {
-  auto program = std::make_shared<ViewProgram>();
+std::shared_ptr<SceneProgram> ScenePrograms::make(const RenderOptions& part) const {
+  auto program = std::make_shared<SceneProgram>();
   program->options = part;
   const auto fail = [&](const std::exception& error) { program->error = error.what(); };
   try {
