@@ -4,7 +4,7 @@
 /// Paths scatter, so that --bounces can end them.
 const bool kScatters = kGi || kReflections || kRefraction;
 
-/// Where the camera of a path with this time looks.
+/// The direction of the camera of a path with this time.
 vec3 forwardAt(float time) {
   return kMovingCamera ? turnedWith(cameraAt(time), frame.cameraForward) : frame.cameraForward;
 }

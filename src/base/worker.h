@@ -68,7 +68,7 @@ struct WorkResult {
   std::span<const uint8_t> output;  ///< lies in the memory
 };
 
-/// Why a worker of this process had all system calls of the system while it worked (base/worker/confine.h);
+/// Why a worker of this process had all system calls of the system while it worked (base/worker/main.cpp);
 /// empty: none had. From any thread.
 std::string whyUnconfined();
 

@@ -69,7 +69,7 @@ struct WhoLights {
   std::string text;  ///< a clause
 };
 
-/// What drawing the scene takes.
+/// The costs of drawing the scene.
 struct SceneCosts {
   BvhQuality tree;
   double bytesPerTriangle = 0.0;

@@ -185,7 +185,7 @@ Distance distanceOf(Blocks& blocks, const AdaptiveGoal& goal, const Errors& now,
   return d;
 }
 
-/// What is known of the way to the goal.
+/// The present knowledge of the way to the goal.
 struct Estimate {
   Distance distance;
   RayClock clock;

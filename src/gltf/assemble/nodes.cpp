@@ -363,7 +363,7 @@ std::vector<glm::dmat4> placesOfMesh(Document& document, const PlacedNode& node)
   return InstanceReader(document, node, attributes).read();
 }
 
-// What a node places other than a mesh.
+// Nodes that place something other than a mesh.
 
 namespace {
 
