@@ -52,8 +52,7 @@ OptionRow focalLengthRow() {
            r.name,
            [&raw](const std::vector<double>& mm) {
              const double sensor = mm.size() > 1 ? mm[1] : 24.0;
-             raw.options.camera.overrides.viewAngleDegrees =
-                 glm::degrees(2.0 * std::atan(0.5 * sensor / mm[0]));
+             raw.options.camera.overrides.viewAngleDegrees = glm::degrees(viewAngleOf(mm[0], sensor));
            },
            r.help)
         ->delimiter(',')

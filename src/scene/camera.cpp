@@ -267,6 +267,10 @@ double focalLengthOf(double viewAngle) {
   return 0.5 * kSensorHeight / std::tan(0.5 * viewAngle);
 }
 
+double viewAngleOf(double focalLength, double sensorHeight) {
+  return 2.0 * std::atan(0.5 * sensorHeight / focalLength);
+}
+
 Camera zoomed(Camera camera, double zoom) {
   if (zoom == 1.0) return camera;  // keeps every bit
   const bool fisheye = camera.type == CameraType::Fisheye;

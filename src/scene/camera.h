@@ -135,6 +135,9 @@ Camera withOverrides(Camera camera, const CameraOverrides& overrides, const Boun
 /// metres.
 double focalLengthOf(double viewAngle);
 
+/// The vertical angle (radians) that a lens sees on a sensor; both lengths in the same unit.
+double viewAngleOf(double focalLength, double sensorHeight);
+
 /// Returns a camera with a narrower lens, so that the middle of its picture is `zoom` times as large.
 Camera zoomed(Camera camera, double zoom);
 

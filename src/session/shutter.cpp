@@ -15,6 +15,7 @@
 #include "session/environment.h"
 #include "session/say.h"
 #include "shader/layout.h"
+#include "view/camera_controller.h"
 
 namespace fragtrace {
 
@@ -452,16 +453,8 @@ RenderOptions placedForAllPoses(RenderOptions options, std::shared_ptr<KeptDocum
 }
 
 CameraOverrides asPlaced(const Camera& camera, const BoundsDouble& bounds) {
-  CameraOverrides all;
-  all.position = camera.position;
-  all.focalPoint = focalPointOf(camera, bounds);
+  CameraOverrides all = overridesOf(poseOf(camera, bounds));
   all.viewUp = camera.up;
-  if (camera.type == CameraType::Orthographic)
-    all.parallelScale = camera.halfHeight;
-  else if (camera.type != CameraType::Panorama)
-    all.viewAngleDegrees = glm::degrees(camera.fovY);
-  if (!isRectilinear(camera.type)) all.type = camera.type;
-  if (camera.shift != glm::dvec2(0.0)) all.lensShift = camera.shift;
   return all;
 }
 

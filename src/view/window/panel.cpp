@@ -475,7 +475,7 @@ void drawCamera(ViewState& state, ViewFacts& facts) {
     if (slider({"Focal length", 2.0f, 1000.0f, "%.1f mm", kBoundedLogarithmic,
                 "On a sensor 24 mm high (--focal-length)"},
                millimetres)) {
-      state.edit.pose.viewAngleDegrees = glm::degrees(2.0 * std::atan(12.0 / millimetres));
+      state.edit.pose.viewAngleDegrees = glm::degrees(viewAngleOf(millimetres, 24.0));
       state.edit.posed = true;
     }
     drawLens(state);
