@@ -60,7 +60,7 @@ std::string describe(const BiasTest& test, int side) {
 
 /// Reads a picture, and says how its values were changed.
 Image readSaid(const DiffOptions& options, const std::filesystem::path& path) {
-  Image image = options.view.view.empty() ? readImage(path) : readDisplayImage(path, options.view);
+  Image image = options.view.isAsked() ? readDisplayImage(path, options.view) : readImage(path);
   for (const std::string& note : image.notes) reportMessage(path.string() + ": " + note);
   return image;
 }
@@ -84,7 +84,7 @@ Comparison compareFiles(const DiffOptions& options) {
 /// Warns of stored values that mean different things.
 void warnOfKinds(const DiffOptions& options) {
   const bool ofDisplay = isDisplayFormat(options.picture);
-  if (options.metric == Metric::Flip || !options.view.view.empty() ||
+  if (options.metric == Metric::Flip || options.view.isAsked() ||
       ofDisplay == isDisplayFormat(options.reference))
     return;
   const auto kind = [](const std::filesystem::path& path) {
@@ -98,8 +98,8 @@ void warnOfKinds(const DiffOptions& options) {
 std::string explanation(const DiffOptions& options) {
   const std::string name(metricNames()[size_t(options.metric)]);
   const bool comparesValues = options.metric != Metric::Flip && options.metric != Metric::Bias;
-  const char* values = !comparesValues              ? ""
-                       : !options.view.view.empty() ? "\nvalues: what the view shows, from 0 to 1"
+  const char* values = !comparesValues          ? ""
+                       : options.view.isAsked() ? "\nvalues: what the view shows, from 0 to 1"
                        : isDisplayFormat(options.picture)
                            ? "\nvalues: sRGB from 0 to 1; a step of 8 bits is 0.004"
                            : "\nvalues: linear radiance";
@@ -157,7 +157,7 @@ RunCommand addDiff(CLI::App& app) {
     options.metric = choose<Metric>("--metric", raw->metric, metricNames());
     if (tile->count() > 0 && options.metric != Metric::Bias)
       throw UsageError("--tile: only --metric bias compares tiles");
-    if (!options.view.view.empty() && options.metric == Metric::Bias)
+    if (options.view.isAsked() && options.metric == Metric::Bias)
       throw UsageError("--ocio-view: --metric bias compares linear radiance");
     if (!options.outfile.empty() && !isWritableImageName(options.outfile)) {
       throw UsageError("--outfile: '" + options.outfile.string() +

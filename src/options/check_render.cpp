@@ -82,8 +82,7 @@ constexpr VainRow kRows[] = {
      "changes .png and .jpg of 8 bits only"},
     {"--exposure", isLinear, "changes .png and .jpg only; this file holds linear radiance"},
     {"--ocio-view", isLinear, "changes .png and .jpg only; this file holds linear radiance"},
-    {"--tone-map", [](const Options& o) { return !o.output.ocio.view.empty(); },
-     "--ocio-view takes its place"},
+    {"--tone-map", [](const Options& o) { return o.output.ocio.isAsked(); }, "--ocio-view takes its place"},
     {"--tone-map", isLinear, "changes .png and .jpg only; this file holds linear radiance"},
     {"--output",
      [](const Options& o) {
@@ -412,7 +411,7 @@ void checkView(const OutputOptions& o) {
                                      {"--ocio-display", &o.ocio.display},
                                      {"--ocio-look", &o.ocio.look},
                                      {"--ocio-input", &o.ocio.input}}) {
-    if (o.ocio.view.empty() && !name->empty())
+    if (!o.ocio.isAsked() && !name->empty())
       throw UsageError(std::string(option) + ": goes with --ocio-view");
   }
 }
@@ -439,7 +438,7 @@ RenderOptions finishRender(const RawRender& raw) {
   checkVolume(o);
   checkOutput(o, raw.anyOutput);
   checkView(o.output);
-  if (!o.output.ocio.view.empty() && pageOf(o))
+  if (o.output.ocio.isAsked() && pageOf(o))
     throw UsageError(
         "--ocio-view: not with --background-color, whose colour no view may change (--no-background)");
   checkLightPaths(o);

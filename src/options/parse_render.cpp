@@ -175,6 +175,13 @@ std::string commandWith(const std::string& option, const CLI::App& command) {
   return "";
 }
 
+/// The option of the command that an unknown one ("--widht") most likely stands for; empty if none is near.
+std::string optionMeant(const std::string& unknown, const CLI::App& command) {
+  std::vector<std::string> known;
+  for (const CLI::Option* one : command.get_options()) known.push_back(one->get_name());
+  return suggestedOption(unknown, known);
+}
+
 /// Names the arguments that the library did not expect.
 std::string whatIsUnknown(const CLI::App& app, const std::vector<std::string>& left) {
   const CLI::App& command = chosenCommand(app);
@@ -208,32 +215,7 @@ std::string rangeText(int least, int most) {
   return std::to_string(least) + (most == least + 1 ? " or " : " to ") + std::to_string(most);
 }
 
-}  // namespace
-
-std::string optionMeant(const std::string& unknown, const CLI::App& command) {
-  std::vector<std::string> known;
-  for (const CLI::Option* one : command.get_options()) known.push_back(one->get_name());
-  return suggestedOption(unknown, known);
-}
-
-std::string withNumberSettled(std::string argument, std::string_view before) {
-  if (argument.starts_with("-.") && argument.size() > 2 &&
-      std::isdigit(static_cast<unsigned char>(argument[2]))) {
-    argument.insert(1, "0");
-  }
-  constexpr std::string_view kResolution = "--resolution=";
-  constexpr const char* kDigits = "0123456789";
-  const bool joined = argument.starts_with(kResolution);
-  if (!joined && before != kResolution.substr(0, kResolution.size() - 1)) return argument;
-  const size_t start = joined ? kResolution.size() : 0;
-  const size_t middle = argument.find_first_not_of(kDigits, start);
-  const bool isSize = middle != std::string::npos && middle > start && argument[middle] == 'x' &&
-                      middle + 1 < argument.size() &&
-                      argument.find_first_not_of(kDigits, middle + 1) == std::string::npos;
-  if (isSize) argument[middle] = ',';
-  return argument;
-}
-
+/// Says an error of the option library about a command, or about one that it groups.
 std::string plainText(const CLI::ParseError& error, const CLI::App& app) {
   static const std::regex kCount("(.*): At (?:Most|least) \\d+ required but received (\\d+)",
                                  std::regex::icase);
@@ -256,6 +238,26 @@ std::string plainText(const CLI::ParseError& error, const CLI::App& app) {
     if (std::regex_match(text, pattern)) return std::regex_replace(text, pattern, wording);
   }
   return text;
+}
+
+}  // namespace
+
+std::string withNumberSettled(std::string argument, std::string_view before) {
+  if (argument.starts_with("-.") && argument.size() > 2 &&
+      std::isdigit(static_cast<unsigned char>(argument[2]))) {
+    argument.insert(1, "0");
+  }
+  constexpr std::string_view kResolution = "--resolution=";
+  constexpr const char* kDigits = "0123456789";
+  const bool joined = argument.starts_with(kResolution);
+  if (!joined && before != kResolution.substr(0, kResolution.size() - 1)) return argument;
+  const size_t start = joined ? kResolution.size() : 0;
+  const size_t middle = argument.find_first_not_of(kDigits, start);
+  const bool isSize = middle != std::string::npos && middle > start && argument[middle] == 'x' &&
+                      middle + 1 < argument.size() &&
+                      argument.find_first_not_of(kDigits, middle + 1) == std::string::npos;
+  if (isSize) argument[middle] = ',';
+  return argument;
 }
 
 void parseWords(CLI::App& app, std::vector<std::string> words, const char* more) {

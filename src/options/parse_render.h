@@ -15,10 +15,6 @@
 
 namespace CLI {
 class App;
-class ParseError;
-}  // namespace CLI
-namespace CLI {
-class App;
 class Option;
 }  // namespace CLI
 
@@ -37,12 +33,6 @@ std::string textOf(const AddedLight& light);
 /// Numbers such as "-.5,0,1" look like short options to the library; a zero before the point settles it. And
 /// --resolution, the word `before` it, may be written as 640x480.
 std::string withNumberSettled(std::string argument, std::string_view before);
-
-/// The option of the command that an unknown one ("--widht") most likely stands for; empty if none is near.
-std::string optionMeant(const std::string& unknown, const CLI::App& command);
-
-/// Says an error of the option library about a command, or about one that it groups.
-std::string plainText(const CLI::ParseError& error, const CLI::App& app);
 
 /// Gives a command its words, in their order, with numbers settled. Throws UsageError, which says where to
 /// find `more`, and names the word that is not known with the one that was meant; without `more`, as for a

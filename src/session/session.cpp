@@ -34,12 +34,13 @@ void openContext(const RenderOptions& options, double paths, Device& device, Sta
   stats.quickCompilation = quick && device.context->software;
 }
 
-}  // namespace
-
+/// Points and lines get their width from the camera and the picture's size.
 bool seesStrokesAlike(const RenderOptions& a, const RenderOptions& b) {
   return a.camera.overrides == b.camera.overrides && a.camera.index == b.camera.index &&
          a.camera.resolution == b.camera.resolution;
 }
+
+}  // namespace
 
 Renewal Session::renewalOf(const RenderOptions& options) const {
   if (!isSet_) return Renewal::Scene;

@@ -36,9 +36,6 @@ struct SceneChange {
       change{};  ///< called with each scene that was loaded, before it is packed
 };
 
-/// Points and lines get their width from the camera and the picture's size.
-bool seesStrokesAlike(const RenderOptions& a, const RenderOptions& b);
-
 class Session {
  public:
   /// For so many pictures of about the same size; with the hash of the scene always, or where the options'

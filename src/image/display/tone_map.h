@@ -38,6 +38,7 @@ struct OcioView {
   std::string look;
   std::string input;
 
+  bool isAsked() const { return !view.empty(); }
   bool operator==(const OcioView&) const = default;
 };
 

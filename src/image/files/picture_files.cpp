@@ -294,8 +294,7 @@ Image readDisplayImage(const std::filesystem::path& path, const OcioView& view) 
   const std::vector<uint8_t> bytes = readWholeFile(path, memoryLimit);
   Image image = decodeImage(bytes, path, memoryLimit);
   if (!isLinear(bytes)) return image;
-  return view.view.empty() ? toDefaultDisplay(image)
-                           : asRead(shownByView(exposedColors(image, 0), view), image);
+  return view.isAsked() ? asRead(shownByView(exposedColors(image, 0), view), image) : toDefaultDisplay(image);
 }
 
 LinearImage readLinearImage(const std::filesystem::path& path, uint64_t memoryLimit) {

@@ -116,7 +116,7 @@ std::vector<PictureLine> treeLines(const RenderOptions& options, const LoadedSce
 }
 
 void checkPictureWritable(const RenderOptions& options, glm::ivec2 size) {
-  if (holdsDisplay(options.output.file) && !options.output.ocio.view.empty())
+  if (holdsDisplay(options.output.file) && options.output.ocio.isAsked())
     shownByView({1, 1, {"R", "G", "B"}, {0.0f, 0.0f, 0.0f}, {}}, options.output.ocio);
   if (videoFormatOf(options.output.file) != nullptr) return;  // checkVideo() has tried
   checkImageWritable(options.output.file, size.x, size.y, channelsOf(options), options.output.encoding,
@@ -302,7 +302,7 @@ Image displayedPicture(const RenderOptions& options, const Image& linear,
   const ToneMap curve = colors ? ToneMap::Linear : options.output.toneMap;
   const std::optional<glm::vec3> page = pageOf(options);
   const auto shown = [&](const Image& picture) {
-    return colors || options.output.ocio.view.empty()
+    return colors || !options.output.ocio.isAsked()
                ? toDisplay(picture, exposure, curve)
                : shownByView(exposedColors(picture, exposure), options.output.ocio);
   };
