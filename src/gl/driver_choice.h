@@ -42,9 +42,9 @@ void limitDriverThreads();
 int vectorWidthOf(const std::string& renderer);
 
 /// Tells llvmpipe not to optimise its programs, if that saves more time than the slower drawing of `paths`
-/// paths of few rays costs (docs/measurements/benchmarks.md). Pictures are the same bits. It is for processes that draw
-/// once: it holds for all their contexts, and must be called before the first one is made. A GALLIVM_PERF
-/// that is already set stays. Returns true if llvmpipe was told.
+/// paths of few rays costs (docs/measurements/benchmarks.md). Pictures are the same bits. It is for processes
+/// that draw once: it holds for all their contexts, and must be called before the first one is made. A
+/// GALLIVM_PERF that is already set stays. Returns true if llvmpipe was told.
 bool preferQuickCompilation(double paths);
 
 // Chooses the schedule that draws a variant: the megakernel, or the wavefront of shaders/wavefront.glsl.

@@ -100,8 +100,8 @@ std::string readableTextOf(std::string_view text, const std::vector<Token>& toke
   return left + '\n';
 }
 
-/// The values of `const bool`, `const int` and `const uint` at the top of a shader, and those that a bool function
-/// returns whatever its arguments, as far as they are known.
+/// The values of `const bool`, `const int` and `const uint` at the top of a shader, and those that a bool
+/// function returns whatever its arguments, as far as they are known.
 using ShaderConstants = std::map<std::string_view, int>;
 
 using Tokens = std::span<const Token>;
@@ -253,7 +253,8 @@ class Settler {
     const Tokens words(left);
     const bool returns = words.size() > 2 && words[0].text == "return" &&
                          findOutside(words, ";") == words.size() - 1 && is(name - 1, "bool");
-    const auto value = returns ? conditionValue(words.subspan(1, words.size() - 2), constants_) : std::nullopt;
+    const auto value =
+        returns ? conditionValue(words.subspan(1, words.size() - 2), constants_) : std::nullopt;
     if (value) constants_.emplace(tokens_[name].text, *value);
   }
 
