@@ -342,11 +342,10 @@ glm::dvec2 shadowFadeOf(const RenderOptions& options, const CameraOverrides& set
   if (options.light.shadowFade || !fades || points.empty())
     return options.light.shadowFade.value_or(glm::dvec2(0.0));
   const Projection projection = projectionOf(camera, double(size.x) / size.y);
-  const auto [lowest, highest] =
-      std::ranges::minmax(points | std::views::transform([](const glm::dvec3& point) { return point.y; }));
+  const auto ends = std::ranges::minmax(points, {}, &glm::dvec3::y);
   glm::dvec2 filled(0.0);
   for (const glm::dvec3& point : points) {
-    if (point.y > glm::mix(lowest, highest, kFoot)) continue;
+    if (point.y > glm::mix(ends.min.y, ends.max.y, kFoot)) continue;
     const glm::dvec3 place = projected(projection, point);
     filled = glm::max(filled, place.z > 0.0 ? glm::abs(glm::dvec2(place) / place.z) : glm::dvec2(1.0));
   }
@@ -416,6 +415,17 @@ void addByCamera(LoadedScene& loaded, const RenderOptions& options) {
   checkCameraPlane(options, loaded);
 }
 
+/// Decides who lights the scene, by the tree of the file's surfaces where there is one already.
+void settleLight(LoadedScene& loaded, const RenderOptions& options, const Bvh* tree,
+                 const SceneBefore& before, Statistics& stats) {
+  PhaseTimer timer("light");
+  // The document holds the key times of its latest pose, which the shutter reads.
+  const auto document = shutterSeconds(options) > 0.0 ? nullptr : before.document;
+  loaded.light = before.light ? *before.light : fileLightOf(options, loaded.scene, tree, document);
+  setLampScale(loaded.scene, loaded.light.lampScale);
+  stats.phases.push_back(timer.end());
+}
+
 /// loadScene() into `loaded`, which has the environment of before already, if there is one.
 void loadInto(LoadedScene& loaded, const RenderOptions& options, Statistics& stats,
               const LoadProgress& progress, FilmOf film, SceneBefore before) {
@@ -436,14 +446,6 @@ void loadInto(LoadedScene& loaded, const RenderOptions& options, Statistics& sta
   const Scene& scene = loaded.scene;
   checkOutputs(outputsOf(options), inputsOf(scene));
   std::vector<std::string> ofEnvironment;  // warnings, which are printed at once
-  const auto settleLight = [&](const Bvh* tree) {
-    PhaseTimer timer("light");
-    // The document holds the key times of its latest pose, which the shutter reads.
-    loaded.light =
-        before.light ? *before.light : fileLightOf(options, scene, tree, opens ? nullptr : before.document);
-    setLampScale(loaded.scene, loaded.light.lampScale);
-    stats.phases.push_back(timer.end());
-  };
   const auto settleEnvironment = [&] {
     PhaseTimer timer("sky");
     if (!before.environment)
@@ -455,8 +457,8 @@ void loadInto(LoadedScene& loaded, const RenderOptions& options, Statistics& sta
   // The tree is built while the map is decoded, unless the camera depends on the map. It serves the decision
   // about the light, too, where it holds the file's surfaces alone.
   const bool early = fitsShadow(options, settledOverrides(options.camera.overrides, scene));
-  const bool apart = early || options.light.ground || !scene.strokes.empty() || shutterSeconds(options) > 0.0;
-  if (apart) settleLight(nullptr);
+  const bool apart = early || options.light.ground || !scene.strokes.empty() || opens;
+  if (apart) settleLight(loaded, options, nullptr, before, stats);
   if (early) settleEnvironment();
   aim(loaded, options, film);
   addByCamera(loaded, options);
@@ -471,7 +473,7 @@ void loadInto(LoadedScene& loaded, const RenderOptions& options, Statistics& sta
   step("building the tree", 0.5);
   loaded.bvh = refitOrBuild(scene.motion.segments > 0 ? nullptr : before.tree, scene, options, stats);
   stats.bvhBuildMs = watch.lap();
-  if (!apart) settleLight(&loaded.bvh);
+  if (!apart) settleLight(loaded, options, &loaded.bvh, before, stats);
   checkCatcher(options, loaded.light, loaded.scene);
   checkMapOptions(options, countedLight(options, loaded.light), loaded.scene);
   sayWarnings(options, loaded.overrides.fit && loaded.strays == 0, loaded.scene);

@@ -286,6 +286,21 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   return v;
 }
 
+namespace {
+
+/// Takes out the stages that a layer does without: what is left has the same samples, and the same hits.
+void dropStagesOfLayer(bool normals, bool follows, StageSet& stages) {
+  for (const StageRow& row : stageRows()) {
+    const bool kept = row.stage == Stage::Sobol || row.stage == Stage::Watertight ||
+                      (normals && row.stage == Stage::NormalMaps) ||
+                      (follows && (row.stage == Stage::Reflections || row.stage == Stage::Refraction ||
+                                   row.stage == Stage::Schlick));
+    if (!kept) stages.reset(size_t(row.stage));
+  }
+}
+
+}  // namespace
+
 ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& present,
                                Surroundings surroundings, uint32_t stackNeed, BufferReads reads, Aov aov) {
   RenderOptions wanted = options;
@@ -300,14 +315,7 @@ ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& pre
   const bool guides = aov == Aov::Guides;
   const bool normals = aov == Aov::Normal || guides;
   const bool follows = guides && has(present, Trait::SmoothSurfaces);
-  for (const StageRow& row : stageRows()) {
-    // These layers have the same samples, and the same hits.
-    const bool kept = row.stage == Stage::Sobol || row.stage == Stage::Watertight ||
-                      (normals && row.stage == Stage::NormalMaps) ||
-                      (follows && (row.stage == Stage::Reflections || row.stage == Stage::Refraction ||
-                                   row.stage == Stage::Schlick));
-    if (!kept) wanted.stages.reset(size_t(row.stage));
-  }
+  dropStagesOfLayer(normals, follows, wanted.stages);
   if (normals) wanted.stages.set(size_t(Stage::Phong));
   TraitSet kept = present;
   for (Trait t :
