@@ -44,9 +44,9 @@ Path extend(Path p) {
 /// Traces the path's ray, or its shadow ray, as far as the budget lets it.
 Path traced(Path p, bool connects, int budget, TreeFrame tree) {
   if (kTestsAlpha) p = withChances(p);
-  bool apart = connects && !kGpu;
-  vec3 origin = apart ? p.connection.origin : p.ray.origin;
-  vec3 direction = apart ? p.connection.direction : p.ray.direction;
+  bool ofConnection = connects && !kGpu;  // on GPUs swapRays() has put it into p.ray
+  vec3 origin = ofConnection ? p.connection.origin : p.ray.origin;
+  vec3 direction = ofConnection ? p.connection.direction : p.ray.direction;
   float limit = connects ? p.connection.limit : kFarAway;
   p.traversal = traverse(origin, direction, limit, p.traversal, tree, budget, connects);
   return p;

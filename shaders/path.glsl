@@ -85,7 +85,7 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int earlier, int steps) 
     vec2 jitter = drawPair(sampler, kCameraDimensions);
     // A coarse picture's first sample is in the middle: edges with chance would be ragged.
     bool middle = frame.firstInMiddle > 0.0 && sampleIndex == uint(frame.firstSample);
-    // The text of the other filters is left out with the branch.
+    // This is the box filter; the text of the others is left out with the branch.
     vec2 offset = jitter - 0.5;
     if (kPixelFilter != kBoxFilter) offset = samplePixelFilter(kPixelFilter, jitter.x, jitter.y);
     if (!middle) place += offset;

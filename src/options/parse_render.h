@@ -105,9 +105,10 @@ void addConfigOption(CLI::App& app, std::string& file);
 int runConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App& command,
                   const std::function<int(const RenderOptions&)>& run);
 
-/// Does the same for a caller that runs nothing yet: the options. `defaults` is another such file (none: an
-/// empty path), whose options count where neither command line nor `config` has them; what they say of who
-/// lights the scene ends where those do.
+/// Returns the settled options of a parsed command and of the file, for a caller that runs nothing yet;
+/// throws as runConfigured(). `defaults` is another such file (none: an empty path), whose options count
+/// where neither command line nor `config` has them; what they say of who lights the scene ends where those
+/// do.
 RenderOptions finishConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App& command,
                                const std::filesystem::path& defaults = {});
 

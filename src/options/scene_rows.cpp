@@ -51,7 +51,7 @@ OptionRow focalLengthRow() {
     app.add_option_function<std::vector<double>>(
            r.name,
            [&raw](const std::vector<double>& mm) {
-             const double sensor = mm.size() > 1 ? mm[1] : 24.0;
+             const double sensor = mm.size() > 1 ? mm[1] : 1000.0 * kSensorHeight;
              raw.options.camera.overrides.viewAngleDegrees = glm::degrees(viewAngleOf(mm[0], sensor));
            },
            r.help)

@@ -262,10 +262,7 @@ Camera withOverrides(Camera camera, const CameraOverrides& overrides, const Boun
   return withLens(camera, overrides, glm::distance(focalPoint, camera.position));
 }
 
-double focalLengthOf(double viewAngle) {
-  constexpr double kSensorHeight = 0.024;
-  return 0.5 * kSensorHeight / std::tan(0.5 * viewAngle);
-}
+double focalLengthOf(double viewAngle) { return 0.5 * kSensorHeight / std::tan(0.5 * viewAngle); }
 
 double viewAngleOf(double focalLength, double sensorHeight) {
   return 2.0 * std::atan(0.5 * sensorHeight / focalLength);

@@ -131,8 +131,9 @@ glm::dvec3 recentringPoint(const std::optional<glm::dvec3>& camera, const Bounds
 /// is the focal point, or the angle or the scale is out of range.
 Camera withOverrides(Camera camera, const CameraOverrides& overrides, const BoundsDouble& bounds = {});
 
-/// The focal length of a lens that sees a vertical angle (radians) on a sensor of 35 mm film, 24 mm high;
-/// metres.
+constexpr double kSensorHeight = 0.024;  ///< of 35 mm film; metres
+
+/// The focal length (metres) of a lens that sees a vertical angle (radians) on a sensor of that height.
 double focalLengthOf(double viewAngle);
 
 /// The vertical angle (radians) that a lens sees on a sensor; both lengths in the same unit.

@@ -373,7 +373,7 @@ Document posed(KeptDocument& read, bool isKept, const GltfOptions& options) {
   }
   if (changes && isKept) document.root = std::make_shared<json>(*document.root);
   writeNumbers(*document.root, selection.set, document.diagnostics);
-  // Where an animation is named without a time, the time is 0.
+  // An animation that is named without a time is at time 0.
   const double seconds = selection.animationTime.value_or(0.0);
   for (const Animation* animation : played)
     applyAnimation(document, *animation, seconds, options.shutter, !parses);

@@ -66,7 +66,7 @@ std::vector<std::string> pickLines(const Scene& scene, const Pick& pick) {
 
 struct Cancelled {};
 
-/// What the window knows of a scene.
+/// Describes a scene to the window.
 ViewedScene viewedOf(const LoadedScene& loaded, const Statistics& stats, const RenderOptions& options) {
   ViewedScene viewed;
   viewed.options = options;

@@ -643,7 +643,7 @@ bool beginBar(const char* name, float top, float height, const WindowLayout& lay
 }
 
 /// The status bar below the picture: how good it is, how long it will take, and the pixel under the cursor.
-/// What has no room is left out, the least important first.
+/// Leaves out what has no room, the least important first.
 void drawStatusBar(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float top = float(layout.picture.y) + layout.stagesHeight;

@@ -475,7 +475,7 @@ void drawCamera(ViewState& state, ViewFacts& facts) {
     if (slider({"Focal length", 2.0f, 1000.0f, "%.1f mm", kBoundedLogarithmic,
                 "On a sensor 24 mm high (--focal-length)"},
                millimetres)) {
-      state.edit.pose.viewAngleDegrees = glm::degrees(viewAngleOf(millimetres, 24.0));
+      state.edit.pose.viewAngleDegrees = glm::degrees(viewAngleOf(millimetres, 1000.0 * kSensorHeight));
       state.edit.posed = true;
     }
     drawLens(state);

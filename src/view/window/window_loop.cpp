@@ -257,7 +257,7 @@ void Window::takeStatus(const TraceStatus& status) {
   frames_ = std::max(frames_, 2);
 }
 
-/// What was asked for is not loaded.
+/// Goes back to the scene that is shown: nothing else is loaded.
 void Window::endLoad() {
   pasted_.reset();
   revert(history_, state_);
