@@ -219,7 +219,9 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
                                 : nullptr;
   if (waste != nullptr) options.light.caustics = Caustics::Off;
   const RenderOptions drawn = withCameraRays(options, present, loaded.scene);
-  const uint32_t need = loaded.bvh.stackNeed;
+  // A tracer that draws keeps the stack of its programs: a pose with a lower tree needs no other ones.
+  const uint32_t need =
+      std::max(loaded.bvh.stackNeed, tracer.renderer ? uint32_t(tracer.variant.stackSize) : 0U);
   const BufferReads undecided = options.device.bufferReads;  // packed data do not depend on it
   tracer.variant = choosePictureVariant(drawn, present, loaded.environment.kind, need, undecided);
   ShaderVariant everything = tracer.variant;

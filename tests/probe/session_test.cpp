@@ -83,6 +83,17 @@ TEST_P(Told, ASceneRenewsWhatTheOptionsChange) {
   EXPECT_TRUE(session_.programs().has(options_)) << "the program that is held draws other poses, too";
 }
 
+TEST_P(Told, ALowerTreeKeepsTheProgram) {
+  options_.device.traversal = TraversalMethod::FrontToBack;
+  const std::shared_ptr<SceneProgram> program = session_.programs().of(options_);
+  ASSERT_EQ(program->error, "");
+  const int size = program->tracer.variant.stackSize;
+  options_.selection.hiddenNodes = {"tyre"};
+  EXPECT_EQ(renew(), Renewal::Pose);
+  EXPECT_LE(session_.loaded().bvh.stackNeed, size - 4) << "it would do with a smaller stack";
+  EXPECT_EQ(program->tracer.variant.stackSize, size);
+}
+
 TEST_P(Told, APoseThatCannotBeLoadedLeavesTheScene) {
   const RenderOptions asked = options_;
   const auto nodes = [&] { return session_.loaded().scene.nodes.size(); };

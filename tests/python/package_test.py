@@ -232,6 +232,7 @@ class Pictures(Package):
     def test_sequences_are_those_of_the_command(self):
         for scene, words, keywords in (("wheel.gltf", ("--frames", "1:7:3", "--fps", 24), {"frames": range(1, 8, 3), "fps": 24}),
                                        ("wheel.gltf", ("--frames", "2:3", "--shutter", 180), {"frames": "2:3", "shutter": 180}),
+                                       ("lights.gltf", ("--turntable", 5, "--frames", "2:3"), {"turntable": 5, "frames": "2:3"}),
                                        ("lights.gltf", ("--turntable", 3, "--turn", "object"), {"turntable": 3, "turn": "object"})):
             with self.subTest(scene):
                 numbers = list(keywords.get("frames")) if isinstance(keywords.get("frames"), range) else (2, 3) if "frames" in keywords else range(3)
@@ -241,7 +242,7 @@ class Pictures(Package):
                 for number, picture in zip(numbers, pictures):
                     np.testing.assert_array_equal(picture, fragtrace.read(self.folder / f"a{number}.exr"))
         self.assertEqual(len(list(fragtrace.Scene(SCENES / "lights.gltf", **SMALL).sequence(turntable=2))), 2)
-        for keywords, says in (({}, "frames=.* or turntable="), ({"frames": "0:1", "turntable": 2}, "^frames: does not go with turntable"), ({"frames": "1"}, "^frames: "),
+        for keywords, says in (({}, "frames=.* or turntable="), ({"frames": "0:2", "turntable": 2}, "^frames: turntable 2 has pictures 0 to 1$"), ({"frames": "1"}, "^frames: "),
                                ({"frame": 3}, "no keyword of sequence.*frames")):
             with self.assertRaisesRegex(fragtrace.UsageError, says):
                 fragtrace.sequence(SCENES / "wheel.gltf", **SMALL, **keywords)
