@@ -79,7 +79,7 @@ std::vector<Edge> unmatched(std::vector<Edge> edges) {
 /// The edges with places of one set that rounding alone parts as one place: a seam of a sphere has places at
 /// 0 and at 2 pi.
 std::vector<Edge> withoutSeams(const Scene& scene, const std::vector<Edge>& edges, Sets& sets) {
-  constexpr float kRounding = 1e-5f;  // of the diagonal of the set's box
+  constexpr double kRounding = 1e-5;  // of the diagonal of the set's box
   std::map<uint32_t, Bounds> boxes;
   const auto at = [&](uint32_t place) { return scene.vertices.position[place]; };
   for (const Edge& e : edges) {
@@ -90,9 +90,10 @@ std::vector<Edge> withoutSeams(const Scene& scene, const std::vector<Edge>& edge
   using Cell = std::array<int64_t, 4>;
   std::map<Cell, uint32_t> cells;  // the place that stands for all of the cell
   const auto standIn = [&](uint32_t place, uint32_t set) {
-    const float size = kRounding * glm::length(boxes[set].extent());
-    if (!(size > 0.0f)) return place;
-    const glm::dvec3 middle = glm::dvec3(at(place)) / double(size);
+    const Bounds& box = boxes[set];
+    const double size = kRounding * glm::length(glm::dvec3(box.extent()));
+    if (!(size > 0.0)) return place;
+    const glm::dvec3 middle = (glm::dvec3(at(place)) - glm::dvec3(box.minimum)) / size;
     const auto cellAt = [&](const glm::dvec3& p) {
       return Cell{int64_t(set), int64_t(std::floor(p.x)), int64_t(std::floor(p.y)), int64_t(std::floor(p.z))};
     };

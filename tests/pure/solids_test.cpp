@@ -100,6 +100,14 @@ TEST(Solids, RoundingDoesNotOpenASeam) {
   EXPECT_EQ(solidsAround(solids, {2.0, 1.0, -1.0}), Materials{0});
 }
 
+// scripts/sanitize sees the overflow of a cell's number.
+TEST(Solids, ASheetMayBeTinyAndFarAway) {
+  Scene scene = glassScene(1);
+  addBox(scene, 0, glm::vec3(0.0f), 1e-30f, false, 5);
+  for (glm::vec3& p : scene.vertices.position) p.x = 1.0f;
+  EXPECT_EQ(solidsAround(solidsOf(scene), glm::dvec3(2.0, 0.0, 0.0)), Materials{});
+}
+
 TEST(Solids, TheInnermostComesFirst) {
   Scene scene = glassScene(3);
   addBox(scene, 2, glm::vec3(0.0f), 3.0f);
