@@ -103,7 +103,7 @@ TEST(Solids, RoundingDoesNotOpenASeam) {
 // scripts/sanitize sees the overflow of a cell's number.
 TEST(Solids, ASheetMayBeTinyAndFarAway) {
   Scene scene = glassScene(1);
-  addBox(scene, 0, glm::vec3(0.0f), 1e-30f, false, 5);
+  addBox(scene, 0, glm::vec3(0.0f), 1e-18f, false, 1);
   for (glm::vec3& p : scene.vertices.position) p.x = 1.0f;
   EXPECT_EQ(solidsAround(solidsOf(scene), glm::dvec3(2.0, 0.0, 0.0)), Materials{});
 }
