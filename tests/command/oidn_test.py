@@ -22,7 +22,7 @@ NEEDED = ["--aov", "denoising"]
 def surroundings(**variables):
     """No library, but what these say."""
     hidden = ("FRAGTRACE_OIDN_LIBRARY", "VIRTUAL_ENV", "HOME", "FAKE_OIDN")
-    return {**{k: v for k, v in os.environ.items() if k not in hidden}, **variables}
+    return {**{k: v for k, v in os.environ.items() if k not in hidden}, "PATH": "/usr/bin:/bin", **variables}
 
 
 class OidnCase(Case):
@@ -93,9 +93,11 @@ class Oidn(OidnCase):
         place = self.folder / "lib/python3.99/site-packages/pyoidn/oidn/lib"
         place.mkdir(parents=True)
         shutil.copy(FAKE, place)
-        for variables in ({"VIRTUAL_ENV": self.folder}, {"HOME": self.folder / "home"}):
-            (self.folder / "home").mkdir(exist_ok=True)
-            (self.folder / "home/.local").symlink_to(self.folder) if "HOME" in variables else None
+        for variables, home in (({"VIRTUAL_ENV": self.folder}, None), ({"PATH": f"{self.folder}/bin:/usr/bin:/bin"}, None),
+                                ({"HOME": self.folder / "local"}, ".local"), ({"HOME": self.folder / "pyenv"}, ".pyenv/versions/3.99.0")):
+            if home:
+                (variables["HOME"] / home).parent.mkdir(parents=True)
+                (variables["HOME"] / home).symlink_to(self.folder)
             picture = self.folder / "x.exr"
             self.renders(BOX, "-o", picture, *SMALL, "--denoise", "oidn", env=surroundings(**{k: str(v) for k, v in variables.items()}))
             self.assertEqual(Exr(picture).texts["fragtrace:denoise"], "oidn 2.77.1")

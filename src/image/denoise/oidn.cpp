@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "image/channels.h"
 
 namespace fragtrace {
@@ -28,7 +29,8 @@ std::string textOfVariable(const char* name) {
   return text == nullptr ? "" : text;
 }
 
-/// Folders of Python packages: those of an environment, of the user and of the system.
+/// Folders of Python packages: those of an environment, of the programs in PATH (conda), of pyenv, of the
+/// user and of the system.
 std::vector<std::filesystem::path> packageFolders() {
   std::vector<std::filesystem::path> folders;
   const auto addVersions = [&](const std::filesystem::path& library, const char* packages) {
@@ -43,7 +45,15 @@ std::vector<std::filesystem::path> packageFolders() {
   const std::filesystem::path environment = textOfVariable("VIRTUAL_ENV");
   const std::filesystem::path home = textOfVariable("HOME");
   if (!environment.empty()) addVersions(environment / "lib", "site-packages");
-  if (!home.empty()) addVersions(home / ".local/lib", "site-packages");
+  const std::string path = textOfVariable("PATH");
+  for (const std::string_view programs : splitText(path, ':'))
+    addVersions(std::filesystem::path(programs).parent_path() / "lib", "site-packages");
+  if (!home.empty()) {
+    std::error_code error;
+    for (const auto& version : std::filesystem::directory_iterator(home / ".pyenv/versions", error))
+      addVersions(version.path() / "lib", "site-packages");
+    addVersions(home / ".local/lib", "site-packages");
+  }
   addVersions("/usr/local/lib", "dist-packages");
   folders.emplace_back("/usr/lib/python3/dist-packages");
   return folders;
