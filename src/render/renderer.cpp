@@ -530,6 +530,13 @@ bool canSplat() {
   return blends == GL_FULL_SUPPORT && sizes[1] >= 5.0f;
 }
 
+uint32_t cameraSolids(const Solids& solids, const glm::dvec3& point) {
+  const std::vector<uint32_t> around = solidsAround(solids, point);
+  if (around.empty()) return layout::kPrimitiveNone;
+  constexpr uint32_t kNoOuter = 0xffff;
+  return solids.nested ? around[0] | (around.size() > 1 ? around[1] : kNoOuter) << 16 : around[0];
+}
+
 void Renderer::compileLightPaths(Film& film, const View& view) {
   const std::optional<ShaderVariant> light = lightPathVariant(pace_->drawn);
   if (!light) return;

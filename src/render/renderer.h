@@ -129,6 +129,9 @@ struct Lens {
 /// Returns true if this driver can add points to a film of 32-bit floats, as caustics need.
 bool canSplat();
 
+/// View::cameraSolids of a camera at this point of local space.
+uint32_t cameraSolids(const Solids& solids, const glm::dvec3& point);
+
 /// Settings that can change from picture to picture without touching program or buffers.
 struct View {
   Camera camera;                      ///< world space

@@ -568,14 +568,6 @@ void warnOfVolume(const RenderOptions& options, Scene& scene) {
                        1.0 / extinction, size));
 }
 
-/// Frame::cameraSolids of a camera at this point of local space.
-uint32_t cameraSolids(const Solids& solids, const glm::dvec3& point) {
-  const std::vector<uint32_t> around = solidsAround(solids, point);
-  if (around.empty()) return layout::kPrimitiveNone;
-  constexpr uint32_t kNoOuter = 0xffff;
-  return solids.nested ? around[0] | (around.size() > 1 ? around[1] : kNoOuter) << 16 : around[0];
-}
-
 Lens lensOf(const RenderOptions& options, const Camera& camera, const BoundsDouble& bounds,
             const LocalSpace& space) {
   Lens lens;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "base/text.h"
+#include "scene/solids.h"
 #include "tests/instruments/rays/ball_scene.h"
 #include "tests/instruments/rays/dice.h"
 #include "tests/instruments/stress/drawn.h"
@@ -216,8 +217,10 @@ StressOutcome lookThroughGlass(const StressSetting& setting) {
   StressOutcome outcome;
   for (const GlassCase& c : glassCases()) {
     SceneDrawing picture = drawingOf(setting, c.scene, whiteWorld(1.0f), furnaceOptions(setting));
+    View view = furnaceView(c.camera, c.towards);
+    view.cameraSolids = cameraSolids(solidsOf(c.scene), c.camera);
     // A few paths go round inside for longer than they are followed.
-    judgeFurnace(picture.draw(setting.goOn, furnaceView(c.camera, c.towards), size, 64), 0.95 * c.brightness,
+    judgeFurnace(picture.draw(setting.goOn, view, size, 64), 0.95 * c.brightness,
                  c.brightness * (1.0 + kRounding), c.name, outcome);
   }
   return outcome;
