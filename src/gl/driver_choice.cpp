@@ -124,8 +124,12 @@ std::string whyMegakernel(const ShaderVariant& variant, const RenderOptions& opt
   if (!work.software) return "a GPU, where the megakernel is faster";
   const bool longPaths = has(variant.traits, Trait::Scattering);
   if (!longPaths && work.nodes < kSmallTree) return "a small tree";
-  if (!longPaths && has(variant.traits, Trait::LightTree)) return "lamps are chosen by a tree";
-  if (!longPaths && has(variant.traits, Trait::Environment)) return "paths end in the surroundings";
+  // Alpha and solids of glass make rays of very different lengths, also where lamps or surroundings end them.
+  const bool thin = has(variant.traits, Trait::ThinGlass);
+  const bool uneven = longPaths || (has(variant.traits, Trait::Alpha) && !thin);
+  const bool glass = has(variant.traits, Trait::Transmission) && !thin;
+  if (!uneven && has(variant.traits, Trait::LightTree)) return "lamps are chosen by a tree";
+  if (!uneven && !glass && has(variant.traits, Trait::Environment)) return "paths end in the surroundings";
   return work.paths < (longPaths ? kFewLongPaths : kFewPaths) ? "few paths" : "";
 }
 

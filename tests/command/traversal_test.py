@@ -100,6 +100,8 @@ class MoreEntries(Entries):
 # Both schedules draw the same picture, bit for bit (on llvmpipe), with the same rays; a message says why the wavefront
 # does not draw.
 SKY = ["--hdri-file", SCENES / "sky.pfm"]
+ALPHA = ["--set", "*:alphaMode=BLEND", "--set", "*:baseColor=1,1,1,0.8"]
+GLASS = ["--set", "*:transmission=1", "--set", "*:roughness=0"]
 # Large triangles first; spheres and lamps; glass with absorption; alpha.
 PICTURES = {
     "room-ball": [],
@@ -167,9 +169,14 @@ class Schedules(BothSchedules):
                                        ("room-ball", ["--spp", 65536, "--noise", 0.5], ("wavefront", None)),
                                        ("many-lights", ["--spp", 65536, "--noise", 0.5], ("megakernel", "a small tree")),
                                        ("city", ["--spp", 65536, "--noise", 0.5], ("megakernel", "lamps are chosen by a tree")),
-                                       ("mesh-15743", ["--spp", 65536, "--noise", 0.5], ("megakernel", "paths end in the surroundings"))):
+                                       ("mesh-15743", ["--spp", 65536, "--noise", 0.5], ("megakernel", "paths end in the surroundings")),
+                                       ("mesh-15743", [*ALPHA, "--spp", 65536, "--noise", 0.5], ("wavefront", None)),
+                                       ("city", [*ALPHA, "--spp", 65536, "--noise", 0.5], ("wavefront", None)),
+                                       ("room-ball", [*SKY, "--set", "clay:thickness=1", "--set", "clay:transmission=1", "--spp", 65536, "--noise", 0.5],
+                                        ("wavefront", None)),
+                                       ("mesh-15743", [*GLASS, *ALPHA, "--spp", 65536, "--noise", 0.5], ("megakernel", "paths end in the surroundings"))):
             stats = self.drawn(scene, "auto", "--resolution", "8,8", *options)[1]
-            self.assertEqual((stats["schedule"], stats.get("schedule_reason")), chosen, scene)
+            self.assertEqual((stats["schedule"], stats.get("schedule_reason")), chosen, (scene, options))
 
     def test_a_picture_that_is_stopped_is_even(self):
         stats = self.drawn("room-ball", "wavefront", "--resolution", "300,300", "--time", 3)[1]
