@@ -20,8 +20,8 @@ constexpr double kMostErrorsSame = 3.0;
 constexpr double kMostErrorsShared = 2.0;
 constexpr double kMostErrorsOther = 5.0;
 
-/// Paths draw the same numbers for the same choices, so they differ by rounding alone. Blended surfaces have the
-/// numbers of their primitives, which are others in shared meshes.
+/// Paths draw the same numbers for the same choices, so they differ by rounding alone. Blended surfaces have
+/// the numbers of their primitives, which are others in shared meshes.
 bool sameNumbers(Form form) { return form == Form::Scaled || form == Form::Moved || form == Form::Shared; }
 
 double meanOf(const FilmPixels& film) {
@@ -95,7 +95,8 @@ struct Pair {
   SceneDrawing a;
   SceneDrawing b;
 
-  Pair(const Context& context, const SceneSketch& scene, uint32_t seed, Form form, const RenderOptions& options)
+  Pair(const Context& context, const SceneSketch& scene, uint32_t seed, Form form,
+       const RenderOptions& options)
       : sketch(scene),
         other(inForm(sketch, form, seed)),
         a(drawingOf(context, sketch, options, options.sampling.seed)),
