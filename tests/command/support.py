@@ -21,6 +21,7 @@ import subprocess
 import sys
 import tempfile
 import termios
+import threading
 import time
 import unittest
 from array import array
@@ -64,14 +65,19 @@ class Server:
         if not select.select([self.process.stdout], [], [], timeout)[0]:
             atexit.unregister(self.end)
             self.end()
-            server.cache_clear()
+            server_of.cache_clear()
             raise subprocess.TimeoutExpired(words, timeout)
         return subprocess.CompletedProcess(words, int(self.process.stdout.readline()), *(path.read_text() for path in self.files))
 
 
 @functools.cache
-def server():
+def server_of(thread):
     return Server() if (FRAGTRACE.parent / "fork_server").exists() else None
+
+
+def server():
+    """The thread's own: it answers one request at a time."""
+    return server_of(threading.get_ident())
 
 
 def run(*arguments, timeout=600, alone=False, **options):
