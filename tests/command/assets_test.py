@@ -36,7 +36,7 @@ PLACES = {
     "FlightHelmet": ("FlightHelmet/FlightHelmet.gltf", *FRONT),
     "Fox-1s": ("Fox/Fox.glb", "--animation-time", 1, *FRONT),
     "GlassVaseFlowers": ("GlassVaseFlowers/GlassVaseFlowers.glb", *FRONT),
-    "LightsPunctualLamp": ("LightsPunctualLamp/LightsPunctualLamp.gltf", *FRONT),
+    "LightsPunctualLamp": ("LightsPunctualLamp/LightsPunctualLamp.gltf", "--lamp-units", "photometric", *FRONT),
     "MetalRoughSpheresNoTextures": ("MetalRoughSpheresNoTextures/MetalRoughSpheresNoTextures.glb", *FRONT),
     "MultiUVTest": ("MultiUVTest/MultiUVTest.gltf",),
     "NormalTangentTest": ("NormalTangentTest/NormalTangentTest.glb", *FRONT),
