@@ -104,7 +104,8 @@ constexpr double kFewPaths = 2e6;
 /// Rays of so few steps hardly wait for each other: many-lights, of 274 nodes, takes equally long with both.
 constexpr size_t kSmallTree = 512;
 /// Paths in solids that scatter are long, and end at very different lengths: the wavefront takes 0.4 (a dense
-/// cloud) to 0.9 (milk in glass) of the time, however small the tree is.
+/// cloud) to 0.9 (milk in glass) of the time, however small the tree is. Solids of glass take 0.65 to 0.9 in
+/// large trees, and do not compile for longer.
 constexpr double kFewLongPaths = 2e5;
 
 /// The reason why the megakernel draws; empty if the wavefront does.
@@ -130,7 +131,7 @@ std::string whyMegakernel(const ShaderVariant& variant, const RenderOptions& opt
   const bool glass = has(variant.traits, Trait::Transmission) && !thin;
   if (!uneven && has(variant.traits, Trait::LightTree)) return "lamps are chosen by a tree";
   if (!uneven && !glass && has(variant.traits, Trait::Environment)) return "paths end in the surroundings";
-  return work.paths < (longPaths ? kFewLongPaths : kFewPaths) ? "few paths" : "";
+  return work.paths < (longPaths || glass ? kFewLongPaths : kFewPaths) ? "few paths" : "";
 }
 
 }  // namespace

@@ -432,14 +432,19 @@ constexpr double kDim = 1.0 / 8.0;
 /// A lamp of intensity 0 is none.
 bool isOn(const Light& light) { return glm::compMax(light.intensity) > 0.0f; }
 
-/// Returns true if lamps are read as radiometric: as written, what they light is far too bright, and less so
-/// divided, or lit by the user's surroundings then, which an exposure for the lamps would hide.
+/// The mean luminance that tells whether lamps are too bright: of what they light, or, where surroundings of
+/// the user's choice light the scene, too, of all.
+double meanForLamps(const SeenLight& seen, const LampReading& reading, double lampScale) {
+  return reading.besideSurroundings ? seen.meanBesideSurroundings(lampScale) : seen.meanOfLampLit(lampScale);
+}
+
+/// Returns true if lamps are read as radiometric: as written, it is far too bright, and nearer to middle grey
+/// divided, as it always is under surroundings of the user's.
 bool areRadiometric(const SeenLight& seen, const LampReading& reading) {
   if (reading.units != LampUnits::Auto) return reading.units == LampUnits::Radiometric;
-  const double asWritten = seen.meanOfLampLit(1.0) / kMiddleGrey;
-  const double divided = seen.meanOfLampLit(1.0 / kLumensPerWatt) / kMiddleGrey;
-  const bool nearer = divided > 0.0 && std::abs(std::log(divided)) < std::log(asWritten);
-  return asWritten > kTooBright && (reading.besideSurroundings || nearer);
+  const double asWritten = meanForLamps(seen, reading, 1.0) / kMiddleGrey;
+  const double divided = meanForLamps(seen, reading, 1.0 / kLumensPerWatt) / kMiddleGrey;
+  return asWritten > kTooBright && divided > 0.0 && std::abs(std::log(divided)) < std::log(asWritten);
 }
 
 }  // namespace
@@ -460,6 +465,12 @@ double SeenLight::meanOfLampLit(double lampScale) const {
   LogMean lit;
   for (const SeenCell& cell : cells)
     if (cell.byLamps > cell.byEmission + cell.shown) lit.add(cellLuminance(cell, lampScale));
+  return lit.mean();
+}
+
+double SeenLight::meanBesideSurroundings(double lampScale) const {
+  LogMean lit;
+  for (const SeenCell& cell : cells) lit.add(cellLuminance(cell, lampScale) + kMiddleGrey);
   return lit.mean();
 }
 
@@ -517,8 +528,9 @@ FileLight decideLight(const SeenScene& first, const Camera& camera, double aspec
   seen.readsTextures = !light.byLamps;
   const SeenLight estimate = seenLight(seen, camera, aspectRatio);
   if (light.byLamps && areRadiometric(estimate, reading)) light.lampScale = 1.0 / kLumensPerWatt;
-  light.asWritten = estimate.meanOfLampLit(1.0);
-  light.mean = estimate.meanLuminance(light.lampScale);
+  light.asWritten = meanForLamps(estimate, reading, 1.0);
+  light.mean = reading.besideSurroundings ? estimate.meanBesideSurroundings(light.lampScale)
+                                          : estimate.meanLuminance(light.lampScale);
   const double asShown = light.byLamps ? std::exp2(exposureFor(light.mean)) : 1.0;
   light.dark = estimate.darkShare(light.lampScale, kMiddleGrey * (light.byLamps ? kTooDark / asShown : kDim));
   light.smoothMetal = estimate.smoothMetal;

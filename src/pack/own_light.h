@@ -42,6 +42,8 @@ struct SeenLight {
   /// The logarithmic mean of the luminance of the cells that lamps, as written, light more than emission
   /// does.
   double meanOfLampLit(double lampScale) const;
+  /// The logarithmic mean of the luminance of all cells under surroundings that light each as middle grey.
+  double meanBesideSurroundings(double lampScale) const;
   /// The share of the cells below that luminance; cells that emit as much by themselves do not count, unless
   /// they are nearly all.
   double darkShare(double lampScale, double luminance) const;
@@ -74,7 +76,7 @@ struct FileLight {
   OwnLight own = OwnLight::Enough;
   bool byLamps = false;    ///< there are punctual lights
   double lampScale = 1.0;  ///< 1 / kLumensPerWatt where its lamps are read as radiometric
-  double asWritten = 0.0;  ///< mean luminance of what its lamps light, with these as written
+  double asWritten = 0.0;  ///< mean luminance by which lampScale is decided, with the lamps as written
   double mean = 0.0;       ///< mean luminance of all that is seen, with lampScale; 0: none is known
   double dark = 0.0;  ///< the share of what is seen that is as good as black, with the exposure of `mean`
   double smoothMetal = 0.0;  ///< the share that is smooth metal

@@ -172,7 +172,7 @@ class Schedules(BothSchedules):
                                        ("mesh-15743", ["--spp", 65536, "--noise", 0.5], ("megakernel", "paths end in the surroundings")),
                                        ("mesh-15743", [*ALPHA, "--spp", 65536, "--noise", 0.5], ("wavefront", None)),
                                        ("city", [*ALPHA, "--spp", 65536, "--noise", 0.5], ("wavefront", None)),
-                                       ("room-ball", [*SKY, "--set", "clay:thickness=1", "--set", "clay:transmission=1", "--spp", 65536, "--noise", 0.5],
+                                       ("room-ball", [*SKY, "--set", "clay:thickness=1", "--set", "clay:transmission=1", "--spp", 4096],
                                         ("wavefront", None)),
                                        ("mesh-15743", [*GLASS, *ALPHA, "--spp", 65536, "--noise", 0.5], ("megakernel", "paths end in the surroundings"))):
             stats = self.drawn(scene, "auto", "--resolution", "8,8", *options)[1]

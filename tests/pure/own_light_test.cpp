@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "gltf_builder.h"
 #include "scene/camera.h"
 
@@ -83,6 +85,14 @@ TEST(OwnLight, LampsThatAreTooBrightBesideSurroundingsAreRadiometric) {
   EXPECT_EQ(lightOf(lit("directional", 12.0), LampUnits::Auto, true).lampScale, 1.0 / kLumensPerWatt);
   EXPECT_EQ(lightOf(lit("directional", 12.0), LampUnits::Photometric, true).lampScale, 1.0);
   EXPECT_EQ(lightOf(lit("directional", 3.0), LampUnits::Auto, true).lampScale, 1.0);
+}
+
+TEST(OwnLight, AFewBrightPlacesBesideSurroundingsStayAsWritten) {
+  SeenLight seen;
+  seen.cells.resize(16);
+  for (size_t i = 0; i < 4; ++i) seen.cells[i].byLamps = 100.0 * kMiddleGrey;
+  EXPECT_NEAR(seen.meanOfLampLit(1.0), 100.0 * kMiddleGrey, 1e-9);
+  EXPECT_NEAR(seen.meanBesideSurroundings(1.0), std::pow(101.0, 0.25) * kMiddleGrey, 1e-9);
 }
 
 /// A matt surface of albedo 1 under a lamp that faces it shows E / pi.
