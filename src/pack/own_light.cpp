@@ -496,10 +496,12 @@ SeenLight seenLight(const SeenScene& seen, const Camera& camera, double aspectRa
   SeenLight result;
   for (const int paths : kPathsSoFar) {
     forEachIndex(cells.size(), [&](size_t i) {
+      const size_t row = i / kCellSide;
+      const size_t column = i % kCellSide;
       for (int k = done; k < paths; ++k) {
         PathRandom random(uint64_t(k) * cells.size() + i);
-        const double x = double(i % kCellSide) + random.next();
-        const double y = double(i / kCellSide) + random.next();
+        const double x = double(column) + random.next();
+        const double y = double(row) + random.next();
         estimator.trace(projection, glm::dvec2(x, y) / (0.5 * kCellSide) - 1.0, random, cells[i]);
       }
     });
