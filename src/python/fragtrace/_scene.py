@@ -107,8 +107,8 @@ def sequence(scene: Any, /, *, progress: Any = None, **keywords: Unpack[Sequence
     """Draws the pictures of an animation or of a turntable, each when it is asked for: an iterator of what render() returns.
 
     frames: pictures A to B of the animation, "A:B" or range(A, B + 1), picture k at k / fps seconds. turntable: so many pictures from evenly
-    spaced directions, or those of them that frames names; turn="object" turns the scene before its light. All else as in render(); the pictures are those of
-    `fragtrace render --frames` and `--turntable`."""
+    spaced directions, or those of them that frames names; turn="object" turns the scene before its light. All else as in render(); the pictures
+    are those of `fragtrace render --frames` and `--turntable`."""
     return _sequence(Model(scene), keywords, progress)
 
 
